@@ -1,0 +1,55 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <franka_sim_mujoco/physics/world.h>
+
+namespace franka_sim_mujoco {
+
+/// A camera that looks from one point to another, both in the world frame [m].
+struct Camera {
+  std::array<double, 3> position{{1.4, -1.2, 1.2}};
+  std::array<double, 3> target{{0, 0, 0.4}};
+  double field_of_view{45};  ///< vertical [deg]
+};
+
+/// What is needed to draw a moment of a world: copied by the stepping thread, drawn by another.
+struct Scene {
+  std::string mjcf;                ///< World::mjcf(true)
+  std::map<std::string, Pose> bodies;           ///< free bodies
+  std::map<std::string, double> joints;         ///< all other joints
+};
+
+struct Picture {
+  int width{0}, height{0};
+  std::vector<std::uint8_t> rgb;  ///< rows from top to bottom, 3 bytes a pixel
+};
+
+/// Takes what `Renderer` needs from a world (the stepping thread calls it).
+Scene captureScene(World& world);
+
+/// Draws scenes without a display: EGL surfaceless or OSMesa, whichever the machine has (decision 38:
+/// shadow map at most 1024, no multisampling). One thread owns a renderer.
+class Renderer {
+ public:
+  /// @throws std::runtime_error with a sentence when no way of drawing is found.
+  Renderer();
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  Picture render(const Scene& scene, const Camera& camera, int width, int height);
+  /// "EGL" or "OSMesa".
+  std::string backend() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace franka_sim_mujoco

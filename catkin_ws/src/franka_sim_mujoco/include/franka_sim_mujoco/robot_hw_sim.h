@@ -1,0 +1,44 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <hardware_interface/robot_hw.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+#include <transmission_interface/transmission_info.h>
+#include <urdf/model.h>
+
+namespace franka_sim_mujoco {
+
+class World;
+
+/// A robot of the simulated world, as a RobotHWSim plugin gets to know it.
+struct RobotHandle {
+  World* world;      ///< only to be touched in initSim, readSim and writeSim
+  std::string name;  ///< of the robot in the world
+};
+
+/// Base class of simulated hardware, shaped like gazebo_ros_control's (decision 34): plugins of this type
+/// are named by the URDF's <robotSimType>. initSim runs once in the stepping thread while it stands
+/// still; readSim, the controller manager's update and writeSim then run in every tick of 1 ms.
+class RobotHWSim : public hardware_interface::RobotHW {
+ public:
+  ~RobotHWSim() override = default;
+
+  /// @param robot_namespace of the robot's topics and parameters
+  /// @returns false after logging a sentence; the robot is then taken out of the world again.
+  virtual bool initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, RobotHandle robot,
+                       const urdf::Model* urdf_model,
+                       std::vector<transmission_interface::TransmissionInfo> transmissions) = 0;
+  virtual void readSim(ros::Time time, ros::Duration period) = 0;
+  virtual void writeSim(ros::Time time, ros::Duration period) = 0;
+  virtual void eStopActive(bool /*active*/) {}
+  /// The world was reset, or joints were put elsewhere: forget velocities and filters.
+  virtual void worldWasReset() {}
+};
+
+}  // namespace franka_sim_mujoco
