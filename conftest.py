@@ -1,0 +1,21 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Options and fixtures of every pytest run of the project."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent / "tests"))
+
+
+def pytest_addoption(parser):
+    parser.addoption("--long", action="store_true", help="the long forms of soaks and sweeps")
+
+
+@pytest.fixture(scope="session")
+def long_run(request) -> bool:
+    """Whether the long forms were asked for."""
+    return request.config.getoption("--long") or os.environ.get("FRANKA_TEST_LONG") == "1"
