@@ -1,0 +1,123 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include <hardware_interface/interface_resources.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/console.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+
+namespace controller_interface {
+
+/// Base of all controllers: the callbacks a controller implements, and the requests by which the
+/// controller manager leads it through its states. A request runs the callback first and changes
+/// the state after it. Every request except initRequest comes from the control loop, so the
+/// callbacks must be real-time safe; the is... queries may be asked from any thread.
+class ControllerBase {
+ public:
+  ControllerBase() = default;
+  virtual ~ControllerBase() = default;
+  ControllerBase(const ControllerBase&) = delete;
+  ControllerBase& operator=(const ControllerBase&) = delete;
+  ControllerBase(ControllerBase&&) = delete;
+  ControllerBase& operator=(ControllerBase&&) = delete;
+
+  /// Called once before the first update. @param time of this cycle
+  virtual void starting(const ros::Time& /*time*/) {}
+
+  /// Called in every cycle while running.
+  /// @param time of this cycle @param period since the cycle before
+  virtual void update(const ros::Time& time, const ros::Duration& period) = 0;
+
+  /// Called once after the last update. @param time of this cycle
+  virtual void stopping(const ros::Time& /*time*/) {}
+
+  /// Called in every cycle while the start waits for the robot. @param time of this cycle
+  virtual void waiting(const ros::Time& /*time*/) {}
+
+  /// Called when the start is given up. @param time of this cycle
+  virtual void aborting(const ros::Time& /*time*/) {}
+
+  bool isInitialized() const { return state_ == ControllerState::INITIALIZED; }
+  bool isRunning() const { return state_ == ControllerState::RUNNING; }
+  bool isStopped() const { return state_ == ControllerState::STOPPED; }
+  bool isWaiting() const { return state_ == ControllerState::WAITING; }
+  bool isAborted() const { return state_ == ControllerState::ABORTED; }
+
+  /// Updates the controller if it runs. Real-time safe if update() is.
+  void updateRequest(const ros::Time& time, const ros::Duration& period) {
+    if (state_ == ControllerState::RUNNING) {
+      update(time, period);
+    }
+  }
+
+  /// The four requests below return false, after logging, for a controller not yet initialised.
+  bool startRequest(const ros::Time& time) {
+    if (!mayChangeState("start")) {
+      return false;
+    }
+    starting(time);
+    state_ = ControllerState::RUNNING;
+    return true;
+  }
+
+  bool stopRequest(const ros::Time& time) {
+    if (!mayChangeState("stop")) {
+      return false;
+    }
+    stopping(time);
+    state_ = ControllerState::STOPPED;
+    return true;
+  }
+
+  bool waitRequest(const ros::Time& time) {
+    if (!mayChangeState("wait")) {
+      return false;
+    }
+    waiting(time);
+    state_ = ControllerState::WAITING;
+    return true;
+  }
+
+  bool abortRequest(const ros::Time& time) {
+    if (!mayChangeState("abort")) {
+      return false;
+    }
+    aborting(time);
+    state_ = ControllerState::ABORTED;
+    return true;
+  }
+
+  typedef std::vector<hardware_interface::InterfaceResources> ClaimedResources;
+
+  /// Takes the controller from constructed to initialised. Runs outside the control loop.
+  /// @param robot_hw offers the interfaces @param root_nh of the controller manager
+  /// @param controller_nh of the controller's own namespace
+  /// @param[out] claimed_resources what the controller claims
+  /// @returns false after logging the reason
+  virtual bool initRequest(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh,
+                           ros::NodeHandle& controller_nh, ClaimedResources& claimed_resources) = 0;
+
+  enum class ControllerState { CONSTRUCTED, INITIALIZED, RUNNING, STOPPED, WAITING, ABORTED };
+
+  /// Written by the control loop (by initRequest before), read by services as well: hence atomic.
+  std::atomic<ControllerState> state_{ControllerState::CONSTRUCTED};
+
+ private:
+  bool mayChangeState(const char* verb) const {
+    if (state_ == ControllerState::CONSTRUCTED) {
+      ROS_FATAL("Failed to %s controller. It is not initialized.", verb);
+      return false;
+    }
+    return true;
+  }
+};
+
+typedef std::shared_ptr<ControllerBase> ControllerBaseSharedPtr;
+
+}  // namespace controller_interface

@@ -1,0 +1,100 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <controller_interface/controller_base.h>
+#include <hardware_interface/interface_resources.h>
+#include <hardware_interface/internal/demangle_symbol.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/console.h>
+
+namespace controller_interface {
+namespace internal {
+
+/// All elements in one string, each between prefix and suffix, with a delimiter between them.
+template <class T>
+std::string enumerateElements(const T& elements, const std::string& delimiter,
+                              const std::string& prefix, const std::string& suffix) {
+  std::ostringstream out;
+  bool first = true;
+  for (const auto& element : elements) {
+    out << (first ? "" : delimiter) << prefix << element << suffix;
+    first = false;
+  }
+  return out.str();
+}
+
+/// Whether the robot has the interface T; logs what it has if not.
+template <class T>
+bool hasInterface(hardware_interface::RobotHW* robot_hw) {
+  if (robot_hw->get<T>() != nullptr) {
+    return true;
+  }
+  ROS_ERROR_STREAM("This controller requires a hardware interface of type '"
+                   << hardware_interface::internal::demangledTypeName<T>()
+                   << "', but is not exposed by the robot. Available interfaces in robot:\n"
+                   << enumerateElements(robot_hw->getNames(), "\n", "- '", "'"));
+  return false;
+}
+
+/// Whether the robot has all interfaces; only the first missing one is logged.
+template <typename... T>
+bool hasInterfaces(hardware_interface::RobotHW* robot_hw) {
+  return (hasInterface<T>(robot_hw) && ...);
+}
+
+template <class T>
+void clearClaimsOf(hardware_interface::RobotHW* robot_hw) {
+  T* hw = robot_hw->get<T>();
+  if (hw != nullptr) {
+    hw->clearClaims();
+  }
+}
+
+/// Clears the claims of those of the interfaces that the robot has.
+template <typename... T>
+void clearClaims(hardware_interface::RobotHW* robot_hw) {
+  (clearClaimsOf<T>(robot_hw), ...);
+}
+
+template <class T>
+void extractInterface(hardware_interface::RobotHW* robot_hw_in,
+                      hardware_interface::RobotHW* robot_hw_out) {
+  T* hw = robot_hw_in->get<T>();
+  if (hw != nullptr) {
+    robot_hw_out->registerInterface(hw);
+  }
+}
+
+/// Registers those of the interfaces that the first robot has with the second one.
+template <typename... T>
+void extractInterfaceResources(hardware_interface::RobotHW* robot_hw_in,
+                               hardware_interface::RobotHW* robot_hw_out) {
+  (extractInterface<T>(robot_hw_in, robot_hw_out), ...);
+}
+
+template <class T>
+void appendClaims(hardware_interface::RobotHW* robot_hw,
+                  ControllerBase::ClaimedResources& claimed_resources) {
+  T* hw = robot_hw->get<T>();
+  if (hw != nullptr) {
+    claimed_resources.emplace_back(hardware_interface::internal::demangledTypeName<T>(),
+                                   hw->getClaims());
+  }
+}
+
+/// The claims on those of the interfaces that the robot has, in the order of the template
+/// arguments; interfaces without claims are listed too.
+template <typename... T>
+void populateClaimedResources(hardware_interface::RobotHW* robot_hw,
+                              ControllerBase::ClaimedResources& claimed_resources) {
+  claimed_resources.clear();
+  (appendClaims<T>(robot_hw, claimed_resources), ...);
+}
+
+}  // namespace internal
+}  // namespace controller_interface

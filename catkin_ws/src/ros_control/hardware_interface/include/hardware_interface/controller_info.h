@@ -1,0 +1,19 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <hardware_interface/interface_resources.h>
+
+namespace hardware_interface {
+
+/// What a robot gets to know about a controller.
+struct ControllerInfo {
+  std::string name;  ///< unique within its controller manager
+  std::string type;  ///< plugin name
+  std::vector<InterfaceResources> claimed_resources;
+};
+
+}  // namespace hardware_interface

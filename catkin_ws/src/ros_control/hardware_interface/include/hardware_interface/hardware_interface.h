@@ -1,0 +1,41 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <set>
+#include <string>
+
+namespace hardware_interface {
+
+/// What every hardware interface shares: a list of the resources that its users claim exclusively.
+/// Claims are made while controllers are initialised, never in the control loop. Not thread-safe.
+class HardwareInterface {
+ public:
+  virtual ~HardwareInterface() = default;
+
+  /// Notes that somebody wants the named resource for itself. Claiming twice equals claiming once.
+  virtual void claim(std::string resource) { claims_.insert(resource); }
+
+  /// Forgets all claims.
+  void clearClaims() { claims_.clear(); }
+
+  /// The claimed resources, sorted.
+  std::set<std::string> getClaims() const { return claims_; }
+
+ private:
+  std::set<std::string> claims_;
+};
+
+/// Something is wrong with a hardware interface or with one of its resources.
+class HardwareInterfaceException : public std::exception {
+ public:
+  explicit HardwareInterfaceException(const std::string& message) : message_(message) {}
+
+  const char* what() const noexcept override { return message_.c_str(); }
+
+ private:
+  std::string message_;
+};
+
+}  // namespace hardware_interface

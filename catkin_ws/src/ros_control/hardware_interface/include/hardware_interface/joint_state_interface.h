@@ -1,0 +1,122 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cassert>
+#include <stdexcept>
+#include <string>
+
+#include <hardware_interface/internal/hardware_resource_manager.h>
+
+namespace hardware_interface {
+
+/// Reads the state of one joint. It points at values that the robot writes in `read()`; copies
+/// point at the same values. Units: position [rad] or [m], velocity [rad/s] or [m/s], effort [Nm] or [N].
+/// The getters of position, velocity and effort are safe in the control loop.
+class JointStateHandle {
+ public:
+  JointStateHandle() = default;
+
+  /// @throws HardwareInterfaceException when a pointer is null; so do all constructors.
+  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff)
+      : name_(name), pos_(pos), vel_(vel), eff_(eff) {
+    require(pos, "Position");
+    require(vel, "Velocity");
+    require(eff, "Effort");
+  }
+
+  /// With an absolute encoder and a torque sensor.
+  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
+                   const double* absolute_pos, const double* torque_sensor)
+      : JointStateHandle(name, pos, vel, eff) {
+    absolute_pos_ = require(absolute_pos, "Absolute");
+    torque_sensor_ = require(torque_sensor, "Torque sensor");
+  }
+
+  /// With an absolute encoder.
+  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
+                   const double* absolute_pos)
+      : JointStateHandle(name, pos, vel, eff) {
+    absolute_pos_ = require(absolute_pos, "Absolute");
+  }
+
+  /// With a torque sensor; the bool only tells this constructor from the one before.
+  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
+                   const double* torque_sensor, bool /*tag*/)
+      : JointStateHandle(name, pos, vel, eff) {
+    torque_sensor_ = require(torque_sensor, "Torque sensor");
+  }
+
+  std::string getName() const { return name_; }
+
+  double getPosition() const {
+    assert(pos_);
+    return *pos_;
+  }
+  double getVelocity() const {
+    assert(vel_);
+    return *vel_;
+  }
+  double getEffort() const {
+    assert(eff_);
+    return *eff_;
+  }
+  /// @throws std::runtime_error for joints without an absolute encoder.
+  double getAbsolutePosition() const {
+    if (!hasAbsolutePosition()) {
+      throw std::runtime_error(
+          "Joint state handle does not contain absolute encoder position information");
+    }
+    return *absolute_pos_;
+  }
+  /// @throws std::runtime_error for joints without a torque sensor.
+  double getTorqueSensor() const {
+    if (!hasTorqueSensor()) {
+      throw std::runtime_error("Joint state handle does not contain torque sensor information");
+    }
+    return *torque_sensor_;
+  }
+
+  const double* getPositionPtr() const { return pos_; }
+  const double* getVelocityPtr() const { return vel_; }
+  const double* getEffortPtr() const { return eff_; }
+  /// @throws std::runtime_error for joints without an absolute encoder.
+  const double* getAbsolutePositionPtr() const {
+    if (!hasAbsolutePosition()) {
+      throw std::runtime_error(
+          "Joint state handle does not contain absolute position sensor information");
+    }
+    return absolute_pos_;
+  }
+  /// @throws std::runtime_error for joints without a torque sensor.
+  const double* getTorqueSensorPtr() const {
+    if (!hasTorqueSensor()) {
+      throw std::runtime_error("Joint state handle does not contain torque sensor information");
+    }
+    return torque_sensor_;
+  }
+
+  bool hasAbsolutePosition() const { return absolute_pos_ != nullptr; }
+  bool hasTorqueSensor() const { return torque_sensor_ != nullptr; }
+
+ private:
+  const double* require(const double* data, const char* quantity) const {
+    if (data == nullptr) {
+      throw HardwareInterfaceException("Cannot create handle '" + name_ + "'. " + quantity +
+                                       " data pointer is null.");
+    }
+    return data;
+  }
+
+  std::string name_;
+  const double* pos_{nullptr};
+  const double* vel_{nullptr};
+  const double* eff_{nullptr};
+  const double* absolute_pos_{nullptr};
+  const double* torque_sensor_{nullptr};
+};
+
+/// States of joints; any number of controllers may read them.
+class JointStateInterface : public HardwareResourceManager<JointStateHandle> {};
+
+}  // namespace hardware_interface

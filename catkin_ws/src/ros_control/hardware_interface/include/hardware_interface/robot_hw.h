@@ -1,0 +1,92 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <hardware_interface/controller_info.h>
+#include <hardware_interface/hardware_interface.h>
+#include <hardware_interface/internal/interface_manager.h>
+#include <ros/console.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+
+namespace hardware_interface {
+
+/// A robot, as controllers see it: a set of hardware interfaces, refreshed by read() and taken over
+/// by write() once per control cycle.
+class RobotHW : public InterfaceManager {
+ public:
+  RobotHW() = default;
+  ~RobotHW() override = default;
+
+  /// Prepares the robot and registers its interfaces. Not real-time safe.
+  /// @returns false if the robot cannot be used.
+  virtual bool init(ros::NodeHandle& /*root_nh*/, ros::NodeHandle& /*robot_hw_nh*/) { return true; }
+
+  /// Whether the controllers cannot run together. Here: some resource is claimed more than once,
+  /// on whatever interface; each conflict is logged. Runs outside the control loop.
+  virtual bool checkForConflict(const std::list<ControllerInfo>& info) const {
+    typedef std::map<std::string, std::vector<std::string>> Claimants;
+    Claimants claimants;
+    for (const ControllerInfo& controller : info) {
+      for (const InterfaceResources& claimed : controller.claimed_resources) {
+        for (const std::string& resource : claimed.resources) {
+          claimants[resource].push_back(controller.name);
+        }
+      }
+    }
+    bool in_conflict = false;
+    for (const Claimants::value_type& entry : claimants) {
+      if (entry.second.size() < 2) {
+        continue;
+      }
+      std::string names;
+      for (const std::string& name : entry.second) {
+        names += name + ", ";
+      }
+      ROS_WARN_STREAM("Resource conflict on [" << entry.first << "].  Controllers = [" << names
+                                               << "]");
+      in_conflict = true;
+    }
+    return in_conflict;
+  }
+
+  /// Called before a switch, outside the control loop, with the controllers that will be started
+  /// and stopped (not those restarted). Slow preparations belong here.
+  /// @returns false to refuse the switch.
+  virtual bool prepareSwitch(const std::list<ControllerInfo>& /*start_list*/,
+                             const std::list<ControllerInfo>& /*stop_list*/) {
+    return true;
+  }
+
+  /// Called once at the beginning of a switch, in the control loop: must be real-time safe.
+  virtual void doSwitch(const std::list<ControllerInfo>& /*start_list*/,
+                        const std::list<ControllerInfo>& /*stop_list*/) {}
+
+  enum class SwitchState { DONE, ONGOING, ERROR };
+
+  /// How far the switch is for all controllers. In the control loop: must be real-time safe.
+  virtual SwitchState switchResult() const { return SwitchState::DONE; }
+
+  /// How far the switch is for one controller. In the control loop: must be real-time safe.
+  virtual SwitchState switchResult(const ControllerInfo& /*controller*/) const {
+    return SwitchState::DONE;
+  }
+
+  /// Takes the robot's state over. In the control loop: must be real-time safe.
+  /// @param time of this cycle @param period since the one before
+  virtual void read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {}
+
+  /// Hands the controllers' commands over. In the control loop: must be real-time safe.
+  /// @param time of this cycle @param period since the one before
+  virtual void write(const ros::Time& /*time*/, const ros::Duration& /*period*/) {}
+};
+
+typedef std::shared_ptr<RobotHW> RobotHWSharedPtr;
+
+}  // namespace hardware_interface

@@ -1,0 +1,33 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace transmission_interface {
+
+/// A joint of a transmission, as the URDF describes it.
+struct JointInfo {
+  std::string name_;
+  std::vector<std::string> hardware_interfaces_;  ///< at least one
+  std::string role_;                              ///< empty if the URDF gives none
+  std::string xml_element_;                       ///< the whole <joint> element
+};
+
+/// An actuator of a transmission, as the URDF describes it.
+struct ActuatorInfo {
+  std::string name_;
+  std::vector<std::string> hardware_interfaces_;  ///< may be empty
+  std::string xml_element_;                       ///< the whole <actuator> element
+};
+
+/// A transmission, as the URDF describes it.
+struct TransmissionInfo {
+  std::string name_;
+  std::string type_;
+  std::vector<JointInfo> joints_;        ///< at least one
+  std::vector<ActuatorInfo> actuators_;  ///< at least one
+};
+
+}  // namespace transmission_interface

@@ -1,0 +1,32 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tinyxml.h>
+
+#include <transmission_interface/transmission_info.h>
+
+namespace transmission_interface {
+
+/// Reads the <transmission> elements of a URDF. Stateless, thread-safe, not for the control loop.
+class TransmissionParser {
+ public:
+  /// Appends the transmissions of a robot description. An invalid one is logged and left out.
+  /// @param urdf_string the XML text itself
+  /// @returns false if the text is no XML; a robot without transmissions is fine.
+  static bool parse(const std::string& urdf_string, std::vector<TransmissionInfo>& transmissions);
+
+ protected:
+  /// The joints of one <transmission> element.
+  /// @returns false if there is no valid one, or if one has no name attribute.
+  static bool parseJoints(TiXmlElement* trans_it, std::vector<JointInfo>& joints);
+
+  /// The actuators of one <transmission> element.
+  /// @returns false if there is no valid one, or if one has no name attribute.
+  static bool parseActuators(TiXmlElement* trans_it, std::vector<ActuatorInfo>& actuators);
+};
+
+}  // namespace transmission_interface
