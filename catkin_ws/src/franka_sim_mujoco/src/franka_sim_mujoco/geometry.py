@@ -1,0 +1,47 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Poses as 4x4 numpy arrays, from and to the ROS messages. Quaternions are (x, y, z, w)."""
+
+import math
+
+import numpy as np
+from geometry_msgs.msg import Point, Pose, Quaternion
+from tf.transformations import quaternion_from_matrix, quaternion_matrix
+
+
+def matrix_of(pose: Pose) -> np.ndarray:
+    """The 4x4 transform of a pose message."""
+    q, p = pose.orientation, pose.position
+    transform = quaternion_matrix([q.x, q.y, q.z, q.w])
+    transform[:3, 3] = [p.x, p.y, p.z]
+    return transform
+
+
+def pose_of(transform: np.ndarray) -> Pose:
+    """The pose message of a 4x4 transform."""
+    return Pose(Point(*transform[:3, 3]), Quaternion(*quaternion_from_matrix(transform)))
+
+
+def downwards(x: float, y: float, z: float, yaw: float = 0.0) -> np.ndarray:
+    """A gripper that points down at (x, y, z) [m], turned by yaw about the vertical [rad]."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    transform = np.eye(4)
+    transform[:3, :3] = [[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]
+    transform[:3, 3] = [x, y, z]
+    return transform
+
+
+def yaw_of(transform: np.ndarray) -> float:
+    """Rotation of the x axis about the vertical [rad]."""
+    return math.atan2(transform[1, 0], transform[0, 0])
+
+
+def wrap(angle: float, period: float) -> float:
+    """The same angle in [-period/2, period/2)."""
+    return (angle + period / 2) % period - period / 2
+
+
+def minimum_jerk(fraction: float) -> float:
+    """Course of a motion that starts and ends at rest, 0..1 -> 0..1."""
+    s = min(max(fraction, 0.0), 1.0)
+    return s * s * s * (10.0 + s * (6.0 * s - 15.0))

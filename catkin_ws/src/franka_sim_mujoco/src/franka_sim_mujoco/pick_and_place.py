@@ -1,0 +1,327 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The stone's way from the blue tray to the red one, by ROS topics, services and actions alone.
+
+What a user would write against the real arm: equilibrium poses for the Cartesian impedance controller,
+goals for the gripper, set_load after the grasp. Only the stone's pose comes from the simulation, in the
+place of a camera. Every step waits on measured state, with a limit in simulated and in wall time.
+"""
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import actionlib
+import numpy as np
+import rospy
+from actionlib_msgs.msg import GoalStatus
+from dynamic_reconfigure.client import Client as ReconfigureClient
+from franka_gripper.msg import (GraspAction, GraspEpsilon, GraspGoal, HomingAction, HomingGoal,
+                                MoveAction, MoveGoal, StopAction, StopGoal)
+from franka_msgs.msg import FrankaState
+from franka_msgs.srv import SetLoad
+from geometry_msgs.msg import Point, Pose, PoseStamped
+from sensor_msgs.msg import Image
+
+from franka_sim_mujoco.geometry import (downwards, matrix_of, minimum_jerk, pose_of, wrap, yaw_of)
+from franka_sim_mujoco.srv import GetBodyPose, GetContacts, RenderPicture, SetBodyPose
+
+# The scene (franka_ros.md 9.6): sizes [m], mass [kg].
+STONE_SIZE = (0.025, 0.032, 0.064)
+STONE_MASS = 0.1024
+TRAY_SIZE = (0.235035, 0.144926, 0.023348)
+HAND_REACH = 0.1034  # flange to the middle of the finger tips [m]
+
+
+class TaskError(RuntimeError):
+    """A step did not reach its goal; the text says which, and what was measured."""
+
+
+def wait_until(condition: Callable[[], bool], what: str, simulated: float = 15.0, wall: float = 120.0) -> None:
+    """Polls until the condition holds; raises TaskError after either time [s] has passed."""
+    start, wall_end = rospy.get_time(), time.monotonic() + wall
+    while not condition():
+        if rospy.is_shutdown():
+            raise TaskError(f"ROS went down while waiting: {what}.")
+        if rospy.get_time() - start > simulated:
+            raise TaskError(f"{what}: not within {simulated:.0f} simulated seconds.")
+        if time.monotonic() > wall_end:
+            raise TaskError(f"{what}: not within {wall:.0f} s of wall time; does the simulation run?")
+        time.sleep(0.002)
+
+
+class Arm:
+    """The arm under the Cartesian impedance controller, as its topics show it."""
+
+    CONTROLLER = "cartesian_impedance_example_controller"
+
+    def __init__(self, arm_id: str):
+        self.arm_id = arm_id
+        self._state: FrankaState | None = None
+        self._target: np.ndarray | None = None
+        self._publisher = rospy.Publisher(f"{self.CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1)
+        rospy.Subscriber("franka_state_controller/franka_states", FrankaState, self._store, queue_size=1)
+        self._set_load = rospy.ServiceProxy("franka_control/set_load", SetLoad)
+
+    def _store(self, state: FrankaState) -> None:
+        self._state = state
+
+    def wait_ready(self) -> None:
+        """Until states arrive, the controller listens, and the robot is in Move."""
+        wait_until(lambda: self._state is not None, "the first robot state", simulated=60)
+        wait_until(lambda: self._publisher.get_num_connections() > 0, "the impedance controller", simulated=60)
+        wait_until(lambda: self.state.robot_mode == FrankaState.ROBOT_MODE_MOVE, "robot mode Move", simulated=60)
+        self._target = self.pose
+
+    @property
+    def state(self) -> FrankaState:
+        return self._state
+
+    @property
+    def pose(self) -> np.ndarray:
+        """O_T_EE, 4x4."""
+        return np.array(self._state.O_T_EE).reshape(4, 4, order="F")
+
+    def configure(self, **parameters: float) -> None:
+        """Sets stiffnesses by dynamic_reconfigure."""
+        name = rospy.resolve_name(f"{self.CONTROLLER}/dynamic_reconfigure_compliance_param_node")
+        ReconfigureClient(name, timeout=30).update_configuration(parameters)
+
+    def set_load(self, mass: float, centre: tuple[float, float, float], inertia: list[float]) -> None:
+        """Tells the robot what hangs on its flange: [kg], in the flange frame [m], [kg m^2] column-major."""
+        answer = self._set_load(mass, centre, inertia)
+        if not answer.success:
+            raise TaskError(f"set_load was refused: {answer.error}")
+
+    def move(self, target: np.ndarray, speed: float = 0.15, turn_speed: float = 0.8,
+             tolerance: float = 0.01, what: str = "the motion") -> None:
+        """Leads the equilibrium pose to `target` (O_T_EE) and waits until the arm is there, at rest.
+
+        @param speed [m/s], turn_speed [rad/s]: mean speeds of the way; tolerance of the position [m].
+        """
+        start = self._target
+        turn = wrap(yaw_of(target) - yaw_of(start), 2 * math.pi)
+        distance = float(np.linalg.norm(target[:3, 3] - start[:3, 3]))
+        duration = max(distance / speed, abs(turn) / turn_speed, 0.3)
+        begin = rospy.get_time()
+        wall_end = time.monotonic() + 120.0
+        fraction = 0.0
+        while fraction < 1.0:
+            if rospy.is_shutdown() or time.monotonic() > wall_end:
+                raise TaskError(f"{what}: the simulation's clock does not advance.")
+            fraction = min((rospy.get_time() - begin) / duration, 1.0)
+            s = minimum_jerk(fraction)
+            position = start[:3, 3] + s * (target[:3, 3] - start[:3, 3])
+            self._lead(downwards(*position, yaw_of(start) + s * turn))
+            time.sleep(0.004)
+        self._target = target
+        self._lead(target)
+        wait_until(lambda: self._arrived(target, tolerance), what)
+
+    def _lead(self, target: np.ndarray) -> None:
+        message = PoseStamped(pose=pose_of(target))
+        message.header.stamp = rospy.Time.now()
+        message.header.frame_id = f"{self.arm_id}_link0"
+        self._publisher.publish(message)
+
+    def _arrived(self, target: np.ndarray, tolerance: float) -> bool:
+        if self.state.robot_mode != FrankaState.ROBOT_MODE_MOVE:
+            raise TaskError(f"The robot left Move (mode {self.state.robot_mode}); was the user stop pressed?")
+        away = float(np.linalg.norm(self.pose[:3, 3] - target[:3, 3]))
+        return away < tolerance and max(abs(v) for v in self.state.dq) < 0.03
+
+
+class Gripper:
+    """The hand's actions."""
+
+    ACTIONS = {"homing": HomingAction, "move": MoveAction, "grasp": GraspAction, "stop": StopAction}
+
+    def __init__(self):
+        self._clients = {name: actionlib.SimpleActionClient(f"franka_gripper/{name}", kind)
+                         for name, kind in self.ACTIONS.items()}
+
+    def wait_ready(self) -> None:
+        for name, client in self._clients.items():
+            wait_until(lambda c=client: c.wait_for_server(rospy.Duration(0.05)), f"the gripper's {name} action",
+                       simulated=60)
+
+    def _run(self, name: str, goal, simulated: float = 20.0) -> None:
+        client = self._clients[name]
+        client.send_goal(goal)
+        wait_until(lambda: client.get_state() not in (GoalStatus.PENDING, GoalStatus.ACTIVE),
+                   f"the gripper's {name}", simulated=simulated)
+        result = client.get_result()
+        if client.get_state() != GoalStatus.SUCCEEDED or not result.success:
+            text = (result.error if result else "") or client.get_goal_status_text()
+            raise TaskError(f"The gripper's {name} failed: {text or 'no reason given'}")
+
+    def homing(self) -> None:
+        self._run("homing", HomingGoal(), simulated=40.0)
+
+    def move(self, width: float, speed: float = 0.1) -> None:
+        self._run("move", MoveGoal(width=width, speed=speed))
+
+    def grasp(self, width: float, force: float, speed: float = 0.05, epsilon: float = 0.005) -> None:
+        self._run("grasp", GraspGoal(width=width, epsilon=GraspEpsilon(inner=epsilon, outer=epsilon),
+                                     speed=speed, force=force))
+
+    def stop(self) -> None:
+        self._run("stop", StopGoal())
+
+
+class Scene:
+    """What a camera would see, asked of the simulation."""
+
+    def __init__(self, node: str = "/gazebo"):
+        self._node = node
+        self._pose = self._service("get_body_pose", GetBodyPose)
+        self._set_pose = self._service("set_body_pose", SetBodyPose)
+        self._contacts = self._service("get_contacts", GetContacts)
+        self._render = self._service("render_picture", RenderPicture)
+
+    def _service(self, name: str, kind) -> rospy.ServiceProxy:
+        full = f"{self._node}/{name}"
+        try:
+            rospy.wait_for_service(full, timeout=60)
+        except rospy.ROSException as error:
+            raise TaskError(f"The simulation does not offer {full}; is it running?") from error
+        return rospy.ServiceProxy(full, kind)
+
+    @staticmethod
+    def _checked(answer, what: str):
+        if not answer.success:
+            raise TaskError(f"{what}: {answer.error}")
+        return answer
+
+    def pose(self, body: str) -> np.ndarray:
+        """World pose of a body, 4x4."""
+        return matrix_of(self._checked(self._pose(body), f"pose of {body}").pose)
+
+    def place(self, body: str, pose: Pose) -> None:
+        self._checked(self._set_pose(body, pose), f"placing {body}")
+
+    def grip_force(self, body: str, finger_links: list[str]) -> float:
+        """Sum of the contact forces between the fingers and a body [N]."""
+        total = 0.0
+        for link in finger_links:
+            answer = self._checked(self._contacts(body, link), "contacts")
+            total += sum(math.hypot(f.x, f.y, f.z) for f in answer.forces)
+        return total
+
+    def picture(self, width: int = 960, height: int = 720) -> Image:
+        answer = self._render(Point(1.15, -0.95, 1.05), Point(-0.1, 0.0, 0.42), 45.0, width, height)
+        return self._checked(answer, "picture").image
+
+
+@dataclass
+class Placement:
+    """Where the stone ended."""
+
+    position: tuple[float, float, float]  # in the world [m]
+    distance: float                       # from the tray's centre, in the plane [m]
+    in_tray: bool                         # stands or lies in the red tray, at rest
+
+
+class PickAndPlace:
+    """The task, a step a function; `report` gets a sentence for each."""
+
+    APPROACH = 0.12  # above the stone [m]
+    FORCE = 5.0      # [N]
+
+    def __init__(self, arm: Arm, gripper: Gripper, scene: Scene, report: Callable[[str], None]):
+        self.arm, self.gripper, self.scene, self.report = arm, gripper, scene, report
+        self._base_inverse = np.linalg.inv(scene.pose(f"{arm.arm_id}_link0"))
+        self._fingers = [f"{arm.arm_id}_{side}finger" for side in ("left", "right")]
+
+    def prepare(self) -> None:
+        self.arm.wait_ready()
+        self.gripper.wait_ready()
+        self.arm.configure(nullspace_stiffness=10.0)
+        self.report("homing the gripper")
+        self.gripper.homing()
+        self.gripper.move(0.08)
+        self.report("the gripper is open")
+
+    def pick(self) -> None:
+        stone = self._in_base(self.scene.pose("stone"))
+        yaw, width = self._grasp_of(stone)
+        x, y, z = stone[:3, 3]
+        self.report(f"the stone stands at x {x:.3f}, y {y:.3f}, z {z:.3f} m before the robot")
+        self.arm.move(downwards(x, y, z + self.APPROACH, yaw), what="the way above the stone")
+        self._descend(x, y, z, yaw)
+        self.report(f"grasping with {self.FORCE:.0f} N")
+        self.gripper.grasp(width, self.FORCE)
+        self._tell_load(yaw)
+        self.report(f"the stone is held, contact forces {self.scene.grip_force('stone', self._fingers):.1f} N")
+        self._held = (z, yaw, stone)
+        self.arm.move(downwards(x, y, z + self.APPROACH, yaw), speed=0.1, what="the lift")
+        lifted = self._in_base(self.scene.pose("stone"))[2, 3] - z
+        if lifted < 0.5 * self.APPROACH:
+            raise TaskError(f"The stone was not lifted: it rose by {lifted * 1e3:.0f} mm only.")
+
+    def carry(self) -> None:
+        z, yaw, _ = self._held
+        tray = self._in_base(self.scene.pose("place_tray"))
+        self.arm.move(downwards(tray[0, 3], tray[1, 3], z + self.APPROACH, yaw), what="the way to the red tray")
+        self.report("the stone is above the red tray")
+
+    def place(self) -> None:
+        z, yaw, _ = self._held
+        tray = self._in_base(self.scene.pose("place_tray"))
+        x, y = tray[:2, 3]
+        self._descend(x, y, z + 0.002, yaw)
+        self.gripper.stop()
+        self.gripper.move(0.08, speed=0.05)
+        self.arm.set_load(0.0, (0.0, 0.0, 0.0), [0.0] * 9)
+        self.report("the stone is let go")
+        self.arm.move(downwards(x, y, z + self.APPROACH, yaw), what="the retreat")
+
+    def placement(self) -> Placement:
+        """Where the stone is, after it has come to rest."""
+        last = [self.scene.pose("stone"), rospy.get_time()]
+
+        def at_rest() -> bool:
+            if rospy.get_time() - last[1] < 0.5:
+                return False
+            now = self.scene.pose("stone")
+            moved = float(np.linalg.norm(now[:3, 3] - last[0][:3, 3]))
+            last[:] = [now, rospy.get_time()]
+            return moved < 1e-4
+
+        wait_until(at_rest, "the stone coming to rest")
+        stone, tray = last[0], self.scene.pose("place_tray")
+        offset = np.linalg.inv(tray) @ stone
+        lowest = STONE_SIZE[0] / 2 - 1e-3
+        highest = math.hypot(*STONE_SIZE) / 2
+        # The tray's frame is at its bottom; the stone rests on its upper face.
+        height = offset[2, 3] - TRAY_SIZE[2]
+        inside = (abs(offset[0, 3]) < TRAY_SIZE[0] / 2 and abs(offset[1, 3]) < TRAY_SIZE[1] / 2
+                  and lowest < height < highest)
+        return Placement(tuple(stone[:3, 3]), math.hypot(offset[0, 3], offset[1, 3]), inside)
+
+    def _in_base(self, world: np.ndarray) -> np.ndarray:
+        return self._base_inverse @ world
+
+    @staticmethod
+    def _grasp_of(stone: np.ndarray) -> tuple[float, float]:
+        """Gripper yaw and width for whichever pair of the stone's sides needs the smaller turn."""
+        yaw = yaw_of(stone)
+        along_y = wrap(yaw, math.pi)                 # the fingers close along the stone's y
+        along_x = wrap(yaw + math.pi / 2, math.pi)   # ... and along its x
+        if abs(along_y) <= abs(along_x):
+            return along_y, STONE_SIZE[1]
+        return along_x, STONE_SIZE[0]
+
+    def _descend(self, x: float, y: float, z: float, yaw: float) -> None:
+        self.arm.move(downwards(x, y, z, yaw), speed=0.06, tolerance=0.008, what="the descent")
+
+    def _tell_load(self, yaw: float) -> None:
+        """Mass and inertia of the stone in the flange frame, upright between the finger tips."""
+        a, b, c = STONE_SIZE
+        principal = STONE_MASS / 12.0 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
+        stone_in_base = self._in_base(self.scene.pose("stone"))
+        flange = self.arm.pose @ np.linalg.inv(np.array(self.arm.state.F_T_EE).reshape(4, 4, order="F"))
+        turn = flange[:3, :3].T @ stone_in_base[:3, :3]
+        inertia = turn @ np.diag(principal) @ turn.T
+        self.arm.set_load(STONE_MASS, (0.0, 0.0, HAND_REACH), list(inertia.flatten(order="F")))

@@ -1,0 +1,111 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Starts a launch file on a master of its own and leaves nothing behind."""
+
+import os
+import signal
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+
+class SessionError(RuntimeError):
+    """The launch did not come up, or went down by itself; the text says what its log shows."""
+
+
+def free_port() -> int:
+    """A TCP port nobody listens on, on loopback."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Session:
+    """A roslaunch process group with its own master, as a context manager.
+
+    `environment` is what any command needs to talk to it (ROS_MASTER_URI, ROS_HOSTNAME). Output goes to
+    `log`. Leaving the context ends every process that the launch started.
+    """
+
+    def __init__(self, *launch: str, log: Path, port: int | None = None):
+        self.port = port or free_port()
+        self.log = Path(log)
+        self.environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{self.port}")
+        self.environment.setdefault("ROS_HOSTNAME", "localhost")
+        self._command = ["roslaunch", "-p", str(self.port), *launch]
+        self._process: subprocess.Popen | None = None
+
+    def __enter__(self) -> "Session":
+        self.log.parent.mkdir(parents=True, exist_ok=True)
+        with open(self.log, "w", encoding="utf-8") as out:
+            self._process = subprocess.Popen(
+                self._command, stdout=out, stderr=subprocess.STDOUT, env=self.environment,
+                stdin=subprocess.DEVNULL, start_new_session=True)
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.stop()
+
+    def running(self) -> bool:
+        return self._process is not None and self._process.poll() is None
+
+    def returncode(self) -> int | None:
+        return self._process.poll() if self._process else None
+
+    def check(self) -> None:
+        """Raises SessionError when the launch has ended by itself."""
+        if not self.running():
+            raise SessionError(
+                f"{' '.join(self._command)} ended with status {self.returncode()}:\n{self.tail()}")
+
+    def tail(self, lines: int = 20) -> str:
+        """The last lines of the log."""
+        return "\n".join(self.log.read_text(errors="replace").splitlines()[-lines:])
+
+    def run(self, *command: str, timeout: float = 30.0, check: bool = True) -> subprocess.CompletedProcess:
+        """Runs a command against this master and returns it with its output as text."""
+        return subprocess.run(command, env=self.environment, timeout=timeout, check=check, text=True,
+                              stdin=subprocess.DEVNULL, capture_output=True)
+
+    def wait_for_master(self, timeout: float = 20.0) -> None:
+        """Until the master accepts connections."""
+        deadline = time.monotonic() + timeout
+        while time.monotonic() < deadline:
+            self.check()
+            with socket.socket() as probe:
+                if probe.connect_ex(("127.0.0.1", self.port)) == 0:
+                    return
+            time.sleep(0.05)
+        raise SessionError(f"The ROS master did not come up on port {self.port} within {timeout} s.")
+
+    def stop(self, timeout: float = 20.0) -> None:
+        """Interrupts the launch as Ctrl-C would, then ends what is left of its process group."""
+        if self._process is None:
+            return
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+            try:
+                self._process.wait(timeout)
+            except subprocess.TimeoutExpired:
+                pass
+        for pid in self._leftovers():
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        self._process.wait()
+
+    def _leftovers(self) -> list[int]:
+        """Processes that still belong to this master (nodes have process groups of their own)."""
+        mark = f"ROS_MASTER_URI=http://localhost:{self.port}".encode()
+        found = []
+        for entry in Path("/proc").iterdir():
+            if not entry.name.isdigit() or int(entry.name) == os.getpid():
+                continue
+            try:
+                if mark in (entry / "environ").read_bytes().split(b"\0"):
+                    found.append(int(entry.name))
+            except OSError:
+                continue
+        return found
