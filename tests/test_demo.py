@@ -1,0 +1,58 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The demo as a user starts it: every listed seed places the stone, and a carried stone does not creep."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+SEEDS = list(range(1, 21))
+
+
+def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int, list[dict], str]:
+    command = ["rosrun", "franka_sim_mujoco", "pick_and_place", "--start", "--output", str(output), *arguments]
+    result = subprocess.run(command, text=True, capture_output=True, timeout=timeout, stdin=subprocess.DEVNULL)
+    print(result.stdout)
+    print(result.stderr, file=sys.stderr)
+    report = output / "report.json"
+    return result.returncode, json.loads(report.read_text()) if report.exists() else [], result.stdout
+
+
+@pytest.mark.parametrize("robot", ["panda", "fr3"])
+def test_twenty_seeds_are_placed(robot, tmp_path):
+    seeds = [text for seed in SEEDS for text in ("--seed", str(seed))]
+    code, results, _ = pick_and_place(tmp_path, "--robot", robot, "--speed", "0", "--no-pictures", *seeds)
+    assert code == 0
+    assert [result["seed"] for result in results] == SEEDS
+    assert all(result["in_tray"] for result in results)
+
+
+@pytest.mark.parametrize("robot", ["panda", "fr3"])
+def test_carried_stone_stays_between_the_fingers(robot, tmp_path):
+    code, results, _ = pick_and_place(tmp_path, f"robot:={robot}", "--speed", "0", "--no-pictures", "--hold", "60")
+    assert code == 0
+    assert results[0]["slip"] < 2e-3
+
+
+def test_demo_shows_progress_and_pictures(tmp_path):
+    from PIL import Image
+
+    code, results, output = pick_and_place(tmp_path, "--speed", "4")
+    assert code == 0
+    assert "rests in the red tray" in output and "from the tray's centre" in output
+    assert "simulated" in output and "wall" in output
+    for name in ("1-before", "2-grasped", "3-placed"):
+        with Image.open(tmp_path / f"{name}.png") as picture:
+            colours = picture.convert("RGB").getcolors(maxcolors=1 << 20)
+            assert picture.width >= 640
+            assert len(colours) > 200, "the picture is empty"
+    assert results[0]["distance"] < 0.03
+
+
+def test_unknown_robot_is_refused():
+    result = subprocess.run(["rosrun", "franka_sim_mujoco", "pick_and_place", "robot:=ur5"], text=True,
+                            capture_output=True, timeout=60)
+    assert result.returncode == 2
+    assert "panda" in result.stderr and "fr3" in result.stderr
