@@ -1,0 +1,31 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+namespace franka_sim_mujoco {
+
+/// Each torque cut to what its motor can give; not finite values become zero.
+/// @param limit [Nm] Real-time safe.
+std::array<double, 7> saturate(const std::array<double, 7>& tau,
+                               const std::array<double, 7>& limit) noexcept;
+
+/// The torque of external control: the last one commanded, cut to the motors' range and held while
+/// commands are missing (fci.md 5.3). Real-time safe; one thread.
+class TorqueCommand {
+ public:
+  explicit TorqueCommand(const std::array<double, 7>& limit) noexcept : limit_(limit) {}
+
+  /// @param tau without gravity [Nm]; ignored as a whole when any value is not finite
+  /// @returns whether it was taken.
+  bool receive(const std::array<double, 7>& tau) noexcept;
+  void clear() noexcept { tau_.fill(0.0); }
+  const std::array<double, 7>& value() const noexcept { return tau_; }
+
+ private:
+  std::array<double, 7> limit_;
+  std::array<double, 7> tau_{};
+};
+
+}  // namespace franka_sim_mujoco
