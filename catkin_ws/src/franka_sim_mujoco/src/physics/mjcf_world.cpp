@@ -1,0 +1,171 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/mjcf_world.h"
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "physics/compile.h"
+#include "physics/contact_settings.h"
+#include "physics/mjcf_files.h"
+#include "physics/xml_util.h"
+
+namespace franka_sim_mujoco::physics {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+constexpr const char* kEmptyWorld = R"(<mujoco model="empty">
+  <asset>
+    <texture name="sky" type="skybox" builtin="gradient" rgb1="0.72 0.8 0.9" rgb2="0.95 0.96 0.98"
+      width="64" height="384"/>
+    <texture name="ground" type="2d" builtin="checker" rgb1="0.83 0.84 0.85" rgb2="0.79 0.8 0.81"
+      width="256" height="256"/>
+    <material name="ground" texture="ground" texrepeat="2 2" texuniform="true" specular="0.1"/>
+  </asset>
+  <worldbody>
+    <light name="sun" directional="true" pos="1 -1 4" dir="-0.35 0.4 -1" diffuse="0.55 0.55 0.55"
+      specular="0.15 0.15 0.15" castshadow="true"/>
+    <geom name="ground" type="plane" size="5 5 0.1" material="ground" condim="4" solref="0.01 1"/>
+  </worldbody>
+</mujoco>)";
+
+/// The element of that name below the root; made when there is none.
+XMLElement* section(XMLElement* root, const char* name) {
+  XMLElement* found = root->FirstChildElement(name);
+  return found != nullptr ? found : append(root, name);
+}
+
+/// Sections may appear several times; later ones win, so each is read and written in all of them.
+void setEverywhere(XMLElement* root, const char* name, const char* attribute, const char* value) {
+  section(root, name);
+  for (auto* e = root->FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) {
+    e->SetAttribute(attribute, value);
+  }
+}
+
+/// Compiler settings that would change robots behind their backs.
+void checkCompiler(const XMLElement& root, const std::string& title) {
+  for (auto* e = root.FirstChildElement("compiler"); e != nullptr;
+       e = e->NextSiblingElement("compiler")) {
+    for (const char* attribute : {"boundmass", "boundinertia", "settotalmass", "balanceinertia",
+                                  "inertiafromgeom", "strippath", "coordinate", "fusestatic"}) {
+      if (e->Attribute(attribute) != nullptr) {
+        throw std::runtime_error(title + ": the compiler setting '" + attribute + "' in line " +
+                                 std::to_string(e->GetLineNum()) +
+                                 " would change the robots too; remove it.");
+      }
+    }
+  }
+}
+
+double angleUnit(const XMLElement& root) {
+  double unit = kDegree;
+  for (auto* e = root.FirstChildElement("compiler"); e != nullptr;
+       e = e->NextSiblingElement("compiler")) {
+    const std::string angle = optional(*e, "angle");
+    if (!angle.empty()) {
+      unit = angle == "radian" ? 1.0 : kDegree;
+    }
+  }
+  return unit;
+}
+
+void nameGeoms(XMLElement* body, int* count) {
+  for (auto* e = body->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string kind = e->Name();
+    if (kind == "geom" && e->Attribute("name") == nullptr) {
+      e->SetAttribute("name", ("world/geom_" + std::to_string((*count)++)).c_str());
+    } else if (kind == "body") {
+      nameGeoms(e, count);
+    }
+  }
+}
+
+bool movesFreely(const mjModel& model, int body) {
+  for (int b = body; b > 0; b = model.body_parentid[b]) {
+    if (model.body_dofnum[b] > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+MjcfWorld::MjcfWorld(const std::string& file)
+    : title_(file.empty() ? "The built-in world" : "World file " + file) {
+  load(file);
+  inspect();
+}
+
+void MjcfWorld::load(const std::string& file) {
+  std::string folder;
+  if (file.empty()) {
+    document_.Parse(kEmptyWorld);
+  } else {
+    folder = folderOf(file);
+    loadExpanded(file, title_, &document_);
+  }
+  XMLElement* root = document_.RootElement();
+  if (root == nullptr || std::string(root->Name()) != "mujoco") {
+    throw std::runtime_error(title_ + ": it is no MJCF, its root element is " +
+                             (root == nullptr ? "missing" : "<" + std::string(root->Name()) + ">") +
+                             " instead of <mujoco>.");
+  }
+  checkCompiler(*root, title_);
+  normalise(folder);
+}
+
+void MjcfWorld::normalise(const std::string& folder) {
+  XMLElement* root = document_.RootElement();
+  angle_unit_ = angleUnit(*root);
+  makeFilesAbsolute(root, folder);
+  setEverywhere(root, "compiler", "balanceinertia", "false");
+  setEverywhere(root, "option", "timestep", kTimestep);
+  setEverywhere(root, "option", "integrator", "Euler");
+  setEverywhere(root, "option", "cone", "elliptic");
+  setEverywhere(root, "option", "impratio", kImpratio);
+  XMLElement* visual = section(root, "visual");
+  section(visual, "quality")->SetAttribute("shadowsize", "1024");
+  section(visual, "quality")->SetAttribute("offsamples", "0");
+  int count = 0;
+  for (auto* e = root->FirstChildElement("worldbody"); e != nullptr;
+       e = e->NextSiblingElement("worldbody")) {
+    nameGeoms(e, &count);
+  }
+}
+
+void MjcfWorld::inspect() {
+  const ModelPtr model = compile(toText(document_), title_);
+  for (int i = 0; i < model->ngeom; ++i) {
+    WorldGeom geom;
+    const char* name = mj_id2name(model.get(), mjOBJ_GEOM, i);
+    const char* body = mj_id2name(model.get(), mjOBJ_BODY, model->geom_bodyid[i]);
+    geom.name = name != nullptr ? name : "";
+    geom.body = body != nullptr ? body : "";
+    geom.friction = model->geom_friction[3 * i];
+    geom.torsion = model->geom_friction[3 * i + 1];
+    geom.graspable = movesFreely(*model, model->geom_bodyid[i]);
+    geom.collides = (model->geom_contype[i] | model->geom_conaffinity[i]) != 0;
+    geoms_.push_back(geom);
+  }
+}
+
+std::string MjcfWorld::merge(const std::vector<const RobotModel*>& robots, bool visuals) const {
+  tinyxml2::XMLDocument merged;
+  document_.DeepCopy(&merged);
+  XMLElement* root = merged.RootElement();
+  const MjcfTarget target{section(root, "asset"),    section(root, "worldbody"),
+                          section(root, "contact"),  section(root, "equality"),
+                          visuals,                   angle_unit_,
+                          &geoms_};
+  for (const RobotModel* robot : robots) {
+    writeRobot(*robot, target);
+  }
+  return toText(merged);
+}
+
+}  // namespace franka_sim_mujoco::physics

@@ -1,0 +1,78 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+
+#include <mujoco/mujoco.h>
+
+#include <franka_sim_mujoco/robot/plant.h>
+#include "physics/motor_side.h"
+
+namespace franka_sim_mujoco::physics {
+
+/// Where a joint with one degree of freedom lives in the present model.
+struct JointSlot {
+  int qpos{-1}, dof{-1};
+  int brake{-1};  ///< equality, -1: it has none
+};
+
+/// What plants look at; replaced as a whole when the model is compiled anew.
+struct PlantView {
+  mjModel* model{nullptr};
+  mjData* data{nullptr};
+  MotorSide* motor_side{nullptr};
+};
+
+/// The seven joints of an arm in MuJoCo's arrays.
+class MujocoArm final : public ArmPlant {
+ public:
+  MujocoArm(const PlantView* view, std::array<std::string, 7> joints);
+
+  ArmMeasurement measure() const noexcept override;
+  void applyTorques(const std::array<double, 7>& tau) noexcept override;
+  void setBrakes(bool closed) noexcept override;
+
+  const std::array<std::string, 7>& joints() const noexcept { return joints_; }
+  using Slots = std::array<JointSlot, 7>;
+  /// After the model was compiled anew.
+  void bind(const Slots& slots) noexcept { slots_ = slots; }
+  bool brakesClosed() const noexcept { return brakes_closed_; }
+  const std::array<double, 7>& brakePositions() const noexcept { return brake_positions_; }
+  /// Writes brakes into the model as they were; for models compiled anew.
+  void restoreBrakes() noexcept;
+  /// A joint was put elsewhere: closed brakes hold it there.
+  void jointWasMoved(const std::string& joint) noexcept;
+  /// Brakes open, no torque.
+  void reset() noexcept;
+
+ private:
+  void writeBrake(std::size_t joint) noexcept;
+
+  const PlantView* view_;
+  std::array<std::string, 7> joints_;
+  std::array<JointSlot, 7> slots_{};
+  bool brakes_closed_{false};
+  std::array<double, 7> brake_positions_{};
+};
+
+/// The two fingers of a hand in MuJoCo's arrays.
+class MujocoHand final : public HandPlant {
+ public:
+  MujocoHand(const PlantView* view, std::array<std::string, 2> joints);
+
+  HandMeasurement measure() const noexcept override;
+  void applyForces(const std::array<double, 2>& force) noexcept override;
+
+  const std::array<std::string, 2>& joints() const noexcept { return joints_; }
+  using Slots = std::array<JointSlot, 2>;
+  void bind(const Slots& slots) noexcept { slots_ = slots; }
+
+ private:
+  const PlantView* view_;
+  std::array<std::string, 2> joints_;
+  std::array<JointSlot, 2> slots_{};
+};
+
+}  // namespace franka_sim_mujoco::physics

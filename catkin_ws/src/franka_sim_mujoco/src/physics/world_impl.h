@@ -1,0 +1,78 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <franka_sim_mujoco/physics/world.h>
+#include "physics/compile.h"
+#include "physics/mjcf_world.h"
+#include "physics/motor_side.h"
+#include "physics/plants.h"
+
+namespace franka_sim_mujoco {
+
+/// A force at a point fixed to a body, for a number of ticks.
+struct Push {
+  std::string body_name;  ///< to find the body again in a new model
+  int body;
+  Eigen::Vector3d point;  ///< MuJoCo body frame [m]
+  Eigen::Vector3d force, torque;  ///< world axes [N] [Nm]
+  std::uint64_t ticks_left;
+};
+
+/// A link or body by its name: a MuJoCo body and the fixed pose in it.
+struct Frame {
+  int body;
+  Eigen::Isometry3d pose;
+};
+
+struct World::Impl {
+  explicit Impl(const std::string& mjcf_file);
+
+  // World file and robots, in the order they came.
+  physics::MjcfWorld world;
+  std::vector<std::unique_ptr<physics::RobotModel>> robots;
+  std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms;    ///< "<robot>/<arm_id>"
+  std::map<std::string, std::unique_ptr<physics::MujocoHand>> hands;  ///< "<robot>/<arm_id>"
+
+  // The merged model and its state.
+  physics::ModelPtr model;
+  physics::DataPtr data;
+  physics::MotorSide motor_side;
+  physics::PlantView view;
+  std::map<std::string, Frame> frames;
+  std::vector<std::string> geom_links;  ///< per geom, the link or body shown in contacts
+  std::vector<Push> pushes;
+  std::uint64_t ticks{0};
+  bool kinematics_fresh{false};
+
+  /// The merged model of the given robots with the present state carried over by name. Strong guarantee.
+  void rebuild(std::vector<std::unique_ptr<physics::RobotModel>>* candidates);
+  void step() noexcept;
+  void reset();
+  std::uint64_t hash() const noexcept;
+
+  physics::JointSlot slot(const std::string& joint) const;  ///< throws
+  Frame frame(const std::string& body) const;               ///< throws
+  int freeJoint(const std::string& body) const;             ///< joint id; throws
+  Eigen::Isometry3d pose(const Frame& frame);
+  void updateKinematics() noexcept;
+  bool has(const std::string& joint) const noexcept;
+  const physics::RobotModel& robot(const std::string& name) const;  ///< throws
+
+ private:
+  void placeInitially(const mjModel& m, mjData* d,
+                      const std::vector<std::unique_ptr<physics::RobotModel>>& all) const;
+  void index();
+  void bindPlants();
+  void applyPushes() noexcept;
+  void retirePushes() noexcept;
+};
+
+}  // namespace franka_sim_mujoco
