@@ -11,8 +11,8 @@
 namespace hardware_interface {
 
 /// Reads the state of one joint. It points at values that the robot writes in `read()`; copies
-/// point at the same values. Units: position [rad] or [m], velocity [rad/s] or [m/s], effort [Nm] or [N].
-/// The getters of position, velocity and effort are safe in the control loop.
+/// point at the same values. Units: position [rad] or [m], velocity [rad/s] or [m/s], effort [Nm]
+/// or [N]. The getters of position, velocity and effort are safe in the control loop.
 class JointStateHandle {
  public:
   JointStateHandle() = default;
