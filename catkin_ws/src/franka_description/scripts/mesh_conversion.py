@@ -1,0 +1,197 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Turns a COLLADA mesh into OBJ files with one colour each, as MuJoCo loads them.
+
+MuJoCo reads neither COLLADA nor the colours of an OBJ. Debian's assimp does the reading; what it
+writes stands Y-up, so it is turned back to the link's Z-up frame, split by colour, and its bounding
+box is compared with one computed from the COLLADA file itself.
+"""
+
+import itertools
+import pathlib
+import subprocess
+import tempfile
+import xml.etree.ElementTree
+
+COLLADA = "{http://www.collada.org/2005/11/COLLADASchema}"
+BOX_TOLERANCE = 1e-4  # [m]
+
+
+class ConversionError(Exception):
+    """A sentence about a mesh that could not be converted."""
+
+
+def convert(dae, folder):
+    """Writes 0.obj, 1.obj, ... and index.yaml for the mesh `dae` into `folder`, which is made.
+
+    Raises ConversionError when assimp fails or the result is not where the original is.
+    """
+    with tempfile.TemporaryDirectory(prefix="franka_meshes_") as scratch:
+        obj = pathlib.Path(scratch, "mesh.obj")
+        run_assimp(dae, obj)
+        colours = read_colours(obj.with_suffix(".mtl"))
+        mesh = ObjMesh(obj.read_text(encoding="ascii"))
+    check_box(dae, mesh)
+    parts = mesh.parts(colours)
+    folder.mkdir(parents=True)
+    index = []
+    for number, (rgba, faces) in enumerate(parts.items()):
+        name = f"{number}.obj"
+        (folder / name).write_text(mesh.text(faces), encoding="ascii")
+        index.append(f"- {{file: {name}, rgba: [{', '.join(map(str, rgba))}]}}\n")
+    (folder / "index.yaml").write_text("".join(index), encoding="ascii")
+
+
+def run_assimp(dae, obj):
+    try:
+        result = subprocess.run(
+            ["assimp", "export", str(dae), str(obj)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            check=False,
+        )
+    except FileNotFoundError:
+        raise ConversionError("assimp is not installed (Debian package assimp-utils)") from None
+    if result.returncode != 0 or not obj.is_file():
+        said = result.stdout.strip().splitlines()[-1:] or ["nothing"]
+        raise ConversionError(f"assimp could not convert {dae.name}; it says: {said[0]}")
+
+
+def read_colours(mtl):
+    """Material name -> (red, green, blue, alpha), each 0 to 1."""
+    colours, name = {}, None
+    for line in mtl.read_text(encoding="utf-8", errors="replace").splitlines():
+        word, _, rest = line.strip().partition(" ")
+        if word == "newmtl":
+            name = rest
+            colours[name] = (1.0, 1.0, 1.0, 1.0)
+        elif word == "Kd":
+            colours[name] = (*map(float, rest.split()), colours[name][3])
+        elif word == "d":
+            colours[name] = (*colours[name][:3], float(rest))
+    return colours
+
+
+class ObjMesh:
+    """An OBJ file of assimp's, turned from Y-up to Z-up."""
+
+    def __init__(self, text):
+        self.vertices, self.normals, self.faces = [], [], []
+        material = ""
+        for line in text.splitlines():
+            word, _, rest = line.partition(" ")
+            if word == "v":
+                self.vertices.append(z_up(rest))
+            elif word == "vn":
+                self.normals.append(z_up(rest))
+            elif word == "usemtl":
+                material = rest
+            elif word == "f":
+                corners = [(int(c[0]), int(c[-1])) for c in (t.split("/") for t in rest.split())]
+                self.faces.append((material, corners))
+
+    def box(self):
+        """Lower and upper corner [m] of what the faces use."""
+        used = {corner[0] for _, corners in self.faces for corner in corners}
+        return bounding_box(tuple(map(float, self.vertices[v - 1])) for v in used)
+
+    def parts(self, colours):
+        """Faces by colour, in the order the file names them."""
+        parts = {}
+        for material, corners in self.faces:
+            parts.setdefault(colours.get(material, (1.0, 1.0, 1.0, 1.0)), []).append(corners)
+        return parts
+
+    def text(self, faces):
+        """OBJ text of some of the faces with the vertices and normals they use."""
+        vertices, normals, lines, edges = {}, {}, [], set()
+        for triangle in itertools.chain.from_iterable(map(fan, faces)):
+            # MuJoCo refuses meshes in which two faces run along an edge in the same direction, and
+            # CAD meshes have some: the second of them gets vertices of its own and looks the same.
+            directed = {(triangle[i - 1][0], triangle[i][0]) for i in range(3)}
+            copy = 0 if edges.isdisjoint(directed) else len(lines)
+            if copy == 0:
+                edges |= directed
+            corners = [
+                f"{vertices.setdefault((v, copy), len(vertices) + 1)}"
+                f"//{normals.setdefault(n, len(normals) + 1)}"
+                for v, n in triangle
+            ]
+            lines.append("f " + " ".join(corners))
+        head = ["v " + " ".join(self.vertices[v - 1]) for v, _ in vertices]
+        head += ["vn " + " ".join(self.normals[n - 1]) for n in normals]
+        return "\n".join(head + lines) + "\n"
+
+
+def fan(corners):
+    """The triangles of a convex polygon, without those in which a vertex repeats."""
+    triangles = ([corners[0], b, c] for b, c in itertools.pairwise(corners[1:]))
+    return [triangle for triangle in triangles if len({v for v, _ in triangle}) == 3]
+
+
+def z_up(text):
+    """The three numbers of a Y-up vector as those of the same vector with Z up, still as text."""
+    x, y, z = text.split()[:3]
+    return x, z[1:] if z.startswith("-") else "-" + z, y
+
+
+def check_box(dae, mesh):
+    if not mesh.faces:
+        raise ConversionError(f"assimp found no face in {dae.name}")
+    expected, found = collada_box(dae), mesh.box()
+    worst = max(
+        abs(expected[corner][axis] - found[corner][axis]) for corner in (0, 1) for axis in range(3)
+    )
+    if worst > BOX_TOLERANCE:
+        raise ConversionError(
+            f"{dae.name} would end up elsewhere: its bounding box is {expected}, after conversion"
+            f" {found} (allowed difference {BOX_TOLERANCE} m)"
+        )
+
+
+def bounding_box(points):
+    axes = list(zip(*points, strict=True))
+    return tuple(map(min, axes)), tuple(map(max, axes))
+
+
+def collada_box(dae):
+    """Lower and upper corner [m] of the triangles of a Z-up COLLADA file, by its own numbers."""
+    root = xml.etree.ElementTree.parse(dae).getroot()
+    unit = root.find(f"{COLLADA}asset/{COLLADA}unit")
+    scale = float(unit.get("meter", "1")) if unit is not None else 1.0
+    shapes = {g.get("id"): triangle_points(g) for g in root.iter(COLLADA + "geometry")}
+    points = []
+    for node in root.iter(COLLADA + "node"):
+        matrix = node.find(COLLADA + "matrix")
+        m = [float(v) for v in matrix.text.split()] if matrix is not None else IDENTITY
+        for instance in node.findall(COLLADA + "instance_geometry"):
+            points += [transform(m, p, scale) for p in shapes[instance.get("url").lstrip("#")]]
+    if not points:
+        raise ConversionError(f"{dae.name} holds no triangles")
+    return bounding_box(points)
+
+
+IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+
+
+def transform(m, p, scale):
+    rows = (m[0:4], m[4:8], m[8:12])
+    return tuple(scale * (a * p[0] + b * p[1] + c * p[2] + d) for a, b, c, d in rows)
+
+
+def triangle_points(geometry):
+    """The corners of a geometry's triangles; lines are left out, as in the converted mesh."""
+    mesh = geometry.find(COLLADA + "mesh")
+    positions = mesh.find(f"{COLLADA}vertices/{COLLADA}input[@semantic='POSITION']")
+    source = positions.get("source").lstrip("#")
+    array = mesh.find(f"{COLLADA}source[@id='{source}']/{COLLADA}float_array")
+    values = [float(v) for v in array.text.split()]
+    used = set()
+    for triangles in mesh.findall(COLLADA + "triangles"):
+        inputs = triangles.findall(COLLADA + "input")
+        stride = 1 + max(int(i.get("offset")) for i in inputs)
+        offset = next(int(i.get("offset")) for i in inputs if i.get("semantic") == "VERTEX")
+        used.update(map(int, triangles.find(COLLADA + "p").text.split()[offset::stride]))
+    return [values[3 * i : 3 * i + 3] for i in used]
