@@ -61,7 +61,8 @@ class ArmModel {
   /// @param flange transform from link 7 to flange F, column-major.
   ArmModel(const std::array<Link, 7>& links, const std::array<double, 16>& flange);
 
-  /// Reads the chain `<prefix>link0` ... `<prefix>link8` from a URDF text.
+  /// Reads the chain `<prefix>link0` ... `<prefix>link8` from a URDF text. Bodies rigidly fixed to one of
+  /// the links 1 to 7 count as part of it; what hangs below link8 does not (see endEffectorFromUrdf).
   /// @param arm_id prefix without the underscore; empty means: find the one chain there is.
   /// @throws std::invalid_argument with a sentence that names what is missing or wrong.
   static ArmModel fromUrdf(const std::string& urdf, const std::string& arm_id = "");
@@ -111,5 +112,12 @@ class ArmModel {
 /// End effector and load as one body about their common centre of mass (parallel-axis theorem).
 /// A part of zero mass contributes nothing, its inertia included (fci.md 4.3).
 Payload combine(const Payload& end_effector, const Payload& load) noexcept;
+
+/// What is mounted below `<prefix>link8` (hand and fingers, movable joints at position 0: fingers
+/// closed) as one body in the flange frame (decision 7). Zero payload when nothing is mounted.
+/// @param arm_id as for ArmModel::fromUrdf.
+/// @throws std::invalid_argument with a sentence when the URDF cannot be read, the chain is not there, or
+/// the hand or a moving link of it has no inertial.
+Payload endEffectorFromUrdf(const std::string& urdf, const std::string& arm_id = "");
 
 }  // namespace franka_core

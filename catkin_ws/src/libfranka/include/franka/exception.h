@@ -1,0 +1,71 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <franka/log.h>
+
+/// @file
+/// The family of exceptions; what() is a sentence for a person.
+
+namespace franka {
+
+/// Base of all.
+struct Exception : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The robot's model cannot be loaded.
+struct ModelException : public Exception {
+  using Exception::Exception;
+};
+
+/// The connection failed, broke or timed out.
+struct NetworkException : public Exception {
+  using Exception::Exception;
+};
+
+/// The robot answered something that the protocol does not allow.
+struct ProtocolException : public Exception {
+  using Exception::Exception;
+};
+
+/// Robot and library speak different versions of the protocol.
+struct IncompatibleVersionException : public Exception {
+  /// @param server_version version the robot speaks.
+  /// @param library_version version this library asked for.
+  IncompatibleVersionException(uint16_t server_version, uint16_t library_version) noexcept;
+
+  const uint16_t server_version;   ///< version the robot speaks
+  const uint16_t library_version;  ///< version this library asked for
+};
+
+/// A motion was aborted.
+struct ControlException : public Exception {
+  /// @param what what happened. @param log the last states and commands, oldest first.
+  explicit ControlException(const std::string& what,
+                            std::vector<franka::Record> log = {}) noexcept;
+
+  const std::vector<franka::Record> log;  ///< the last states and commands, oldest first
+};
+
+/// The robot refused or aborted a command.
+struct CommandException : public Exception {
+  using Exception::Exception;
+};
+
+/// The thread could not be given realtime priority, or the kernel has none to give.
+struct RealtimeException : public Exception {
+  using Exception::Exception;
+};
+
+/// The object is busy: another motion or read runs on it.
+struct InvalidOperationException : public Exception {
+  using Exception::Exception;
+};
+
+}  // namespace franka

@@ -1,0 +1,153 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cfloat>
+#include <cstddef>
+
+#include <franka_core/limits.h>
+
+/// @file
+/// Limits of the Panda (FER) as the robot's client keeps them, and the functions that keep commands
+/// within them. The constants are a margin smaller than the robot's own limits, so that a command that
+/// reaches them is accepted also after lost packets. The functions are pure, allocation-free and may run
+/// in the 1 kHz loop on any thread; they throw only where said.
+
+namespace franka {
+
+constexpr double kDeltaT = 1e-3;      ///< one cycle [s]
+constexpr double kLimitEps = 1e-3;    ///< margin kept from each limit, in the limit's unit
+constexpr double kNormEps = DBL_EPSILON;  ///< vectors shorter than this have no direction
+constexpr double kTolNumberPacketsLost = 3.0;  ///< packets in a row that may be lost
+constexpr double kFactorCartesianRotationPoseInterface = 0.99;  ///< share of the rotation limits for poses
+
+namespace rate_limiting_detail {
+constexpr double withMargin(double limit) { return limit - kLimitEps; }
+/// Velocity margin: what the acceleration adds while packets are lost.
+constexpr double withMargin(double velocity, double acceleration) {
+  return velocity - kLimitEps - kTolNumberPacketsLost * kDeltaT * withMargin(acceleration);
+}
+constexpr std::array<double, 7> withMargin(const std::array<double, 7>& limits) {
+  std::array<double, 7> result{};
+  for (std::size_t i = 0; i < 7; i++) {
+    result[i] = withMargin(limits[i]);
+  }
+  return result;
+}
+constexpr std::array<double, 7> withMargin(const std::array<double, 7>& velocities,
+                                           const std::array<double, 7>& accelerations) {
+  std::array<double, 7> result{};
+  for (std::size_t i = 0; i < 7; i++) {
+    result[i] = withMargin(velocities[i], accelerations[i]);
+  }
+  return result;
+}
+constexpr const franka_core::ArmLimits& kFer = franka_core::kFerLimits;
+}  // namespace rate_limiting_detail
+
+/// Torque rate [Nm/s].
+constexpr std::array<double, 7> kMaxTorqueRate =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.dtau);
+/// Joint jerk [rad/s^3].
+constexpr std::array<double, 7> kMaxJointJerk =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.dddq);
+/// Joint acceleration [rad/s^2].
+constexpr std::array<double, 7> kMaxJointAcceleration =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.ddq);
+/// Joint velocity [rad/s].
+constexpr std::array<double, 7> kMaxJointVelocity = rate_limiting_detail::withMargin(
+    rate_limiting_detail::kFer.rate_limiter_dq, rate_limiting_detail::kFer.ddq);
+/// Translational jerk [m/s^3].
+constexpr double kMaxTranslationalJerk =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.translation.jerk);
+/// Translational acceleration [m/s^2].
+constexpr double kMaxTranslationalAcceleration =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.translation.acceleration);
+/// Translational velocity [m/s].
+constexpr double kMaxTranslationalVelocity =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.translation.velocity,
+                                     rate_limiting_detail::kFer.translation.acceleration);
+/// Rotational jerk [rad/s^3].
+constexpr double kMaxRotationalJerk =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.rotation.jerk);
+/// Rotational acceleration [rad/s^2].
+constexpr double kMaxRotationalAcceleration =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.rotation.acceleration);
+/// Rotational velocity [rad/s].
+constexpr double kMaxRotationalVelocity = rate_limiting_detail::withMargin(
+    rate_limiting_detail::kFer.rotation.velocity, rate_limiting_detail::kFer.rotation.acceleration);
+/// Elbow jerk [rad/s^3].
+constexpr double kMaxElbowJerk =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.elbow.jerk);
+/// Elbow acceleration [rad/s^2].
+constexpr double kMaxElbowAcceleration =
+    rate_limiting_detail::withMargin(rate_limiting_detail::kFer.elbow.acceleration);
+/// Elbow velocity [rad/s].
+constexpr double kMaxElbowVelocity = rate_limiting_detail::withMargin(
+    rate_limiting_detail::kFer.elbow.velocity, rate_limiting_detail::kFer.elbow.acceleration);
+
+/// Limits the rate of seven values.
+/// @param max_derivatives largest change per second of each value.
+/// @param commanded_values wanted values. @param last_commanded_values values of the cycle before.
+/// @throws std::invalid_argument if a wanted value is not finite.
+std::array<double, 7> limitRate(const std::array<double, 7>& max_derivatives,
+                                const std::array<double, 7>& commanded_values,
+                                const std::array<double, 7>& last_commanded_values);
+
+/// Limits a velocity and its two derivatives.
+/// @param max_velocity, max_acceleration, max_jerk limits of one joint [rad/s, rad/s^2, rad/s^3].
+/// @param commanded_velocity wanted velocity [rad/s].
+/// @param last_commanded_velocity, last_commanded_acceleration values of the cycle before.
+/// @throws std::invalid_argument if the wanted velocity is not finite.
+double limitRate(double max_velocity, double max_acceleration, double max_jerk,
+                 double commanded_velocity, double last_commanded_velocity,
+                 double last_commanded_acceleration);
+
+/// Limits a position and its three derivatives; arguments as for the velocity, positions in [rad].
+/// @throws std::invalid_argument if the wanted position is not finite.
+double limitRate(double max_velocity, double max_acceleration, double max_jerk,
+                 double commanded_position, double last_commanded_position,
+                 double last_commanded_velocity, double last_commanded_acceleration);
+
+/// The velocity version for seven joints. @throws std::invalid_argument if a wanted value is not finite.
+std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
+                                const std::array<double, 7>& max_acceleration,
+                                const std::array<double, 7>& max_jerk,
+                                const std::array<double, 7>& commanded_velocities,
+                                const std::array<double, 7>& last_commanded_velocities,
+                                const std::array<double, 7>& last_commanded_accelerations);
+
+/// The position version for seven joints. @throws std::invalid_argument if a wanted value is not finite.
+std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
+                                const std::array<double, 7>& max_acceleration,
+                                const std::array<double, 7>& max_jerk,
+                                const std::array<double, 7>& commanded_positions,
+                                const std::array<double, 7>& last_commanded_positions,
+                                const std::array<double, 7>& last_commanded_velocities,
+                                const std::array<double, 7>& last_commanded_accelerations);
+
+/// Limits a twist: the norms of its linear and of its angular part, each with two derivatives.
+/// @param O_dP_EE_c wanted twist in O [m/s, rad/s].
+/// @param last_O_dP_EE_c, last_O_ddP_EE_c twist and acceleration of the cycle before, in O.
+/// @throws std::invalid_argument if a wanted value is not finite.
+std::array<double, 6> limitRate(
+    double max_translational_velocity, double max_translational_acceleration,
+    double max_translational_jerk, double max_rotational_velocity,
+    double max_rotational_acceleration, double max_rotational_jerk,
+    const std::array<double, 6>& O_dP_EE_c, const std::array<double, 6>& last_O_dP_EE_c,
+    const std::array<double, 6>& last_O_ddP_EE_c);
+
+/// Limits a pose: the twist that leads to it from the last pose, with two derivatives. For the rotation
+/// 99 % of the limits are used.
+/// @param O_T_EE_c wanted pose in O, 4x4 column-major.
+/// @param last_O_T_EE_c, last_O_dP_EE_c, last_O_ddP_EE_c values of the cycle before, in O.
+/// @throws std::invalid_argument if the wanted pose is not finite or no homogeneous transformation.
+std::array<double, 16> limitRate(
+    double max_translational_velocity, double max_translational_acceleration,
+    double max_translational_jerk, double max_rotational_velocity,
+    double max_rotational_acceleration, double max_rotational_jerk,
+    const std::array<double, 16>& O_T_EE_c, const std::array<double, 16>& last_O_T_EE_c,
+    const std::array<double, 6>& last_O_dP_EE_c, const std::array<double, 6>& last_O_ddP_EE_c);
+
+}  // namespace franka

@@ -1,0 +1,201 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka/rate_limiting.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+
+#include <franka/control_tools.h>
+
+namespace franka {
+
+namespace {
+
+/// Bounds on the norm of a vector and of its derivatives.
+struct Bounds {
+  double velocity;
+  double acceleration;
+  double jerk;
+};
+
+template <std::size_t kSize>
+void requireFinite(const std::array<double, kSize>& values) {
+  if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) {
+    throw std::invalid_argument(
+        "libfranka rate limiting: a commanded value is infinite or not a number.");
+  }
+}
+
+double clampMagnitude(double value, double limit) {
+  return std::max(std::min(value, limit), -limit);
+}
+
+// Jerk limit first; then an acceleration small enough that the velocity limit can still be met by
+// braking with the jerk there is.
+Eigen::Vector3d limitVelocity(const Bounds& bounds, const Eigen::Vector3d& velocity,
+                              const Eigen::Vector3d& last_velocity,
+                              const Eigen::Vector3d& last_acceleration) {
+  const Eigen::Vector3d jerk =
+      ((velocity - last_velocity) / kDeltaT - last_acceleration) / kDeltaT;
+  Eigen::Vector3d acceleration = last_acceleration;
+  const double jerk_norm = jerk.norm();
+  if (jerk_norm > kNormEps) {
+    acceleration += jerk / jerk_norm * std::min(jerk_norm, bounds.jerk) * kDeltaT;
+  }
+  const double acceleration_norm = acceleration.norm();
+  if (!(acceleration_norm > kNormEps)) {
+    return last_velocity;
+  }
+  const Eigen::Vector3d direction = acceleration / acceleration_norm;
+  const double along = direction.dot(last_velocity);
+  // How much speed may be gained in this direction until the sphere of allowed velocities ends. Outside
+  // of it and heading past it the root would be of a negative number: then only braking is left.
+  const double square =
+      along * along - last_velocity.squaredNorm() + bounds.velocity * bounds.velocity;
+  const double distance = -along + std::sqrt(std::max(square, 0.0));
+  const double allowed =
+      std::min(bounds.jerk / bounds.acceleration * distance, bounds.acceleration);
+  return last_velocity + direction * std::min(acceleration_norm, allowed) * kDeltaT;
+}
+
+}  // namespace
+
+std::array<double, 7> limitRate(const std::array<double, 7>& max_derivatives,
+                                const std::array<double, 7>& commanded_values,
+                                const std::array<double, 7>& last_commanded_values) {
+  requireFinite(commanded_values);
+  std::array<double, 7> limited{};
+  for (std::size_t i = 0; i < 7; i++) {
+    const double rate = (commanded_values[i] - last_commanded_values[i]) / kDeltaT;
+    limited[i] = last_commanded_values[i] + clampMagnitude(rate, max_derivatives[i]) * kDeltaT;
+  }
+  return limited;
+}
+
+double limitRate(double max_velocity, double max_acceleration, double max_jerk,
+                 double commanded_velocity, double last_commanded_velocity,
+                 double last_commanded_acceleration) {
+  requireFinite(std::array<double, 1>{commanded_velocity});
+  const double jerk =
+      ((commanded_velocity - last_commanded_velocity) / kDeltaT - last_commanded_acceleration) /
+      kDeltaT;
+  const double acceleration =
+      last_commanded_acceleration + clampMagnitude(jerk, max_jerk) * kDeltaT;
+  const double stiffness = max_jerk / max_acceleration;
+  const double highest =
+      std::min(stiffness * (max_velocity - last_commanded_velocity), max_acceleration);
+  const double lowest =
+      std::max(stiffness * (-max_velocity - last_commanded_velocity), -max_acceleration);
+  return last_commanded_velocity + std::max(std::min(acceleration, highest), lowest) * kDeltaT;
+}
+
+double limitRate(double max_velocity, double max_acceleration, double max_jerk,
+                 double commanded_position, double last_commanded_position,
+                 double last_commanded_velocity, double last_commanded_acceleration) {
+  requireFinite(std::array<double, 1>{commanded_position});
+  return last_commanded_position +
+         limitRate(max_velocity, max_acceleration, max_jerk,
+                   (commanded_position - last_commanded_position) / kDeltaT,
+                   last_commanded_velocity, last_commanded_acceleration) *
+             kDeltaT;
+}
+
+std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
+                                const std::array<double, 7>& max_acceleration,
+                                const std::array<double, 7>& max_jerk,
+                                const std::array<double, 7>& commanded_velocities,
+                                const std::array<double, 7>& last_commanded_velocities,
+                                const std::array<double, 7>& last_commanded_accelerations) {
+  requireFinite(commanded_velocities);
+  std::array<double, 7> limited{};
+  for (std::size_t i = 0; i < 7; i++) {
+    limited[i] = limitRate(max_velocity[i], max_acceleration[i], max_jerk[i],
+                           commanded_velocities[i], last_commanded_velocities[i],
+                           last_commanded_accelerations[i]);
+  }
+  return limited;
+}
+
+std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
+                                const std::array<double, 7>& max_acceleration,
+                                const std::array<double, 7>& max_jerk,
+                                const std::array<double, 7>& commanded_positions,
+                                const std::array<double, 7>& last_commanded_positions,
+                                const std::array<double, 7>& last_commanded_velocities,
+                                const std::array<double, 7>& last_commanded_accelerations) {
+  requireFinite(commanded_positions);
+  std::array<double, 7> limited{};
+  for (std::size_t i = 0; i < 7; i++) {
+    limited[i] = limitRate(max_velocity[i], max_acceleration[i], max_jerk[i],
+                           commanded_positions[i], last_commanded_positions[i],
+                           last_commanded_velocities[i], last_commanded_accelerations[i]);
+  }
+  return limited;
+}
+
+std::array<double, 6> limitRate(
+    double max_translational_velocity, double max_translational_acceleration,
+    double max_translational_jerk, double max_rotational_velocity,
+    double max_rotational_acceleration, double max_rotational_jerk,
+    const std::array<double, 6>& O_dP_EE_c, const std::array<double, 6>& last_O_dP_EE_c,
+    const std::array<double, 6>& last_O_ddP_EE_c) {
+  requireFinite(O_dP_EE_c);
+  using Twist = Eigen::Matrix<double, 6, 1>;
+  const Eigen::Map<const Twist> wanted(O_dP_EE_c.data());
+  const Eigen::Map<const Twist> last(last_O_dP_EE_c.data());
+  const Eigen::Map<const Twist> last_acceleration(last_O_ddP_EE_c.data());
+  std::array<double, 6> limited{};
+  Eigen::Map<Twist> result(limited.data());
+  result.head<3>() = limitVelocity(
+      {max_translational_velocity, max_translational_acceleration, max_translational_jerk},
+      wanted.head<3>(), last.head<3>(), last_acceleration.head<3>());
+  result.tail<3>() =
+      limitVelocity({max_rotational_velocity, max_rotational_acceleration, max_rotational_jerk},
+                    wanted.tail<3>(), last.tail<3>(), last_acceleration.tail<3>());
+  return limited;
+}
+
+std::array<double, 16> limitRate(
+    double max_translational_velocity, double max_translational_acceleration,
+    double max_translational_jerk, double max_rotational_velocity,
+    double max_rotational_acceleration, double max_rotational_jerk,
+    const std::array<double, 16>& O_T_EE_c, const std::array<double, 16>& last_O_T_EE_c,
+    const std::array<double, 6>& last_O_dP_EE_c, const std::array<double, 6>& last_O_ddP_EE_c) {
+  requireFinite(O_T_EE_c);
+  if (!isHomogeneousTransformation(O_T_EE_c)) {
+    throw std::invalid_argument(
+        "libfranka rate limiting: the commanded pose is no homogeneous transformation.");
+  }
+  const Eigen::Map<const Eigen::Matrix4d> wanted(O_T_EE_c.data());
+  const Eigen::Map<const Eigen::Matrix4d> last(last_O_T_EE_c.data());
+  const Eigen::Matrix3d last_rotation = last.topLeftCorner<3, 3>();
+  const Eigen::AngleAxisd step(
+      Eigen::Matrix3d(wanted.topLeftCorner<3, 3>() * last_rotation.transpose()));
+
+  std::array<double, 6> twist{};
+  Eigen::Map<Eigen::Vector3d> linear(twist.data());
+  Eigen::Map<Eigen::Vector3d> angular(twist.data() + 3);
+  linear = (wanted.topRightCorner<3, 1>() - last.topRightCorner<3, 1>()) / kDeltaT;
+  angular = step.angle() / kDeltaT * step.axis();
+  twist = limitRate(max_translational_velocity, max_translational_acceleration,
+                    max_translational_jerk,
+                    kFactorCartesianRotationPoseInterface * max_rotational_velocity,
+                    kFactorCartesianRotationPoseInterface * max_rotational_acceleration,
+                    kFactorCartesianRotationPoseInterface * max_rotational_jerk, twist,
+                    last_O_dP_EE_c, last_O_ddP_EE_c);
+
+  std::array<double, 16> limited = last_O_T_EE_c;
+  Eigen::Map<Eigen::Matrix4d> result(limited.data());
+  result.topRightCorner<3, 1>() += linear * kDeltaT;
+  const double angle = angular.norm() * kDeltaT;
+  if (angle > kNormEps) {
+    result.topLeftCorner<3, 3>() =
+        Eigen::AngleAxisd(angle, angular.normalized()).toRotationMatrix() * last_rotation;
+  }
+  return limited;
+}
+
+}  // namespace franka
