@@ -1,0 +1,118 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+namespace realtime_tools {
+
+/// Hands the newest value of other threads to one real-time thread.
+///
+/// Three copies of the value circulate: one belongs to the real-time thread, one to the writers,
+/// and one waits in between; the sides exchange theirs with the waiting one in a single atomic
+/// step. So readFromRT() always succeeds at once and never sees a half-written value.
+///
+/// Threads: readFromRT() and initRT() one real-time thread; everything else any other thread.
+/// Real-time safe: readFromRT() (wait-free), initRT() (as far as assigning a T is). Not real-time
+/// safe: writeFromNonRT(), readFromNonRT(), copying; they take a mutex that the real-time thread
+/// never touches.
+///
+/// @tparam T copyable; default-constructible only if the buffer is default-constructed.
+template <class T>
+class RealtimeBuffer {
+ public:
+  RealtimeBuffer() = default;
+  explicit RealtimeBuffer(const T& data) : slots_{{data, data, data}}, latest_(data) {}
+  /// Copies the value last given to `source`.
+  RealtimeBuffer(const RealtimeBuffer& source) : RealtimeBuffer(source.copyOfLatest()) {}
+  /// Likewise; no other thread may use this buffer meanwhile.
+  RealtimeBuffer& operator=(const RealtimeBuffer& source) {
+    if (this != &source) {
+      initRT(source.copyOfLatest());
+    }
+    return *this;
+  }
+  ~RealtimeBuffer() = default;
+
+  /// The newest value. It belongs to the real-time thread, which may also write through the
+  /// pointer, until its next call; without a new value the same one is returned again.
+  T* readFromRT() noexcept {
+    takeFresh();
+    return &slots_[real_time_];
+  }
+
+  /// The value last given to writeFromNonRT(), initRT() or the constructor; valid until the next
+  /// of those. What the real-time thread wrote through its pointer does not show here.
+  T* readFromNonRT() const {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return &latest_;
+  }
+
+  /// Replaces the value; the real-time thread sees it with its next readFromRT().
+  void writeFromNonRT(const T& data) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    const LatestGuard guard(latest_busy_);
+    latest_ = data;
+    slots_[writer_] = data;
+    writer_ = waiting_.exchange(writer_ | kFresh, std::memory_order_acq_rel) & kIndex;
+  }
+
+  /// Sets the value from the real-time thread, as controllers do in starting(), or from any thread
+  /// before others use the buffer. A write going on at the same time counts as the later one.
+  void initRT(const T& data) {
+    if (latest_busy_.test_and_set(std::memory_order_acquire)) {
+      slots_[real_time_] = data;
+      return;
+    }
+    takeFresh();
+    slots_[real_time_] = data;
+    latest_ = data;
+    latest_busy_.clear(std::memory_order_release);
+  }
+
+ private:
+  static constexpr unsigned kIndex = 3;
+  static constexpr unsigned kFresh = 4;
+
+  /// Keeps initRT() away from `latest_`. Only initRT() can hold the flag against it, for the time
+  /// of two copies, so yielding is enough.
+  class LatestGuard {
+   public:
+    explicit LatestGuard(std::atomic_flag& flag) : flag_(flag) {
+      while (flag_.test_and_set(std::memory_order_acquire)) {
+        std::this_thread::yield();
+      }
+    }
+    ~LatestGuard() { flag_.clear(std::memory_order_release); }
+    LatestGuard(const LatestGuard&) = delete;
+    LatestGuard& operator=(const LatestGuard&) = delete;
+
+   private:
+    std::atomic_flag& flag_;
+  };
+
+  void takeFresh() noexcept {
+    if ((waiting_.load(std::memory_order_relaxed) & kFresh) != 0) {
+      real_time_ = waiting_.exchange(real_time_, std::memory_order_acq_rel) & kIndex;
+    }
+  }
+
+  T copyOfLatest() const {
+    std::lock_guard<std::mutex> lock(mutex_);
+    const LatestGuard guard(latest_busy_);
+    return latest_;
+  }
+
+  std::array<T, 3> slots_{};
+  mutable T latest_{};
+  mutable std::mutex mutex_;  ///< for the threads that are not real-time
+  mutable std::atomic_flag latest_busy_ = ATOMIC_FLAG_INIT;
+  unsigned real_time_{0};             ///< index of the slot the real-time thread owns
+  std::atomic<unsigned> waiting_{1};  ///< index of the slot in between, and whether it is fresh
+  unsigned writer_{2};                ///< index of the slot the writers own
+};
+
+}  // namespace realtime_tools

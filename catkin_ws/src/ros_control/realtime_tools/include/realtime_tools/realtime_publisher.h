@@ -1,0 +1,117 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include "realtime_tools/detail/turn_lock.h"
+
+namespace realtime_tools {
+
+/// Publishes messages of a real-time thread through a thread of its own.
+///
+/// The real-time thread fills `msg_` between trylock() and unlockAndPublish(). Until the
+/// publishing thread has copied the message, trylock() returns false and the caller skips this
+/// cycle: messages are dropped, never queued. The publishing thread sleeps while there is nothing
+/// to send; it does not poll.
+///
+/// Threads: one real-time thread; any thread may lock() and unlock(). init(), stop() and the
+/// destructor belong to one non-real-time thread.
+/// Real-time safe: trylock(), unlock(), unlockAndPublish(): no mutex, no allocation, no waiting.
+/// When the publishing thread sleeps they make one non-blocking system call to wake it.
+///
+/// @tparam Msg a ROS message type.
+template <class Msg>
+class RealtimePublisher {
+ public:
+  /// The message. Access it only while holding the lock.
+  Msg msg_;
+
+  /// Advertises at once, as init() does.
+  RealtimePublisher(const ros::NodeHandle& node,
+                    const std::string& topic,
+                    int queue_size,
+                    bool latched = false) {
+    init(node, topic, queue_size, latched);
+  }
+
+  /// Needs init() before use; trylock() returns false until then.
+  RealtimePublisher() = default;
+
+  RealtimePublisher(const RealtimePublisher&) = delete;
+  RealtimePublisher& operator=(const RealtimePublisher&) = delete;
+
+  /// Ends the publishing thread and withdraws the topic. A message not yet taken is dropped.
+  ~RealtimePublisher() {
+    stop();
+    join();
+    publisher_.shutdown();
+  }
+
+  /// Advertises and starts the publishing thread; afterwards trylock() succeeds at once. When
+  /// called again it ends what it had started before.
+  ///
+  /// @param node where the topic lives.
+  /// @param topic name, resolved by `node`.
+  /// @param queue_size of the publisher towards its subscribers [messages].
+  /// @param latched whether late subscribers get the last message.
+  /// @throw ros::InvalidNameException if the topic's name is not valid.
+  void init(const ros::NodeHandle& node,
+            const std::string& topic,
+            int queue_size,
+            bool latched = false) {
+    stop();
+    join();
+    ros::NodeHandle handle(node);
+    publisher_ = handle.advertise<Msg>(topic, static_cast<uint32_t>(queue_size), latched);
+    turn_.open();
+    thread_ = std::thread(&RealtimePublisher::publishingLoop, this);
+  }
+
+  /// Asks the publishing thread to end, without waiting for it. Later messages are not sent.
+  void stop() { turn_.stop(); }
+
+  /// Takes the lock if it is free and the previous message has been taken by the publishing
+  /// thread. @return whether msg_ may be filled now.
+  bool trylock() noexcept { return turn_.tryLock(); }
+
+  /// Releases the lock and has msg_ published.
+  void unlockAndPublish() noexcept { turn_.unlockAndHandOver(); }
+
+  /// Waits for the lock, whether or not the previous message has been taken. Not real-time safe.
+  void lock() noexcept { turn_.lock(); }
+
+  /// Releases the lock without publishing.
+  void unlock() noexcept { turn_.unlock(); }
+
+ private:
+  void publishingLoop() {
+    // Lives as long as the thread, so that copying reuses its memory.
+    Msg outgoing;
+    while (turn_.waitForTurn()) {
+      outgoing = msg_;
+      turn_.unlockAndReturn();
+      publisher_.publish(outgoing);
+    }
+  }
+
+  void join() {
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+
+  ros::Publisher publisher_;
+  detail::TurnLock turn_;
+  std::thread thread_;
+};
+
+template <class Msg>
+using RealtimePublisherSharedPtr = std::shared_ptr<RealtimePublisher<Msg>>;
+
+}  // namespace realtime_tools

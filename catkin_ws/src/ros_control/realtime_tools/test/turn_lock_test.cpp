@@ -1,0 +1,141 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "realtime_tools/detail/turn_lock.h"
+
+using realtime_tools::detail::TurnLock;
+
+namespace {
+
+/// Asks until `condition` holds, at most 10 s, and never again once it did.
+/// @return whether it holds.
+template <class Condition>
+bool eventually(Condition condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST(TurnLock, IsClosedUntilOpened) {
+  TurnLock turn;
+  EXPECT_FALSE(turn.tryLock());
+  turn.open();
+  EXPECT_TRUE(turn.tryLock());
+  EXPECT_FALSE(turn.tryLock());
+  turn.unlock();
+  EXPECT_TRUE(turn.tryLock());
+}
+
+TEST(TurnLock, RealTimeSideWaitsForItsTurnOthersOnlyForTheLock) {
+  TurnLock turn;
+  turn.open();
+  ASSERT_TRUE(turn.tryLock());
+  turn.unlockAndHandOver();
+  EXPECT_FALSE(turn.tryLock());
+  turn.lock();
+  turn.unlock();
+  EXPECT_FALSE(turn.tryLock());
+  EXPECT_TRUE(turn.waitForTurn());
+  EXPECT_FALSE(turn.tryLock());
+  turn.unlockAndReturn();
+  EXPECT_TRUE(turn.tryLock());
+}
+
+TEST(TurnLock, StopEndsTheWaitOfASleepingThread) {
+  TurnLock turn;
+  turn.open();
+  std::atomic<bool> ended{false};
+  std::thread publisher([&] {
+    EXPECT_FALSE(turn.waitForTurn());
+    ended = true;
+  });
+  EXPECT_FALSE(ended);
+  turn.stop();
+  publisher.join();
+  EXPECT_TRUE(ended);
+}
+
+TEST(TurnLock, UnlockWakesAThreadThatWaitsForTheLock) {
+  TurnLock turn;
+  turn.open();
+  turn.lock();
+  std::atomic<bool> entered{false};
+  std::thread other([&] {
+    std::lock_guard<TurnLock> guard(turn);
+    entered = true;
+  });
+  std::this_thread::yield();
+  EXPECT_FALSE(entered);
+  turn.unlock();
+  EXPECT_TRUE(eventually([&] { return entered.load(); }));
+  other.join();
+}
+
+// A real-time side, a publishing thread and a bystander on one lock: nobody is in it together,
+// nothing handed over is lost or taken twice, and all of them come to an end.
+TEST(TurnLock, HandsEveryTurnOverOnceUnderContention) {
+  constexpr int kTurns = 20000;
+  TurnLock turn;
+  turn.open();
+  int message = 0;  // unsynchronised on purpose: the lock alone protects it
+  int inside = 0;
+  int collisions = 0;
+  int taken = 0;
+  int wrong = 0;
+  std::atomic<bool> done{false};
+
+  std::thread publisher([&] {
+    while (turn.waitForTurn()) {
+      collisions += inside++ != 0 ? 1 : 0;
+      ++taken;
+      wrong += message != taken ? 1 : 0;
+      --inside;
+      turn.unlockAndReturn();
+    }
+  });
+  std::thread bystander([&] {
+    while (!done) {
+      turn.lock();
+      collisions += inside++ != 0 ? 1 : 0;
+      --inside;
+      turn.unlock();
+    }
+  });
+  int sent = 0;
+  while (sent < kTurns) {
+    if (turn.tryLock()) {
+      collisions += inside++ != 0 ? 1 : 0;
+      message = ++sent;
+      --inside;
+      turn.unlockAndHandOver();
+    } else {
+      std::this_thread::yield();
+    }
+  }
+  EXPECT_TRUE(eventually([&] {
+    turn.lock();
+    const bool all = taken == kTurns;
+    turn.unlock();
+    return all;
+  }));
+  done = true;
+  bystander.join();
+  turn.stop();
+  publisher.join();
+  EXPECT_EQ(0, collisions);
+  EXPECT_EQ(0, wrong);
+  EXPECT_EQ(kTurns, taken);
+}
