@@ -1,0 +1,303 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_control/franka_state_controller.h>
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <franka_control/state_conversions.h>
+#include <gtest/gtest.h>
+#include <hardware_interface/robot_hw.h>
+#include <pluginlib/class_loader.h>
+#include <ros/ros.h>
+#include <rt_guard/rt_guard.h>
+
+#include "random_state.h"
+
+namespace franka_control {
+namespace {
+
+constexpr std::chrono::seconds kDeadline{10};
+using Names = std::vector<std::string>;
+
+Names jointNames(const std::string& arm_id, int count = 7) {
+  Names names;
+  for (int i = 1; i <= count; ++i) {
+    names.push_back(arm_id + "_joint" + std::to_string(i));
+  }
+  return names;
+}
+
+bool waitFor(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + kDeadline;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+/// Keeps what arrives on one topic.
+template <typename Message>
+class Listener {
+ public:
+  explicit Listener(const std::string& topic) {
+    subscriber_ = ros::NodeHandle().subscribe<Message>(
+        topic, 2000, [this](const boost::shared_ptr<const Message>& message) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          messages_.push_back(*message);
+        });
+  }
+  bool isConnected() const { return subscriber_.getNumPublishers() > 0; }
+  std::size_t count() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return messages_.size();
+  }
+  Message last() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return messages_.back();
+  }
+  std::vector<Message> all() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return messages_;
+  }
+
+ private:
+  ros::Subscriber subscriber_;
+  mutable std::mutex mutex_;
+  std::vector<Message> messages_;
+};
+
+/// Hardware that owns the state of one arm.
+class FakeRobot : public hardware_interface::RobotHW {
+ public:
+  explicit FakeRobot(const std::string& arm_id) {
+    states_.registerHandle(franka_hw::FrankaStateHandle(arm_id + "_robot", state));
+    registerInterface(&states_);
+  }
+  franka::RobotState state;
+
+ private:
+  franka_hw::FrankaStateInterface states_;
+};
+
+class FrankaStateControllerTest : public testing::Test {
+ protected:
+  FrankaStateControllerTest() : node("~" + nextName()) {}
+
+  static std::string nextName() {
+    static int number = 0;
+    return "state_controller_" + std::to_string(++number);
+  }
+
+  void setParameters(const std::string& arm_id) {
+    node.setParam("arm_id", arm_id);
+    node.setParam("joint_names", jointNames(arm_id));
+  }
+
+  bool initialise(FrankaStateController& controller, hardware_interface::RobotHW& robot) {
+    ros::NodeHandle root;
+    controller_interface::ControllerBase::ClaimedResources claims;
+    controller_interface::ControllerBase& base = controller;
+    const bool is_ready = base.initRequest(&robot, root, node, claims);
+    if (is_ready) {
+      EXPECT_EQ(1U, claims.size());
+      EXPECT_TRUE(claims.front().resources.empty());
+    }
+    return is_ready;
+  }
+
+  ros::NodeHandle node;
+  const ros::Duration kMillisecond{0.001};
+};
+
+TEST_F(FrankaStateControllerTest, PublishesEveryTopicOfAnyArm) {
+  for (const std::string arm_id : {"panda", "fr3", "left_arm_2"}) {
+    setParameters(arm_id);
+    FakeRobot robot(arm_id);
+    RandomStates states;
+    robot.state = states.next();
+    robot.state.NE_T_EE = {{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1}};
+
+    FrankaStateController controller;
+    ASSERT_TRUE(initialise(controller, robot));
+    Listener<franka_msgs::FrankaState> state(node.resolveName("franka_states"));
+    Listener<tf2_msgs::TFMessage> transforms("/tf");
+    Listener<geometry_msgs::WrenchStamped> wrench(node.resolveName("F_ext"));
+    Listener<sensor_msgs::JointState> joints(node.resolveName("joint_states"));
+    Listener<sensor_msgs::JointState> desired(node.resolveName("joint_states_desired"));
+    ASSERT_TRUE(waitFor([&] {
+      return state.isConnected() && transforms.isConnected() && wrench.isConnected() &&
+             joints.isConnected() && desired.isConnected();
+    }));
+
+    const ros::Time stamp(12.345);
+    controller.update(stamp, kMillisecond);
+    ASSERT_TRUE(waitFor([&] {
+      return state.count() > 0 && transforms.count() > 0 && wrench.count() > 0 &&
+             joints.count() > 0 && desired.count() > 0;
+    }));
+
+    franka_msgs::FrankaState expected;
+    toMessage(robot.state, expected);
+    expected.header = state.last().header;  // compared by itself
+    EXPECT_EQ(expected, state.last());
+    EXPECT_EQ(stamp, state.last().header.stamp);
+    EXPECT_EQ("", state.last().header.frame_id);
+
+    EXPECT_EQ(arm_id + "_K", wrench.last().header.frame_id);
+    EXPECT_EQ(stamp, wrench.last().header.stamp);
+    EXPECT_EQ(robot.state.K_F_ext_hat_K[0], wrench.last().wrench.force.x);
+    EXPECT_EQ(robot.state.K_F_ext_hat_K[1], wrench.last().wrench.force.y);
+    EXPECT_EQ(robot.state.K_F_ext_hat_K[2], wrench.last().wrench.force.z);
+    EXPECT_EQ(robot.state.K_F_ext_hat_K[3], wrench.last().wrench.torque.x);
+    EXPECT_EQ(robot.state.K_F_ext_hat_K[4], wrench.last().wrench.torque.y);
+    EXPECT_EQ(robot.state.K_F_ext_hat_K[5], wrench.last().wrench.torque.z);
+
+    const auto expectJoints = [&](const sensor_msgs::JointState& message,
+                                  const std::array<double, 7>& position,
+                                  const std::array<double, 7>& velocity,
+                                  const std::array<double, 7>& effort) {
+      EXPECT_EQ(jointNames(arm_id), message.name);
+      EXPECT_EQ(stamp, message.header.stamp);
+      EXPECT_EQ(std::vector<double>(position.begin(), position.end()), message.position);
+      EXPECT_EQ(std::vector<double>(velocity.begin(), velocity.end()), message.velocity);
+      EXPECT_EQ(std::vector<double>(effort.begin(), effort.end()), message.effort);
+    };
+    expectJoints(joints.last(), robot.state.q, robot.state.dq, robot.state.tau_J);
+    expectJoints(desired.last(), robot.state.q_d, robot.state.dq_d, robot.state.tau_J_d);
+
+    ASSERT_EQ(3U, transforms.last().transforms.size());
+    const std::vector<std::string> chain{arm_id + "_link8", arm_id + "_NE", arm_id + "_EE",
+                                         arm_id + "_K"};
+    const std::vector<std::array<double, 16>> matrices{robot.state.F_T_NE, robot.state.NE_T_EE,
+                                                       robot.state.EE_T_K};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& transform = transforms.last().transforms[i];
+      EXPECT_EQ(chain[i], transform.header.frame_id);
+      EXPECT_EQ(chain[i + 1], transform.child_frame_id);
+      EXPECT_EQ(stamp, transform.header.stamp);
+      EXPECT_EQ(toTransform(matrices[i]), transform.transform);
+    }
+    EXPECT_NEAR(std::sqrt(0.5), transforms.last().transforms[1].transform.rotation.z, 1e-12);
+  }
+}
+
+TEST_F(FrankaStateControllerTest, PublishesAtTheRateAskedFor) {
+  setParameters("panda");
+  node.setParam("publish_rate", 100);  // an integer is a number, too
+  FakeRobot robot("panda");
+  FrankaStateController controller;
+  ASSERT_TRUE(initialise(controller, robot));
+  Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
+  ASSERT_TRUE(waitFor([&] { return states.isConnected(); }));
+
+  // One simulated second, no faster than the messages are taken.
+  std::size_t expected = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    controller.update(ros::Time(100.0 + i * 1e-3), kMillisecond);
+    if (i % 10 == 1) {
+      ++expected;
+      ASSERT_TRUE(waitFor([&] { return states.count() == expected; })) << i;
+    }
+    ASSERT_EQ(expected, states.count()) << i;
+  }
+  EXPECT_EQ(100U, states.count());
+  const auto all = states.all();
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    EXPECT_NEAR(0.01, (all[i].header.stamp - all[i - 1].header.stamp).toSec(), 1e-9);
+    EXPECT_EQ(all[i - 1].header.seq + 1, all[i].header.seq);
+  }
+}
+
+TEST_F(FrankaStateControllerTest, PublishesThirtyTimesASecondUnlessTold) {
+  setParameters("panda");
+  FakeRobot robot("panda");
+  FrankaStateController controller;
+  ASSERT_TRUE(initialise(controller, robot));
+  Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
+  ASSERT_TRUE(waitFor([&] { return states.isConnected(); }));
+  for (const double offset : {0.0, 0.033, 0.034, 0.066, 0.067, 0.1}) {
+    controller.update(ros::Time(50.0 + offset), kMillisecond);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ASSERT_TRUE(waitFor([&] { return states.count() >= 4; }));
+  EXPECT_EQ(4U, states.count());
+}
+
+TEST_F(FrankaStateControllerTest, UpdateNeitherAllocatesNorLocks) {
+  setParameters("panda");
+  node.setParam("publish_rate", 1000.0);
+  FakeRobot robot("panda");
+  robot.state = RandomStates().next();
+  FrankaStateController controller;
+  ASSERT_TRUE(initialise(controller, robot));
+  for (int i = 1; i <= 200; ++i) {
+    const ros::Time now(10.0 + i * 1e-3);
+    rt_guard::Scope scope;
+    controller.update(now, kMillisecond);
+    EXPECT_EQ(0U, scope.allocations());
+    EXPECT_EQ(0U, scope.locks());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+TEST_F(FrankaStateControllerTest, RefusesMissingAndWrongParameters) {
+  FakeRobot robot("panda");
+  const auto refused = [&] {
+    FrankaStateController controller;
+    return !initialise(controller, robot);
+  };
+  EXPECT_TRUE(refused()) << "nothing is set";
+  node.setParam("arm_id", "panda");
+  EXPECT_TRUE(refused()) << "joint_names are missing";
+  for (int count : {0, 1, 6, 8}) {
+    node.setParam("joint_names", jointNames("panda", count));
+    EXPECT_TRUE(refused()) << count << " joints";
+  }
+  node.setParam("joint_names", "panda_joint1");
+  EXPECT_TRUE(refused()) << "joint_names are a string";
+  setParameters("panda");
+  node.setParam("arm_id", 7);
+  EXPECT_TRUE(refused()) << "arm_id is a number";
+  node.setParam("arm_id", "fr3");
+  EXPECT_TRUE(refused()) << "another arm";
+  node.setParam("arm_id", "panda");
+  for (double rate : {0.0, -30.0, std::nan("")}) {
+    node.setParam("publish_rate", rate);
+    EXPECT_TRUE(refused()) << rate << " Hz";
+  }
+  node.setParam("publish_rate", "often");
+  EXPECT_TRUE(refused()) << "publish_rate is a string";
+  node.setParam("publish_rate", 30.0);
+  EXPECT_FALSE(refused());
+
+  hardware_interface::RobotHW no_franka;
+  FrankaStateController controller;
+  EXPECT_FALSE(initialise(controller, no_franka));
+}
+
+TEST_F(FrankaStateControllerTest, IsFoundAsAPlugin) {
+  pluginlib::ClassLoader<controller_interface::ControllerBase> loader(
+      "controller_interface", "controller_interface::ControllerBase");
+  EXPECT_NE(nullptr, loader.createUniqueInstance("franka_control/FrankaStateController"));
+}
+
+}  // namespace
+}  // namespace franka_control
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "franka_state_controller_test");
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

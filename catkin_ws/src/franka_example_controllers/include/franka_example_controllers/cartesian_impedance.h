@@ -1,0 +1,80 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace franka_example_controllers {
+
+/// How stiffly an arm is held.
+struct Compliance {
+  double translational_stiffness{0.0};  ///< [N/m]
+  double rotational_stiffness{0.0};     ///< [Nm/rad]
+  double nullspace_stiffness{0.0};      ///< [Nm/rad]
+};
+
+/// A Cartesian impedance with a null-space impedance for one seven-joint arm.
+///
+/// The end effector is drawn to an equilibrium pose by springs and critical dampers (2 sqrt(K)), the
+/// elbow to its start configuration in the null space. Stiffness, damping and equilibrium approach what
+/// they are set to by 0.5 % per update, so that nothing jumps. Gravity is left to the robot.
+///
+/// One thread, 1 kHz: no allocation, no lock, no exception. Frame O, units [m] [rad] [N] [Nm].
+class CartesianImpedance {
+ public:
+  using Vector7 = Eigen::Matrix<double, 7, 1>;
+
+  /// What the law needs to know of the arm in one cycle.
+  struct Arm {
+    std::array<double, 16> O_T_EE;         ///< 4x4 column-major
+    std::array<double, 42> zero_jacobian;  ///< of the end effector, 6x7 column-major
+    std::array<double, 7> coriolis;
+    std::array<double, 7> q;
+    std::array<double, 7> dq;
+    std::array<double, 7> tau_J_d;  ///< torque commanded in the last cycle, without gravity
+  };
+
+  /// Begins at a pose and a configuration, which become the equilibrium. Springs and dampers of the end
+  /// effector grow from zero; the null-space stiffness is as set at once.
+  void start(const std::array<double, 16>& O_T_EE, const std::array<double, 7>& q,
+             double nullspace_stiffness) noexcept;
+
+  /// Where the end effector is to be drawn. @param orientation a unit quaternion
+  void setEquilibrium(const Eigen::Vector3d& position,
+                      const Eigen::Quaterniond& orientation) noexcept;
+
+  void setCompliance(const Compliance& compliance) noexcept { compliance_target_ = compliance; }
+
+  /// Torques of this cycle without gravity; each differs from tau_J_d by 1 Nm at most.
+  Vector7 update(const Arm& arm) noexcept;
+
+ private:
+  /// Spring and damper constants, for the translations (index 0) and the rotations (index 1).
+  struct Gains {
+    std::array<double, 2> stiffness{};
+    std::array<double, 2> damping{};
+  };
+
+  Eigen::Matrix<double, 6, 1> poseError(const std::array<double, 16>& O_T_EE) const noexcept;
+  void approachTargets() noexcept;
+
+  Gains gains_;
+  double nullspace_stiffness_{0.0};
+  Compliance compliance_target_;
+  Eigen::Vector3d position_d_{Eigen::Vector3d::Zero()};
+  Eigen::Quaterniond orientation_d_{Eigen::Quaterniond::Identity()};
+  Eigen::Vector3d position_target_{Eigen::Vector3d::Zero()};
+  Eigen::Quaterniond orientation_target_{Eigen::Quaterniond::Identity()};
+  Vector7 q_nullspace_{Vector7::Zero()};
+};
+
+/// Limits the change of the torques from one cycle to the next, as the robot demands it.
+/// @param tau wanted, @param tau_J_d commanded in the last cycle, @param largest_step [Nm]
+CartesianImpedance::Vector7 saturateTorqueRate(const CartesianImpedance::Vector7& tau,
+                                               const CartesianImpedance::Vector7& tau_J_d,
+                                               double largest_step = 1.0) noexcept;
+
+}  // namespace franka_example_controllers

@@ -1,0 +1,22 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+namespace franka_example_controllers {
+
+/// Reads the name of the arm from `arm_id` in a controller's namespace.
+/// @param controller class name that begins the sentence in the log when this fails
+/// @returns false when it is missing, empty or no string
+bool readArmId(const char* controller, const ros::NodeHandle& node_handle, std::string& arm_id);
+
+/// Reads the arm's seven joint names from `joint_names` in a controller's namespace.
+/// @returns false, after one sentence in the log, when there are not seven
+bool readJointNames(const char* controller, const ros::NodeHandle& node_handle,
+                    std::vector<std::string>& joint_names);
+
+}  // namespace franka_example_controllers

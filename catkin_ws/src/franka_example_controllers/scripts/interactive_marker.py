@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Lets a person drag the equilibrium pose of an impedance controller in rviz.
+
+Takes the arm's pose from franka_state_controller/franka_states, shows a marker there and publishes
+where the marker is on equilibrium_pose, every 5 ms of ROS time. The marker's frame is the private
+parameter link_name, the base of the arm (<arm_id>_link0).
+"""
+
+import math
+import sys
+import threading
+
+import rospy
+from franka_msgs.msg import FrankaState
+from geometry_msgs.msg import Pose, PoseStamped
+from interactive_markers.interactive_marker_server import InteractiveMarkerServer
+from visualization_msgs.msg import (
+    InteractiveMarker,
+    InteractiveMarkerControl,
+    InteractiveMarkerFeedback,
+)
+
+# Where the marker may go [m]: about what the arm can reach, and above the table.
+POSITION_LIMITS = {"x": (-0.6, 0.6), "y": (-0.6, 0.6), "z": (0.05, 0.9)}
+PUBLISH_PERIOD = 0.005  # [s]
+MARKER_SCALE = 0.3  # [m]
+
+
+def clamp(value, limits):
+    """The number nearest to value within (lowest, highest)."""
+    return min(max(value, limits[0]), limits[1])
+
+
+def clamp_position(position):
+    """Moves a geometry_msgs/Point, in place, to where the marker may be."""
+    for axis, limits in POSITION_LIMITS.items():
+        setattr(position, axis, clamp(getattr(position, axis), limits))
+
+
+def rotation_to_quaternion(m):
+    """Unit quaternion (x, y, z, w) of a rotation, given as three rows of three numbers."""
+    # Of four ways to compute it, the one that divides by the largest component is exact enough.
+    squares = (
+        1 + m[0][0] - m[1][1] - m[2][2],
+        1 - m[0][0] + m[1][1] - m[2][2],
+        1 - m[0][0] - m[1][1] + m[2][2],
+        1 + m[0][0] + m[1][1] + m[2][2],
+    )
+    largest = squares.index(max(squares))
+    sums = {
+        (0, 1): m[1][0] + m[0][1],
+        (0, 2): m[0][2] + m[2][0],
+        (1, 2): m[2][1] + m[1][2],
+        (0, 3): m[2][1] - m[1][2],
+        (1, 3): m[0][2] - m[2][0],
+        (2, 3): m[1][0] - m[0][1],
+    }
+    quaternion = [
+        squares[i] if i == largest else sums[tuple(sorted((i, largest)))] for i in range(4)
+    ]
+    length = math.sqrt(sum(value * value for value in quaternion))
+    return tuple(value / length for value in quaternion)
+
+
+def pose_from_state(state):
+    """Measured pose of the end effector in O, from a franka_msgs/FrankaState; None if it has none."""
+    matrix = state.O_T_EE  # 4x4 column-major
+    if not all(math.isfinite(value) for value in matrix) or matrix[15] != 1.0:
+        return None
+    pose = Pose()
+    pose.position.x, pose.position.y, pose.position.z = matrix[12:15]
+    rows = [[matrix[4 * column + row] for column in range(3)] for row in range(3)]
+    quaternion = rotation_to_quaternion(rows)
+    pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w = quaternion
+    return pose
+
+
+def axis_controls():
+    """Six handles: turning about and moving along each axis."""
+    half = math.sqrt(0.5)
+    axes = {"x": (half, 0.0, 0.0), "y": (0.0, 0.0, half), "z": (0.0, half, 0.0)}
+    modes = {
+        "rotate": InteractiveMarkerControl.ROTATE_AXIS,
+        "move": InteractiveMarkerControl.MOVE_AXIS,
+    }
+    controls = []
+    for axis, (x, y, z) in axes.items():
+        for verb, mode in modes.items():
+            control = InteractiveMarkerControl()
+            control.name = verb + "_" + axis
+            control.interaction_mode = mode
+            control.orientation.x = x
+            control.orientation.y = y
+            control.orientation.z = z
+            control.orientation.w = half
+            controls.append(control)
+    return controls
+
+
+class EquilibriumPoseMarker:
+    """The marker in rviz, and the topic that says where it is."""
+
+    def __init__(self, link_name, pose):
+        self._link_name = link_name
+        self._pose = pose
+        self._lock = threading.Lock()  # rviz moves the marker in one thread, a timer publishes in another
+        self._publisher = rospy.Publisher("equilibrium_pose", PoseStamped, queue_size=10)
+        self._server = InteractiveMarkerServer("equilibrium_pose_marker")
+        self._insert_marker()
+        # reset: a simulation that is started anew sets the time back, and publishing goes on.
+        self._timer = rospy.Timer(rospy.Duration(PUBLISH_PERIOD), self._publish, reset=True)
+
+    def _insert_marker(self):
+        marker = InteractiveMarker()
+        marker.header.frame_id = self._link_name
+        marker.name = "equilibrium_pose"
+        marker.description = (
+            "Equilibrium pose\nThe impedance controller draws the end effector here"
+        )
+        marker.scale = MARKER_SCALE
+        marker.pose = self._pose
+        marker.controls = axis_controls()
+        self._server.insert(marker, self._feedback)
+        self._server.applyChanges()
+
+    def _feedback(self, feedback):
+        if feedback.event_type != InteractiveMarkerFeedback.POSE_UPDATE:
+            return
+        pose = feedback.pose
+        clamp_position(pose.position)
+        with self._lock:
+            self._pose = pose
+        self._server.setPose("equilibrium_pose", pose)
+        self._server.applyChanges()
+
+    def _publish(self, _event):
+        message = PoseStamped()
+        message.header.frame_id = self._link_name
+        message.header.stamp = rospy.Time.now()
+        with self._lock:
+            message.pose = self._pose
+        try:
+            self._publisher.publish(message)
+        except rospy.ROSException:  # the node shuts down while the timer still runs
+            pass
+
+
+def wait_for_pose():
+    """The arm's pose from the first good state; None when the node is shut down before it comes."""
+    topic = "franka_state_controller/franka_states"
+    while not rospy.is_shutdown():
+        try:
+            # The timeout would run on ROS time, which stands still until a simulation starts: without
+            # one the wait works at any time.
+            pose = pose_from_state(rospy.wait_for_message(topic, FrankaState))
+        except rospy.ROSInterruptException:
+            return None
+        except rospy.ROSException:
+            continue
+        if pose is not None:
+            return pose
+    return None
+
+
+def main():
+    rospy.init_node("equilibrium_pose_node")
+    link_name = rospy.get_param("~link_name", None)
+    if not isinstance(link_name, str) or not link_name:
+        rospy.logfatal(
+            "interactive_marker.py: set the parameter %s to the base link of the arm, such as "
+            "'panda_link0'.",
+            rospy.resolve_name("~link_name"),
+        )
+        return 1
+    rospy.loginfo(
+        "Waiting for the arm's pose on %s.",
+        rospy.resolve_name("franka_state_controller/franka_states"),
+    )
+    pose = wait_for_pose()
+    if pose is None:
+        return 0
+    _marker = EquilibriumPoseMarker(link_name, pose)
+    rospy.spin()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
