@@ -1,14 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/robot/control_unit.h>
-
-#include <cmath>
-#include <cstddef>
-
 #include <franka_sim_mujoco/robot/friction.h>
 #include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/robot/tick.h>
 #include <franka_sim_mujoco/robot/transforms.h>
+
+#include <cmath>
+#include <cstddef>
 
 namespace franka_sim_mujoco {
 
@@ -61,7 +60,7 @@ ControlUnit::ControlUnit(const ControlUnitParameters& parameters)
 
 const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measurement) noexcept {
   const bool good = isFinite(measurement);
-  const bool measured = good && continuous_ && !braked_;
+  const bool measured = good && continuous_;
   const bool first = !started_;
   continuous_ = good;
   started_ = true;
@@ -132,8 +131,8 @@ void ControlUnit::observeDesired() noexcept {
     return;
   }
   desired_stale_ = false;
-  state_.O_T_EE_d = parameters_.model.pose(ArmFrame::kEndEffector, state_.q_d, state_.F_T_EE,
-                                           state_.EE_T_K);
+  state_.O_T_EE_d =
+      parameters_.model.pose(ArmFrame::kEndEffector, state_.q_d, state_.F_T_EE, state_.EE_T_K);
   state_.O_T_EE_c = state_.O_T_EE_d;
   state_.elbow_d = elbowOf(state_.q_d);
   state_.elbow_c = state_.elbow_d;
@@ -141,7 +140,8 @@ void ControlUnit::observeDesired() noexcept {
 
 // --- actuate: command -> torques -----------------------------------------------------------------
 
-const std::array<double, 7>& ControlUnit::actuate(const franka_core::RobotCommand* command) noexcept {
+const std::array<double, 7>& ControlUnit::actuate(
+    const franka_core::RobotCommand* command) noexcept {
   std::array<double, 7> tau{};
   if (takeCommand(command)) {
     tau = torque_command_.value();
@@ -150,13 +150,12 @@ const std::array<double, 7>& ControlUnit::actuate(const franka_core::RobotComman
                                 dynamics_.coriolis),
                    parameters_.max_torque);
   }
-  braked_ = modes_.brakesClosed();
-  if (braked_ || !started_) {
+  if (brakesClosed() || !started_) {
     motor_torque_.fill(0.0);
     return motor_torque_;
   }
-  const std::array<double, 7> friction = frictionCompensation(
-      parameters_.coulomb_friction, parameters_.viscous_friction, state_.dq);
+  const std::array<double, 7> friction =
+      frictionCompensation(parameters_.coulomb_friction, parameters_.viscous_friction, state_.dq);
   for (std::size_t i = 0; i < 7; i++) {
     motor_torque_[i] = tau[i] + dynamics_.gravity[i] + friction[i];
   }
@@ -255,7 +254,6 @@ RequestStatus ControlUnit::setCollisionBehavior(const CollisionThresholds& accel
 void ControlUnit::restart() noexcept {
   started_ = false;
   continuous_ = false;
-  braked_ = false;
   tau_ext_filter_.restart();
   dtau_J_filter_.restart();
   joint_contacts_.clear();

@@ -1,10 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/robot/external_torque.h>
+#include <franka_sim_mujoco/robot/tick.h>
 
 #include <cstddef>
-
-#include <franka_sim_mujoco/robot/tick.h>
 
 namespace franka_sim_mujoco {
 

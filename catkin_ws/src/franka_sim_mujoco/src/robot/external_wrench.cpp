@@ -17,7 +17,8 @@ using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 constexpr double kSmallestSingularValue = 0.02;  // decision 5
 
-// A symmetric matrix minus s^2 times one is positive definite exactly if its eigenvalues exceed s^2.
+// A symmetric matrix minus s^2 times one is positive definite exactly if its eigenvalues exceed
+// s^2.
 bool isSingular(const Matrix6& gram) noexcept {
   Matrix6 shifted = gram;
   shifted.diagonal().array() -= kSmallestSingularValue * kSmallestSingularValue;
@@ -52,8 +53,8 @@ std::array<double, 6> ExternalWrench::inBase(const std::array<double, 7>& tau) c
   std::array<double, 6> wrench{};
   if (!singular_) {
     Eigen::Map<Vector6>(wrench.data()).noalias() =
-        Eigen::Map<const Jacobian>(inverse_.data()).lazyProduct(
-            Eigen::Map<const Vector7>(tau.data()));
+        Eigen::Map<const Jacobian>(inverse_.data())
+            .lazyProduct(Eigen::Map<const Vector7>(tau.data()));
   }
   return wrench;
 }

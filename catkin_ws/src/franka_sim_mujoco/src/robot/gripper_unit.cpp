@@ -12,9 +12,10 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr double kForceRise = 0.05;        // [s] until a grasp presses with its full force (our choice)
-constexpr double kSlowest = 1e-5;          // [m/s]: what moves slower does not move (our choice)
-constexpr double kPressingDamping = 20.0;  // [N s/m] at most: stable at 1 kHz for fingers from 0.015 kg on
+constexpr double kForceRise = 0.05;  // [s] until a grasp presses with its full force (our choice)
+constexpr double kSlowest = 1e-5;    // [m/s]: what moves slower does not move (our choice)
+constexpr double kPressingDamping =
+    20.0;  // [N s/m] at most: stable at 1 kHz for fingers from 0.015 kg on
 
 bool isPositive(double value) noexcept { return std::isfinite(value) && value > 0.0; }
 bool isNotNegative(double value) noexcept { return std::isfinite(value) && value >= 0.0; }
@@ -43,7 +44,8 @@ const GripperParameters& checked(const GripperParameters& parameters) {
   require(isNotNegative(parameters.resting_threshold), "grasp/resting_threshold",
           "a speed in metres per second that is not negative");
   require(parameters.consecutive_samples >= 1, "grasp/consecutive_samples", "1 or more");
-  require(isPositive(parameters.homing_speed), "homing_speed", "a positive speed in metres per second");
+  require(isPositive(parameters.homing_speed), "homing_speed",
+          "a positive speed in metres per second");
   require(isPositive(parameters.max_speed), "max_speed", "a positive speed in metres per second");
   require(isPositive(parameters.max_force), "max_force", "a positive force in newtons");
   return parameters;
@@ -103,9 +105,7 @@ GripperUnit::Ticket GripperUnit::stop() noexcept {
   return ticket;
 }
 
-void GripperUnit::restart() noexcept {
-  idle(GripperOutcome::kInterrupted);
-}
+void GripperUnit::restart() noexcept { idle(GripperOutcome::kInterrupted); }
 
 bool GripperUnit::isGrasped() const noexcept {
   return state_ == GripperState::kHolding && withinGrasp();
@@ -228,7 +228,8 @@ std::array<double, 2> GripperUnit::press() const noexcept {
   const double rise = std::min(pressed_ / kForceRise, 1.0);
   std::array<double, 2> force;
   for (std::size_t i = 0; i < 2; i++) {
-    force[i] = rise * (grasp_.opens ? grasp_.force : -grasp_.force) - grasp_.damping * measured_.dq[i] +
+    force[i] = rise * (grasp_.opens ? grasp_.force : -grasp_.force) -
+               grasp_.damping * measured_.dq[i] +
                fingers_[i].gains().p * (measured_.q[1 - i] - measured_.q[i]);
   }
   return force;

@@ -7,10 +7,12 @@
 
 namespace franka_sim_mujoco {
 
-std::array<double, 7> JointImpedance::torque(
-    const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
-    const std::array<double, 7>& q, const std::array<double, 7>& dq,
-    const std::array<double, 49>& mass, const std::array<double, 7>& coriolis) const noexcept {
+std::array<double, 7> JointImpedance::torque(const std::array<double, 7>& q_d,
+                                             const std::array<double, 7>& dq_d,
+                                             const std::array<double, 7>& q,
+                                             const std::array<double, 7>& dq,
+                                             const std::array<double, 49>& mass,
+                                             const std::array<double, 7>& coriolis) const noexcept {
   std::array<double, 7> tau;
   for (std::size_t i = 0; i < 7; i++) {
     const double inertia = mass[8 * i] + rotor_inertia_[i];

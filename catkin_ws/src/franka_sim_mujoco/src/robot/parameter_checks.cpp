@@ -1,17 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/robot/parameter_checks.h>
+#include <franka_sim_mujoco/robot/transforms.h>
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-
-#include <Eigen/Core>
-#include <Eigen/LU>
-
-#include <franka_sim_mujoco/robot/transforms.h>
 
 namespace franka_sim_mujoco {
 
@@ -28,8 +26,8 @@ bool allFiniteNotNegative(const std::array<double, N>& values) noexcept {
                      [](double v) { return std::isfinite(v) && v >= 0.0; });
 }
 
-// Sylvester for semidefinite matrices: no principal minor is negative. The tolerances are relative, so
-// that matrices printed with six digits pass.
+// Sylvester for semidefinite matrices: no principal minor is negative. The tolerances are relative,
+// so that matrices printed with six digits pass.
 bool isInertia(const std::array<double, 9>& inertia) noexcept {
   const Eigen::Map<const Eigen::Matrix3d> I(inertia.data());
   const double scale = I.cwiseAbs().maxCoeff();

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/robot/transforms.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 namespace franka_sim_mujoco {
 
@@ -15,7 +14,8 @@ namespace {
 constexpr double kTolerance = 1e-5;
 
 bool isRotation(const Eigen::Matrix3d& rotation) noexcept {
-  // Lengths, not their squares: four-digit matrices such as 0.7071 must pass, as they do at the client.
+  // Lengths, not their squares: four-digit matrices such as 0.7071 must pass, as they do at the
+  // client.
   for (int i = 0; i < 3; i++) {
     if (std::abs(rotation.col(i).norm() - 1.0) > kTolerance ||
         std::abs(rotation.row(i).norm() - 1.0) > kTolerance ||
@@ -36,8 +36,8 @@ Transform multiply(const Transform& a, const Transform& b) noexcept {
 }
 
 bool isTransform(const Transform& matrix) noexcept {
-  const bool finite = std::all_of(matrix.begin(), matrix.end(),
-                                  [](double value) { return std::isfinite(value); });
+  const bool finite =
+      std::all_of(matrix.begin(), matrix.end(), [](double value) { return std::isfinite(value); });
   if (!finite) {
     return false;
   }

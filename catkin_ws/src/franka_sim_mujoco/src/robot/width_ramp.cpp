@@ -9,7 +9,7 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr double kAcceleration = 2.0;  // of the width [m/s^2]: full speed within 0.05 s (our choice)
+constexpr double kAcceleration = 1.0;  // of the width [m/s^2]: full speed within 0.1 s (our choice)
 
 }  // namespace
 
@@ -24,10 +24,8 @@ void WidthRamp::step(double period) noexcept {
   const double remaining = std::abs(target_ - width_);
   const double direction = target_ > width_ ? 1.0 : -1.0;
   const double braking = std::sqrt(2.0 * kAcceleration * remaining);
-  const double speed =
-      std::min({speed_, std::abs(velocity_) + kAcceleration * period, braking});
-  // The braking parabola never quite ends in discrete steps: the last step is whole.
-  if (speed * period >= remaining || (speed_ > 0.0 && remaining < kAcceleration * period * period)) {
+  const double speed = std::min({speed_, std::abs(velocity_) + kAcceleration * period, braking});
+  if (speed * period >= remaining) {
     width_ = target_;
     velocity_ = 0.0;
     return;

@@ -8,8 +8,8 @@
 
 namespace franka_sim_mujoco {
 
-/// Contact and collision of N signals (decision 15). Contact shows while lower < |x| <= upper; collision
-/// once |x| > upper, and stays until it is cleared. Flags are 0 or 1, as in RobotState.
+/// Contact and collision of N signals (decision 15). Contact shows while lower < |x| <= upper;
+/// collision once |x| > upper, and stays until it is cleared. Flags are 0 or 1, as in RobotState.
 /// Real-time safe; one thread.
 template <std::size_t N>
 class ContactMonitor {

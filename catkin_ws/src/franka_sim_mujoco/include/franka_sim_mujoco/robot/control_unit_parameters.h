@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include <franka_core/arm_model.h>
+
+#include <array>
 
 namespace franka_sim_mujoco {
 
@@ -20,21 +20,24 @@ enum class ThresholdFrame {
   kStiffness  ///< K_F_ext_hat_K, as the ROS simulation's manual says
 };
 
-/// The configuration a control unit starts with. Defaults and sources: decisions.md, franka_ros.md 9.2.
+/// The configuration a control unit starts with. Defaults and sources: decisions.md,
+/// franka_ros.md 9.2.
 struct ControlUnitParameters {
   franka_core::ArmModel model;
   std::array<double, 7> max_torque{{87, 87, 87, 87, 12, 12, 12}};  ///< saturation [Nm], fci.md 5.5
-  std::array<double, 7> rotor_inertia{{0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< B [kg m^2] (decision 1)
-  /// Coulomb friction the unit compensates where |dq| > 0.01 rad/s [Nm] (decision 1: zero by default).
+  std::array<double, 7> rotor_inertia{
+      {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< B [kg m^2] (decision 1)
+  /// Coulomb friction the unit compensates where |dq| > 0.01 rad/s [Nm] (decision 1: zero by
+  /// default).
   std::array<double, 7> coulomb_friction{};
-  std::array<double, 7> viscous_friction{};     ///< likewise [Nm s/rad]
-  int substeps{2};                              ///< of the physics per tick (decision 3)
+  std::array<double, 7> viscous_friction{};      ///< likewise [Nm s/rad]
+  int substeps{2};                               ///< of the physics per tick (decision 3)
   std::array<double, 3> gravity{{0, 0, -9.81}};  ///< O_ddP_O, in O [m/s^2]
   std::array<double, 16> F_T_NE{franka_core::kIdentityTransform};
   std::array<double, 16> NE_T_EE{franka_core::kIdentityTransform};
   std::array<double, 16> EE_T_K{franka_core::kIdentityTransform};
-  franka_core::Payload end_effector;  ///< m_ee, F_x_Cee, I_ee
-  franka_core::Payload load;          ///< m_load, F_x_Cload, I_load
+  franka_core::Payload end_effector{};  ///< m_ee, F_x_Cee, I_ee
+  franka_core::Payload load{};          ///< m_load, F_x_Cload, I_load
   CollisionThresholds nominal{{{20, 20, 18, 18, 16, 14, 12}},
                               {{20, 20, 18, 18, 16, 14, 12}},
                               {{20, 20, 20, 25, 25, 25}},

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include <franka_sim_mujoco/robot/transforms.h>
+
+#include <array>
 
 namespace franka_sim_mujoco {
 
-/// From joint torques to the wrench at the stiffness frame K (decision 5): the undamped pseudo-inverse of
-/// J^T, F = (J J^T)^-1 J tau. Where the arm is singular (smallest singular value of J below 0.02) no wrench
-/// can be told and zero is shown. Forces first [N], then moments about the origin of K [Nm].
-/// Real-time safe; one thread.
+/// From joint torques to the wrench at the stiffness frame K (decision 5): the undamped
+/// pseudo-inverse of J^T, F = (J J^T)^-1 J tau. Where the arm is singular (smallest singular value
+/// of J below 0.02) no wrench can be told and zero is shown. Forces first [N], then moments about
+/// the origin of K [Nm]. Real-time safe; one thread.
 class ExternalWrench {
  public:
   /// Prepares the map for the present pose.
@@ -28,8 +28,8 @@ class ExternalWrench {
 
  private:
   bool singular_{true};
-  std::array<double, 42> inverse_{};   // 6x7 column-major
-  std::array<double, 9> O_R_K_{};      // column-major
+  std::array<double, 42> inverse_{};  // 6x7 column-major
+  std::array<double, 9> O_R_K_{};     // column-major
 };
 
 }  // namespace franka_sim_mujoco

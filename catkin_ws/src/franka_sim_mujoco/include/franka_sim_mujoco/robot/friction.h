@@ -6,8 +6,8 @@
 
 namespace franka_sim_mujoco {
 
-/// What the unit adds to overcome the joints' friction [Nm]: Coulomb and viscous, where a joint moves
-/// faster than 0.01 rad/s (decision 1). Real-time safe.
+/// What the unit adds to overcome the joints' friction [Nm]: Coulomb and viscous, where a joint
+/// moves faster than 0.01 rad/s (decision 1). Real-time safe.
 /// @param coulomb [Nm] @param viscous [Nm s/rad] @param dq [rad/s]
 std::array<double, 7> frictionCompensation(const std::array<double, 7>& coulomb,
                                            const std::array<double, 7>& viscous,

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
-
 #include <franka_sim_mujoco/robot/finger_force.h>
 #include <franka_sim_mujoco/robot/plant.h>
 #include <franka_sim_mujoco/robot/standstill.h>
 #include <franka_sim_mujoco/robot/ticket_log.h>
 #include <franka_sim_mujoco/robot/width_ramp.h>
+
+#include <array>
+#include <cstdint>
 
 namespace franka_sim_mujoco {
 
@@ -20,22 +20,23 @@ struct GripperParameters {
   double resting_threshold{0.001};  ///< at or below this width speed the fingers stand still [m/s]
   int consecutive_samples{3};       ///< ticks of standstill before it counts
   double homing_speed{0.02};        ///< [m/s], franka_ros.md 9.5
-  double max_speed{0.1};            ///< faster commands are carried out at this speed [m/s], data sheet
-  double max_force{140.0};          ///< stronger grasps are carried out with this force [N], data sheet
+  double max_speed{0.1};    ///< faster commands are carried out at this speed [m/s], data sheet
+  double max_force{140.0};  ///< stronger grasps are carried out with this force [N], data sheet
 };
 
 enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
 
 /// The hand's controller: state machine and force law of both faces (FCI and ROS), stepped once a
-/// millisecond by the thread that steps the world. Commands come from that thread too, between steps.
-/// Allocation-free, deterministic, throws nothing but in the constructor.
-/// Widths are totals of both fingers [m], speeds of the width [m/s], forces the hand's total [N]:
-/// each finger presses with half (decision 29).
+/// millisecond by the thread that steps the world. Commands come from that thread too, between
+/// steps. Allocation-free, deterministic, throws nothing but in the constructor. Widths are totals
+/// of both fingers [m], speeds of the width [m/s], forces the hand's total [N]: each finger presses
+/// with half (decision 29).
 ///
-/// Idle keeps the fingers where the last command left them, by the position gains alone. A grasp approaches
-/// at its speed until the fingers stand still, then presses (the force builds up within 0.05 s, pushing a
-/// loose object into the middle) and judges the width once they stand still under the full force. A hold
-/// keeps pressing whatever happens to the object; a lost object shows in `isGrasped`.
+/// Idle keeps the fingers where the last command left them, by the position gains alone. A grasp
+/// approaches at its speed until the fingers stand still, then presses (the force builds up within
+/// 0.05 s, pushing a loose object into the middle) and judges the width once they stand still under
+/// the full force. A hold keeps pressing whatever happens to the object; a lost object shows in
+/// `isGrasped`.
 class GripperUnit {
  public:
   /// @throws std::invalid_argument with a sentence that names the parameter which makes no sense.
@@ -50,21 +51,25 @@ class GripperUnit {
   Ticket move(double width, double speed) noexcept;
   /// Drives towards `width` and beyond until an object resists; then holds with `force`.
   /// Succeeds when width - epsilon_inner < measured width < width + epsilon_outer.
-  /// Opens (to hold an object from inside) when width - epsilon_inner lies above the present width, else
-  /// closes. @returns 0 when refused: as for move, or force not finite or negative, or epsilons not finite.
+  /// Opens (to hold an object from inside) when width - epsilon_inner lies above the present width,
+  /// else closes. @returns 0 when refused: as for move, or force not finite or negative, or
+  /// epsilons not finite.
   Ticket grasp(double width, double epsilon_inner, double epsilon_outer, double speed,
                double force) noexcept;
-  /// Interrupts what runs and releases the force; the fingers stay where they are. Succeeds at once.
+  /// Interrupts what runs and releases the force; the fingers stay where they are. Succeeds at
+  /// once.
   Ticket stop() noexcept;
 
   GripperOutcome outcome(Ticket ticket) const noexcept { return tickets_.outcome(ticket); }
   GripperState state() const noexcept { return state_; }
-  double width() const noexcept { return measured_.q[0] + measured_.q[1]; }  ///< at the last step [m]
-  double maxWidth() const noexcept { return parameters_.max_width; }         ///< [m]
+  double width() const noexcept {
+    return measured_.q[0] + measured_.q[1];
+  }                                                                   ///< at the last step [m]
+  double maxWidth() const noexcept { return parameters_.max_width; }  ///< [m]
   bool isGrasped() const noexcept;  ///< holds an object within the epsilons of the last grasp
 
-  /// One tick. @param period [s] @returns force on each finger, positive opens [N]; zero for a measurement
-  /// that is not finite.
+  /// One tick. @param period [s] @returns force on each finger, positive opens [N]; zero for a
+  /// measurement that is not finite.
   std::array<double, 2> step(const HandMeasurement& measurement, double period) noexcept;
 
   /// After a reset of the world: idle at the present width. What ran is interrupted.

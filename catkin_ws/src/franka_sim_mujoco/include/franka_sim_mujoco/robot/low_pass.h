@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/robot/tick.h>
+
 #include <array>
 #include <cstddef>
-
-#include <franka_sim_mujoco/robot/tick.h>
 
 namespace franka_sim_mujoco {
 

@@ -14,8 +14,8 @@ enum class ModeEvent {
   kUserStopReleased,
 };
 
-/// The robot's mode and the table of its transitions (fci.md 5.1). Events that the present mode does not
-/// know change nothing. Real-time safe; one thread.
+/// The robot's mode and the table of its transitions (fci.md 5.1). Events that the present mode
+/// does not know change nothing. Real-time safe; one thread.
 class ModeMachine {
  public:
   franka_core::RobotMode mode() const noexcept { return mode_; }

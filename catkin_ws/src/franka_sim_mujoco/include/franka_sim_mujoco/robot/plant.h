@@ -8,9 +8,11 @@ namespace franka_sim_mujoco {
 
 /// What the arm's sensors show at the end of a tick of 1 ms.
 struct ArmMeasurement {
-  std::array<double, 7> q{};      ///< [rad]
-  std::array<double, 7> dq{};     ///< [rad/s]
-  std::array<double, 7> tau_J{};  ///< link-side torque, mean over the last tick [Nm] (decision 2)
+  std::array<double, 7> q{};   ///< [rad]
+  std::array<double, 7> dq{};  ///< [rad/s]
+  /// Link-side torque, mean over the last tick [Nm] (decision 2): what the motors or the closed
+  /// brakes give.
+  std::array<double, 7> tau_J{};
 };
 
 /// A seven-joint arm as its control unit meets it. Implemented by physics/, faked by tests.

@@ -4,9 +4,9 @@
 
 namespace franka_sim_mujoco {
 
-/// Whether something that was set in motion has come to rest: enough consecutive samples below a threshold.
-/// Samples count after the first motion or, for what cannot move at all, after 0.2 s (decision 29): at the
-/// start everything still rests. Real-time safe; one thread.
+/// Whether something that was set in motion has come to rest: enough consecutive samples below a
+/// threshold. Samples count after the first motion or, for what cannot move at all, after 0.2 s
+/// (decision 29): at the start everything still rests. Real-time safe; one thread.
 class Standstill {
  public:
   explicit Standstill(int samples) noexcept : samples_(samples) {}
@@ -15,7 +15,8 @@ class Standstill {
   void restart() noexcept;
   /// Samples count from now on, motion or not.
   void countFromNow() noexcept { counting_ = true; }
-  /// One tick. @param speed, threshold in the same unit @param period [s] @returns whether it rests.
+  /// One tick. @param speed, threshold in the same unit @param period [s] @returns whether it
+  /// rests.
   bool update(double speed, double threshold, double period) noexcept;
 
  private:

@@ -12,12 +12,13 @@ namespace franka_sim_mujoco {
 enum class GripperOutcome {
   kRunning,
   kSucceeded,    ///< arrived, or holds an object within the epsilons
-  kFailed,       ///< refused, or ended elsewhere than asked (obstacle, nothing or the wrong thing grasped)
+  kFailed,       ///< refused, or ended elsewhere than asked (obstacle, nothing or the wrong thing
+                 ///< grasped)
   kInterrupted,  ///< another command or stop() came first
 };
 
-/// Numbers commands and remembers how the last ones ended. At most one runs at a time: opening a new one
-/// interrupts it. Real-time safe; one thread.
+/// Numbers commands and remembers how the last ones ended. At most one runs at a time: opening a
+/// new one interrupts it. Real-time safe; one thread.
 class TicketLog {
  public:
   using Ticket = std::uint64_t;

@@ -4,9 +4,9 @@
 
 namespace franka_sim_mujoco {
 
-/// The desired width of a hand on its way to a target: speeds up and brakes at a constant rate, so that the
-/// fingers neither jerk nor overshoot. Widths [m], speeds of the width [m/s].
-/// Real-time safe; one thread.
+/// The desired width of a hand on its way to a target: speeds up and brakes at a constant rate, so
+/// that the fingers neither jerk nor overshoot. Widths [m], speeds of the width [m/s]. Real-time
+/// safe; one thread.
 class WidthRamp {
  public:
   /// From here (at rest) to the target. @param speed not negative; zero never gets there.
