@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "physics/xml_util.h"
@@ -75,41 +74,30 @@ std::string convertedFolder(const std::string& path) {
   return path.substr(0, rest) + "mujoco/" + path.substr(rest, path.rfind('.') - rest) + "/";
 }
 
-/// Value after `key` and a colon; quotes, JSON and YAML punctuation around it do not matter.
-std::string valueAfter(const std::string& text, const std::string& key, std::size_t from,
-                       std::size_t* end) {
-  const std::size_t at = text.find(key, from);
-  if (at == std::string::npos) {
-    return {};
-  }
-  std::size_t begin = text.find(':', at + key.size());
-  begin = text.find_first_not_of(" \t\r\n\"'[:", begin);
-  *end = begin == std::string::npos ? begin : text.find_first_of("\"'\r\n]}", begin);
-  if (*end == std::string::npos) {
-    return {};
-  }
-  return text.substr(begin, *end - begin);
+/// Value after `key` and a colon, up to one of `stops`; quotes and brackets before it do not matter.
+std::string valueAfter(const std::string& line, const std::string& key, const char* stops) {
+  const std::size_t at = line.find(key);
+  const std::size_t colon = at == std::string::npos ? at : line.find(':', at);
+  const std::size_t begin =
+      colon == std::string::npos ? colon : line.find_first_not_of(" \t\"'[:", colon);
+  return begin == std::string::npos ? std::string()
+                                    : line.substr(begin, line.find_first_of(stops, begin) - begin);
 }
 
-/// The installer writes, for each part, `file` and then `rgba`.
+/// The installer writes one line a part: `- {file: 0.obj, rgba: [r, g, b, a]}`.
+/// Empty when a part cannot be read: half a link would look broken.
 std::vector<MeshPart> readIndex(const std::string& folder) {
   std::ifstream file(folder + "index.yaml");
-  if (!file) {
-    file.open(folder + "index.json");
-  }
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
   std::vector<MeshPart> parts;
-  std::size_t at = text.find("file", 0);
-  while (at != std::string::npos) {
-    std::size_t end = at;
-    MeshPart part;
-    std::string name = valueAfter(text, "file", at, &end);
-    name = name.substr(0, name.find(','));
-    part.file = folder + name;
-    std::size_t colour_end = end;
-    std::string colour = end == std::string::npos ? "" : valueAfter(text, "rgba", end, &colour_end);
+  for (std::string line; std::getline(file, line);) {
+    const std::string name = valueAfter(line, "file", ",\"'}");
+    if (name.empty()) {
+      continue;
+    }
+    MeshPart part{folder + name, std::nullopt};
+    std::string colour = valueAfter(line, "rgba", "]}");
     std::replace(colour.begin(), colour.end(), ',', ' ');
-    const auto rgba = toNumbers(colour, "Colour in " + folder);
+    const auto rgba = toNumbers(colour, "Colour of " + part.file);
     if (rgba.size() == 4) {
       part.rgba = {rgba[0], rgba[1], rgba[2], rgba[3]};
     }
@@ -117,7 +105,6 @@ std::vector<MeshPart> readIndex(const std::string& folder) {
       return {};
     }
     parts.push_back(part);
-    at = end == std::string::npos ? end : text.find("file", end);
   }
   return parts;
 }

@@ -18,7 +18,7 @@ struct MeshPart {
 };
 
 /// What to draw for a mesh URI: the file itself (binary STL, OBJ), or for a .dae the parts that the mesh
-/// installer made of it (one OBJ per material, listed in `../mujoco/visual/.../index.json`).
+/// installer made of it (one OBJ per material, listed in `meshes/mujoco/visual/<name>/index.yaml`).
 /// Empty when there is nothing MuJoCo can read: the caller shows something simpler.
 std::vector<MeshPart> visualParts(const std::string& uri, const ResourceResolver& resolve);
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/mjcf_world.h"
 
-#include <cstdlib>
 #include <stdexcept>
 
 #include "physics/compile.h"
@@ -28,13 +27,14 @@ constexpr const char* kEmptyWorld = R"(<mujoco model="empty">
   <worldbody>
     <light name="sun" directional="true" pos="1 -1 4" dir="-0.35 0.4 -1" diffuse="0.55 0.55 0.55"
       specular="0.15 0.15 0.15" castshadow="true"/>
-    <geom name="ground" type="plane" size="5 5 0.1" material="ground" condim="4" solref="0.01 1"/>
+    <geom name="ground" type="plane" size="5 5 0.1" material="ground" condim="3" solref="0.01 1"/>
   </worldbody>
 </mujoco>)";
 
-/// The element of that name below the root; made when there is none.
+/// The last element of that name below the root (robots come after everything of the world file); made
+/// when there is none.
 XMLElement* section(XMLElement* root, const char* name) {
-  XMLElement* found = root->FirstChildElement(name);
+  XMLElement* found = root->LastChildElement(name);
   return found != nullptr ? found : append(root, name);
 }
 

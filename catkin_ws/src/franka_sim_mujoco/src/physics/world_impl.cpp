@@ -82,6 +82,7 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates) 
 }
 
 void World::Impl::index() {
+  visual_mjcf.clear();
   view = {model.get(), data.get(), &motor_side};
   kinematics_fresh = false;
   frames.clear();

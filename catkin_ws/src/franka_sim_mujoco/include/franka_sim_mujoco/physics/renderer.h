@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,9 +22,9 @@ struct Camera {
 
 /// What is needed to draw a moment of a world: copied by the stepping thread, drawn by another.
 struct Scene {
-  std::string mjcf;                ///< World::mjcf(true)
-  std::map<std::string, Pose> bodies;           ///< free bodies
-  std::map<std::string, double> joints;         ///< all other joints
+  std::string mjcf;                      ///< World::mjcf(true)
+  std::map<std::string, Pose> bodies;    ///< free bodies
+  std::map<std::string, double> joints;  ///< joints with one degree of freedom [rad] or [m]
 };
 
 struct Picture {
@@ -31,7 +32,7 @@ struct Picture {
   std::vector<std::uint8_t> rgb;  ///< rows from top to bottom, 3 bytes a pixel
 };
 
-/// Takes what `Renderer` needs from a world (the stepping thread calls it).
+/// Takes what `Renderer` needs from a world (the stepping thread calls it, between ticks; it allocates).
 Scene captureScene(World& world);
 
 /// Draws scenes without a display: EGL surfaceless or OSMesa, whichever the machine has (decision 38:
@@ -43,6 +44,7 @@ class Renderer {
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
+  /// @throws std::runtime_error with a sentence when the size, the camera or the scene cannot be drawn.
   Picture render(const Scene& scene, const Camera& camera, int width, int height);
   /// "EGL" or "OSMesa".
   std::string backend() const;

@@ -1,0 +1,169 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/physics/renderer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/Core>
+
+#include "physics/compile.h"
+#include "physics/gl_context.h"
+#include "physics/world_impl.h"
+
+namespace franka_sim_mujoco {
+namespace {
+
+constexpr int kLargestPicture = 4096;  ///< [pixel] a side
+constexpr int kMostGeoms = 4000;
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+/// MuJoCo's free camera turns about a point it looks at.
+mjvCamera freeCamera(const Camera& camera) {
+  const Eigen::Vector3d from(camera.position.data());
+  const Eigen::Vector3d to(camera.target.data());
+  const Eigen::Vector3d line = to - from;
+  if (!line.allFinite() || line.norm() < 1e-6) {
+    throw std::runtime_error("The camera cannot look from a point to that same point.");
+  }
+  mjvCamera result;
+  mjv_defaultCamera(&result);
+  result.type = mjCAMERA_FREE;
+  result.distance = line.norm();
+  std::copy(camera.target.begin(), camera.target.end(), result.lookat);
+  result.azimuth = std::atan2(line.y(), line.x()) / kDegree;
+  result.elevation = std::asin(line.z() / line.norm()) / kDegree;
+  return result;
+}
+
+void setJoint(const mjModel& model, mjData* data, const std::string& name, double position) {
+  const int joint = mj_name2id(&model, mjOBJ_JOINT, name.c_str());
+  if (joint >= 0) {
+    data->qpos[model.jnt_qposadr[joint]] = position;
+  }
+}
+
+void setBody(const mjModel& model, mjData* data, const std::string& name, const Pose& pose) {
+  const int body = mj_name2id(&model, mjOBJ_BODY, name.c_str());
+  if (body >= 0 && model.body_jntnum[body] > 0 &&
+      model.jnt_type[model.body_jntadr[body]] == mjJNT_FREE) {
+    double* qpos = data->qpos + model.jnt_qposadr[model.body_jntadr[body]];
+    std::copy(pose.position.begin(), pose.position.end(), qpos);
+    std::copy(pose.orientation.begin(), pose.orientation.end(), qpos + 3);
+  }
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  std::unique_ptr<physics::GlContext> gl{physics::makeGlContext()};
+  std::string mjcf;
+  physics::ModelPtr model;
+  physics::DataPtr data;
+  mjvScene scene;
+  mjrContext context;
+
+  Impl() {
+    mjv_defaultScene(&scene);
+    mjr_defaultContext(&context);
+  }
+  ~Impl() {
+    mjr_freeContext(&context);
+    mjv_freeScene(&scene);
+  }
+
+  /// Compiles and uploads only when the set of things changed or the picture outgrew the buffer.
+  void prepare(const std::string& text, int width, int height) {
+    const bool same_model = model != nullptr && text == mjcf;
+    if (same_model && width <= context.offWidth && height <= context.offHeight) {
+      return;
+    }
+    if (!same_model) {
+      model = physics::compile(text, "The model to draw");
+      data = physics::makeData(*model);
+      mjcf = text;
+      mjv_freeScene(&scene);
+      mjv_makeScene(model.get(), &scene, kMostGeoms);
+    }
+    model->vis.global.offwidth = std::max(width, context.offWidth);
+    model->vis.global.offheight = std::max(height, context.offHeight);
+    model->vis.quality.offsamples = 0;
+    mjr_freeContext(&context);
+    mjr_makeContext(model.get(), &context, mjFONTSCALE_100);
+    mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    if (context.currentBuffer != mjFB_OFFSCREEN) {
+      throw std::runtime_error("The graphics driver (" + gl->name() +
+                               ") gives no buffer to draw pictures into.");
+    }
+  }
+};
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+
+std::string Renderer::backend() const {
+  return impl_->gl->name();
+}
+
+Picture Renderer::render(const Scene& scene, const Camera& camera, int width, int height) {
+  if (width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture) {
+    throw std::runtime_error("A picture of " + std::to_string(width) + " x " +
+                             std::to_string(height) + " pixels cannot be drawn; each side can have 1 to " +
+                             std::to_string(kLargestPicture) + ".");
+  }
+  if (!(camera.field_of_view > 1 && camera.field_of_view < 170)) {
+    throw std::runtime_error("The camera's field of view must lie between 1 and 170 degrees.");
+  }
+  mjvCamera view = freeCamera(camera);
+  impl_->gl->makeCurrent();
+  impl_->prepare(scene.mjcf, width, height);
+  const mjModel& model = *impl_->model;
+  mj_resetData(&model, impl_->data.get());
+  for (const auto& [name, position] : scene.joints) {
+    setJoint(model, impl_->data.get(), name, position);
+  }
+  for (const auto& [name, pose] : scene.bodies) {
+    setBody(model, impl_->data.get(), name, pose);
+  }
+  mj_kinematics(&model, impl_->data.get());
+  mj_camlight(&model, impl_->data.get());
+  impl_->model->vis.global.fovy = static_cast<float>(camera.field_of_view);
+  mjvOption option;
+  mjv_defaultOption(&option);
+  mjv_updateScene(&model, impl_->data.get(), &option, nullptr, &view, mjCAT_ALL, &impl_->scene);
+  const mjrRect area{0, 0, width, height};
+  mjr_render(area, &impl_->scene, &impl_->context);
+  Picture picture{width, height, std::vector<std::uint8_t>(3u * width * height)};
+  std::vector<std::uint8_t> upside_down(picture.rgb.size());
+  mjr_readPixels(upside_down.data(), nullptr, area, &impl_->context);
+  const std::size_t row = 3u * width;
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(upside_down.begin() + row * (height - 1 - y), row, picture.rgb.begin() + row * y);
+  }
+  return picture;
+}
+
+Scene captureScene(World& world) {
+  World::Impl& impl = world.impl();
+  if (impl.visual_mjcf.empty()) {
+    impl.visual_mjcf = world.mjcf(true);
+  }
+  Scene scene;
+  scene.mjcf = impl.visual_mjcf;
+  const mjModel& model = *impl.model;
+  for (int j = 0; j < model.njnt; ++j) {
+    const double* qpos = impl.data->qpos + model.jnt_qposadr[j];
+    if (model.jnt_type[j] == mjJNT_FREE) {
+      const char* body = mj_id2name(&model, mjOBJ_BODY, model.jnt_bodyid[j]);
+      scene.bodies[body != nullptr ? body : ""] = {{qpos[0], qpos[1], qpos[2]},
+                                                   {qpos[3], qpos[4], qpos[5], qpos[6]}};
+    } else if (model.jnt_type[j] != mjJNT_BALL) {
+      const char* name = mj_id2name(&model, mjOBJ_JOINT, j);
+      scene.joints[name != nullptr ? name : ""] = *qpos;
+    }
+  }
+  return scene;
+}
+
+}  // namespace franka_sim_mujoco
