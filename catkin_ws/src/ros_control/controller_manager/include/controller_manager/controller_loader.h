@@ -1,0 +1,44 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <controller_manager/controller_loader_interface.h>
+#include <pluginlib/class_loader.hpp>
+
+namespace controller_manager {
+
+/// Loads controllers from plugin libraries.
+/// @tparam T base class of the plugins, derived from controller_interface::ControllerBase
+template <class T>
+class ControllerLoader : public ControllerLoaderInterface {
+ public:
+  /// @param package under whose name plugins are exported @param base_class C++ name of T
+  ControllerLoader(const std::string& package, const std::string& base_class)
+      : ControllerLoaderInterface(base_class), package_(package), base_class_(base_class) {
+    reload();
+  }
+
+  controller_interface::ControllerBaseSharedPtr createInstance(
+      const std::string& lookup_name) override {
+    return controller_loader_->createUniqueInstance(lookup_name);
+  }
+
+  std::vector<std::string> getDeclaredClasses() override {
+    return controller_loader_->getDeclaredClasses();
+  }
+
+  void reload() override {
+    controller_loader_ = std::make_shared<pluginlib::ClassLoader<T>>(package_, base_class_);
+  }
+
+ private:
+  std::string package_;
+  std::string base_class_;
+  std::shared_ptr<pluginlib::ClassLoader<T>> controller_loader_;
+};
+
+}  // namespace controller_manager

@@ -1,0 +1,38 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <controller_interface/controller_base.h>
+
+namespace controller_manager {
+
+/// A source of controllers. The manager asks for one thing at a time, never from the control loop.
+class ControllerLoaderInterface {
+ public:
+  /// @param name of the loader, shown as the base class of its types
+  explicit ControllerLoaderInterface(const std::string& name) : name_(name) {}
+  virtual ~ControllerLoaderInterface() = default;
+
+  /// Makes a controller. @throws std::runtime_error saying why there is none.
+  virtual controller_interface::ControllerBaseSharedPtr createInstance(
+      const std::string& lookup_name) = 0;
+
+  /// The types that createInstance knows.
+  virtual std::vector<std::string> getDeclaredClasses() = 0;
+
+  /// Looks for types anew. No controller of this loader exists any more.
+  virtual void reload() = 0;
+
+  const std::string& getName() { return name_; }
+
+ private:
+  const std::string name_;
+};
+
+typedef std::shared_ptr<ControllerLoaderInterface> ControllerLoaderInterfaceSharedPtr;
+
+}  // namespace controller_manager

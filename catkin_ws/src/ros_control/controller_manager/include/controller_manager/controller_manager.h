@@ -1,0 +1,133 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <controller_interface/controller_base.h>
+#include <controller_manager/controller_loader_interface.h>
+#include <controller_manager/controller_spec.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+
+namespace controller_manager {
+
+namespace internal {
+class ControllerList;
+class ControllerRegistry;
+class LoopGate;
+class ManagerServices;
+struct SwitchRequest;
+class SwitchDesk;
+}  // namespace internal
+
+/// Loads controllers, starts and stops them, and updates the running ones in the control loop.
+///
+/// Two kinds of threads meet here. The *loop* calls update(), from one thread at a time, as often
+/// and as irregularly as it likes, or not at all. All other functions belong *outside* the loop and
+/// may be called from any number of threads; the services of the same names call them. Both sides
+/// share atomics only: update() takes no lock, allocates nothing and never waits.
+///
+/// While the loop stands still, controllers can be listed, loaded and unloaded; a switch waits for
+/// the loop, lets the other requests through meanwhile, and fails after its timeout.
+class ControllerManager {
+ public:
+  static constexpr bool WAIT_FOR_ALL_RESOURCES = false;
+  static constexpr double INFINITE_TIMEOUT = 0.0;
+
+  /// Offers the services list_controllers, list_controller_types, load_controller,
+  /// unload_controller, switch_controller and reload_controller_libraries in
+  /// `<nh>/controller_manager`. Loads plugins of controller_interface::ControllerBase.
+  /// @param robot_hw outlives the manager
+  /// @param nh below which controllers find their parameters; its queue answers the services,
+  /// except the two that may wait for the loop: those have threads of their own.
+  explicit ControllerManager(hardware_interface::RobotHW* robot_hw,
+                             const ros::NodeHandle& nh = ros::NodeHandle());
+
+  /// The loop must have ended.
+  virtual ~ControllerManager();
+  ControllerManager(const ControllerManager&) = delete;
+  ControllerManager& operator=(const ControllerManager&) = delete;
+
+  /// One cycle of the loop: updates all running controllers in the order of loading, then carries a
+  /// switch on. A controller stopped in this cycle was updated before, one started is updated from
+  /// the next cycle on. Real-time safe if the controllers' callbacks and the robot's switch are.
+  /// @param time of this cycle @param period since the one before
+  /// @param reset_controllers restart the running controllers first
+  void update(const ros::Time& time, const ros::Duration& period, bool reset_controllers = false);
+
+  /// Loads the controller whose parameters stand in the namespace `name`.
+  /// @returns false after logging the reason
+  bool loadController(const std::string& name);
+
+  /// Unloads a controller that is not running; it is destroyed in this thread.
+  /// @returns false after logging the reason
+  bool unloadController(const std::string& name);
+
+  /// Stops and starts controllers in one cycle and waits until the loop has done it. A running
+  /// controller in both lists is restarted.
+  /// @param strictness controller_manager_msgs/SwitchController STRICT or BEST_EFFORT
+  /// @param start_asap start each controller once the robot is ready for it, not all together
+  /// @param timeout [s] to begin with, and again for the robot to get ready; 0 waits for ever
+  /// @returns true when the loop has carried the switch out, also if the robot was not ready in
+  /// time and controllers were aborted; false after logging the reason
+  bool switchController(const std::vector<std::string>& start_controllers,
+                        const std::vector<std::string>& stop_controllers, const int strictness,
+                        bool start_asap = WAIT_FOR_ALL_RESOURCES,
+                        double timeout = INFINITE_TIMEOUT);
+
+  /// Destroys all controllers and loads their libraries anew.
+  /// @param force_kill stop and unload what is loaded; without it nothing may be loaded
+  /// @returns false after logging the reason
+  bool reloadControllerLibraries(bool force_kill);
+
+  /// The loaded controllers in the order of loading. Never waits for the loop.
+  std::vector<ControllerSpec> getControllers() const;
+
+  /// nullptr if there is none of that name; valid until it is unloaded.
+  virtual controller_interface::ControllerBase* getControllerByName(const std::string& name);
+
+  /// Adds a source of controllers; earlier ones are asked first.
+  void registerControllerLoader(ControllerLoaderInterfaceSharedPtr controller_loader);
+
+  /// A type of controllers and the loader it comes from.
+  struct DeclaredType {
+    std::string type;
+    std::string base_class;
+  };
+  std::vector<DeclaredType> getDeclaredTypes();
+
+ private:
+  bool refusedInLoop(const char* action) const;
+  bool reloadLoaders();
+  controller_interface::ControllerBaseSharedPtr createController(const std::string& name,
+                                                                 const std::string& type);
+  bool initController(ControllerSpec& spec, ros::NodeHandle& controller_nh);
+  /// nullptr after logging why the switch is impossible
+  std::unique_ptr<internal::SwitchRequest> planSwitch(const std::vector<std::string>& start,
+                                                      const std::vector<std::string>& stop,
+                                                      bool strict);
+
+  hardware_interface::RobotHW* robot_hw_;
+  ros::NodeHandle root_nh_;
+
+  std::mutex loaders_mutex_;
+  std::list<ControllerLoaderInterfaceSharedPtr> controller_loaders_;
+
+  /// One thread at a time changes the list or talks to the robot. Never held while waiting for a
+  /// switch. Taken before loaders_mutex_.
+  std::mutex services_mutex_;
+
+  // In this order: controllers are destroyed before the loaders of their libraries.
+  std::unique_ptr<internal::LoopGate> gate_;
+  std::unique_ptr<internal::ControllerRegistry> registry_;
+  std::unique_ptr<internal::SwitchDesk> desk_;
+  std::unique_ptr<internal::ManagerServices> services_;
+};
+
+}  // namespace controller_manager

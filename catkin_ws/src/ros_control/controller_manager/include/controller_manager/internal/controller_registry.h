@@ -1,0 +1,63 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <controller_manager/controller_spec.h>
+#include <controller_manager/internal/loop_gate.h>
+
+namespace controller_manager {
+namespace internal {
+
+/// The loaded controllers, in the order of loading. Never changed once made.
+class ControllerList {
+ public:
+  explicit ControllerList(std::vector<ControllerSpec> specs);
+
+  const std::vector<ControllerSpec>& specs() const { return specs_; }
+  /// The same controllers side by side, for the loop.
+  const std::vector<controller_interface::ControllerBase*>& controllers() const {
+    return controllers_;
+  }
+  /// nullptr if there is none of that name.
+  const ControllerSpec* find(const std::string& name) const;
+
+ private:
+  std::vector<ControllerSpec> specs_;
+  std::vector<controller_interface::ControllerBase*> controllers_;
+};
+
+typedef std::shared_ptr<const ControllerList> ControllerListPtr;
+
+/// Hands the list of controllers to the loop and to everybody else, and lets controllers die
+/// outside the loop once it cannot read them any more.
+class ControllerRegistry {
+ public:
+  /// @param gate which the loop passes; outlives the registry
+  explicit ControllerRegistry(LoopGate& gate);
+
+  /// The list for this cycle, valid during the visit of the gate. Real-time safe.
+  const ControllerList& forLoop() const { return *for_loop_.load(std::memory_order_seq_cst); }
+
+  /// The list of this moment. Thread-safe, not real-time safe, never waits for the loop.
+  ControllerListPtr snapshot() const;
+
+  /// Puts another list in the place of the present one and lets go of what the loop left. One
+  /// thread at a time, not real-time safe; waits for the cycle under way, at most one second.
+  void replace(std::vector<ControllerSpec> specs);
+
+ private:
+  LoopGate& gate_;
+  mutable std::mutex mutex_;
+  ControllerListPtr current_;
+  std::vector<ControllerListPtr> outdated_;  ///< may still be read by the loop
+  std::atomic<const ControllerList*> for_loop_;
+};
+
+}  // namespace internal
+}  // namespace controller_manager

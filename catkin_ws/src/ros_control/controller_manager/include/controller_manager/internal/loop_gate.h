@@ -1,0 +1,72 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+
+namespace controller_manager {
+namespace internal {
+
+/// Tells threads outside the control loop when the loop cannot hold an object any more that they
+/// took away from it.
+///
+/// The loop passes the gate with a Visit around all its reading. Another thread first replaces the
+/// pointer the loop would read (sequentially consistent), then calls waitUntilLeft(): afterwards a
+/// visit either ended or began so late that it reads the new pointer. A loop that stands still is
+/// outside the gate, so nobody waits for it. The loop's side is two stores, without lock or wait.
+class LoopGate {
+ public:
+  /// One cycle of the loop. Only one visit exists at a time.
+  class Visit {
+   public:
+    explicit Visit(LoopGate& gate) : gate_(gate) {
+      gate_.visitor_.store(std::this_thread::get_id(), std::memory_order_relaxed);
+      gate_.epoch_.store(gate_.epoch_.load(std::memory_order_relaxed) + 1,
+                         std::memory_order_seq_cst);
+    }
+    ~Visit() {
+      gate_.epoch_.store(gate_.epoch_.load(std::memory_order_relaxed) + 1,
+                         std::memory_order_release);
+    }
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+
+   private:
+    LoopGate& gate_;
+  };
+
+  /// Waits for the end of the visit of this moment, if there is one.
+  /// @returns false if it did not end in time: what was taken away must be kept then.
+  bool waitUntilLeft(std::chrono::milliseconds at_most) const {
+    const std::uint64_t epoch = epoch_.load(std::memory_order_seq_cst);
+    if (!isVisit(epoch)) {
+      return true;
+    }
+    const auto deadline = std::chrono::steady_clock::now() + at_most;
+    while (epoch_.load(std::memory_order_seq_cst) == epoch) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        return false;
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+    }
+    return true;
+  }
+
+  /// Whether the calling thread is in a visit: it must not wait for the loop then.
+  bool isVisitedByThisThread() const {
+    return isVisit(epoch_.load(std::memory_order_seq_cst)) &&
+           visitor_.load(std::memory_order_relaxed) == std::this_thread::get_id();
+  }
+
+ private:
+  static bool isVisit(std::uint64_t epoch) { return epoch % 2 == 1; }
+
+  std::atomic<std::uint64_t> epoch_{0};  ///< odd during a visit
+  std::atomic<std::thread::id> visitor_{std::thread::id()};
+};
+
+}  // namespace internal
+}  // namespace controller_manager

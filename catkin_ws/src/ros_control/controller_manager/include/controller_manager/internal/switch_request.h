@@ -1,0 +1,73 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <list>
+#include <string>
+#include <vector>
+
+#include <controller_interface/controller_base.h>
+#include <hardware_interface/controller_info.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/time.h>
+
+namespace controller_manager {
+namespace internal {
+
+/// One switch: filled completely outside the loop, then carried out by the loop over one or more
+/// cycles. The phase says who may touch it.
+struct SwitchRequest {
+  enum class Phase {
+    kPosted,     ///< waits for the loop; may be withdrawn
+    kTaken,      ///< belongs to the loop
+    kWithdrawn,  ///< the loop must not begin with it
+    kDone        ///< the loop will never touch it again
+  };
+
+  enum class Outcome { kPending, kStarted, kRobotError, kTimeout, kCancelled };
+
+  struct Start {
+    controller_interface::ControllerBaseSharedPtr controller;
+    hardware_interface::ControllerInfo info;
+    Outcome outcome{Outcome::kPending};
+  };
+
+  struct Stop {
+    controller_interface::ControllerBaseSharedPtr controller;
+    std::string name;
+  };
+
+  std::vector<Start> starts;  ///< a restarted controller is in both
+  std::vector<Stop> stops;
+  std::list<hardware_interface::ControllerInfo> start_list;  ///< for the robot, without restarts
+  std::list<hardware_interface::ControllerInfo> stop_list;
+  bool start_asap{false};
+  double timeout{0.0};  ///< [s] on the loop's clock, from its first cycle on; 0 never ends
+
+  std::atomic<Phase> phase{Phase::kPosted};
+  std::atomic<bool> cancelled{false};  ///< nobody waits for it any more: give up at once
+
+  /// Whether a controller is started or stopped by this.
+  bool involves(const std::string& name) const;
+
+  /// One cycle of the switch, in the loop: stops at the first call, then starts what the robot is
+  /// ready for. Real-time safe as far as the robot's doSwitch and switchResult and the controllers'
+  /// callbacks are.
+  /// @returns true when everything is settled.
+  bool advance(hardware_interface::RobotHW& robot, const ros::Time& time);
+
+ private:
+  bool begin(hardware_interface::RobotHW& robot, const ros::Time& time);
+  bool startTogether(hardware_interface::RobotHW& robot, const ros::Time& time);
+  bool startEach(hardware_interface::RobotHW& robot, const ros::Time& time);
+  void giveUp(const ros::Time& time);
+  /// Why the start is given up in this cycle; kPending if it is not.
+  Outcome reasonToGiveUp(hardware_interface::RobotHW::SwitchState state,
+                         const ros::Time& time) const;
+
+  ros::Time begin_;
+};
+
+}  // namespace internal
+}  // namespace controller_manager

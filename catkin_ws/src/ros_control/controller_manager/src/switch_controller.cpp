@@ -1,0 +1,220 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The switch as seen from outside the loop: what is asked for, whether it is possible, and how it
+// went.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <controller_manager/controller_manager.h>
+#include <controller_manager/internal/controller_registry.h>
+#include <controller_manager/internal/loop_gate.h>
+#include <controller_manager/internal/switch_desk.h>
+#include <controller_manager_msgs/SwitchController.h>
+#include <ros/console.h>
+
+namespace controller_manager {
+
+using controller_manager_msgs::SwitchControllerRequest;
+using internal::ControllerList;
+using internal::SwitchDesk;
+using internal::SwitchRequest;
+
+namespace {
+
+typedef std::vector<std::string> Names;
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void remove(Names& names, const std::string& name) {
+  names.erase(std::remove(names.begin(), names.end(), name), names.end());
+}
+
+/// The names that are loaded, none twice, in the order asked for.
+/// @returns false, in strict mode, if one is not.
+bool resolve(const ControllerList& list, const Names& asked, const char* verb, bool strict,
+             Names& resolved) {
+  for (const std::string& name : asked) {
+    if (list.find(name) != nullptr) {
+      if (!contains(resolved, name)) {
+        resolved.push_back(name);
+      }
+    } else if (strict) {
+      ROS_ERROR(
+          "Could not %s controller with name '%s' because no controller with this name exists",
+          verb, name.c_str());
+      return false;
+    } else {
+      ROS_DEBUG("Could not %s controller with name '%s' because no controller with this name "
+                "exists",
+                verb, name.c_str());
+    }
+  }
+  return true;
+}
+
+/// Takes out what is stopped or running already. @returns false, in strict mode, if something is.
+bool dropPointless(const ControllerList& list, bool strict, Names& start, Names& stop) {
+  for (const ControllerSpec& spec : list.specs()) {
+    const std::string& name = spec.info.name;
+    const bool running = spec.c->isRunning();
+    if (!running && contains(stop, name)) {
+      if (strict) {
+        ROS_ERROR("Could not stop controller '%s' since it is not running", name.c_str());
+        return false;
+      }
+      remove(stop, name);
+    }
+    if (running && contains(start, name) && !contains(stop, name)) {
+      if (strict) {
+        ROS_ERROR("Controller '%s' is already running", name.c_str());
+        return false;
+      }
+      remove(start, name);
+    }
+  }
+  return true;
+}
+
+/// What would run after the switch.
+std::list<hardware_interface::ControllerInfo> runningAfter(const ControllerList& list,
+                                                           const Names& start, const Names& stop) {
+  std::list<hardware_interface::ControllerInfo> infos;
+  for (const ControllerSpec& spec : list.specs()) {
+    if (contains(start, spec.info.name) ||
+        (spec.c->isRunning() && !contains(stop, spec.info.name))) {
+      infos.push_back(spec.info);
+    }
+  }
+  return infos;
+}
+
+std::unique_ptr<SwitchRequest> makeRequest(const ControllerList& list, const Names& start,
+                                           const Names& stop) {
+  auto request = std::make_unique<SwitchRequest>();
+  for (const std::string& name : stop) {
+    const ControllerSpec& spec = *list.find(name);
+    request->stops.push_back({spec.c, name});
+    if (!contains(start, name)) {
+      request->stop_list.push_back(spec.info);
+    }
+  }
+  for (const std::string& name : start) {
+    const ControllerSpec& spec = *list.find(name);
+    request->starts.push_back({spec.c, spec.info, SwitchRequest::Outcome::kPending});
+    if (!contains(stop, name)) {
+      request->start_list.push_back(spec.info);
+    }
+  }
+  return request;
+}
+
+void reportOutcome(const SwitchRequest& request) {
+  for (const SwitchRequest::Start& start : request.starts) {
+    switch (start.outcome) {
+      case SwitchRequest::Outcome::kRobotError:
+        ROS_ERROR("Controller '%s' was not started, because the robot could not switch to it",
+                  start.info.name.c_str());
+        break;
+      case SwitchRequest::Outcome::kTimeout:
+        ROS_ERROR("Controller '%s' was not started, because the robot was not ready for it after "
+                  "%g s",
+                  start.info.name.c_str(), request.timeout);
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<SwitchRequest> ControllerManager::planSwitch(const Names& start_controllers,
+                                                             const Names& stop_controllers,
+                                                             bool strict) {
+  const internal::ControllerListPtr list = registry_->snapshot();
+  Names start;
+  Names stop;
+  if (!resolve(*list, stop_controllers, "stop", strict, stop) ||
+      !resolve(*list, start_controllers, "start", strict, start) ||
+      !dropPointless(*list, strict, start, stop)) {
+    return nullptr;
+  }
+  if (robot_hw_->checkForConflict(runningAfter(*list, start, stop))) {
+    ROS_ERROR("Could not switch controllers, due to resource conflict");
+    return nullptr;
+  }
+  std::unique_ptr<SwitchRequest> request = makeRequest(*list, start, stop);
+  if (!robot_hw_->prepareSwitch(request->start_list, request->stop_list)) {
+    ROS_ERROR(
+        "Could not switch controllers. The hardware interface combination for the requested "
+        "controllers is unfeasible.");
+    return nullptr;
+  }
+  return request;
+}
+
+bool ControllerManager::switchController(const Names& start_controllers,
+                                         const Names& stop_controllers, const int strictness,
+                                         bool start_asap, double timeout) {
+  if (refusedInLoop("switch")) {
+    return false;
+  }
+  const bool strict = strictness == SwitchControllerRequest::STRICT;
+  if (!strict && strictness != SwitchControllerRequest::BEST_EFFORT) {
+    ROS_WARN(
+        "Controller Manager: To switch controllers you need to specify a strictness level of "
+        "controller_manager_msgs::SwitchController::STRICT (%d) or ::BEST_EFFORT (%d), not %d. "
+        "Defaulting to ::BEST_EFFORT.",
+        SwitchControllerRequest::STRICT, SwitchControllerRequest::BEST_EFFORT, strictness);
+  }
+
+  SwitchDesk::Turn turn(*desk_, timeout);
+  if (!turn) {
+    ROS_ERROR("Could not switch controllers, because the switch before this one has not finished "
+              "after %g s. Is the control loop running?",
+              turn.elapsed());
+    return false;
+  }
+  std::list<hardware_interface::ControllerInfo> start_list;
+  std::list<hardware_interface::ControllerInfo> stop_list;
+  {
+    const std::lock_guard<std::mutex> lock(services_mutex_);
+    auto request = planSwitch(start_controllers, stop_controllers, strict);
+    if (!request) {
+      return false;
+    }
+    request->start_asap = start_asap;
+    request->timeout = timeout;
+    start_list = request->start_list;
+    stop_list = request->stop_list;
+    turn.post(std::move(request));
+  }
+
+  switch (turn.await()) {
+    case SwitchDesk::Result::kDone:
+      reportOutcome(turn.request());
+      return true;
+    case SwitchDesk::Result::kAbandoned:
+      ROS_ERROR("Could not finish switching controllers, because the control loop stood still for "
+                "%g s after it had begun. The controllers to start will be aborted when it runs "
+                "again.",
+                turn.elapsed());
+      return false;
+    case SwitchDesk::Result::kWithdrawn:
+      break;
+  }
+  ROS_ERROR("Could not switch controllers, because the control loop did not run for %g s. Is the "
+            "robot connected, or the simulation paused?",
+            turn.elapsed());
+  // The robot prepared for a switch that never came: let it prepare for the way back.
+  const std::lock_guard<std::mutex> lock(services_mutex_);
+  if (!robot_hw_->prepareSwitch(stop_list, start_list)) {
+    ROS_WARN("The robot refused to take the preparations of that switch back");
+  }
+  return false;
+}
+
+}  // namespace controller_manager

@@ -1,0 +1,110 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <controller_manager/internal/switch_desk.h>
+
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include <ros/init.h>
+
+namespace controller_manager {
+namespace internal {
+
+using Phase = SwitchRequest::Phase;
+
+namespace {
+constexpr std::chrono::microseconds kPollPeriod{200};
+// The original's grace beyond the timeout, for a loop whose clock stands still.
+constexpr double kGrace = 1.0;
+// Far above the millisecond a cycle lasts.
+constexpr std::chrono::milliseconds kLongestCycle{1000};
+}  // namespace
+
+SwitchDesk::SwitchDesk(LoopGate& gate) : gate_(gate) {}
+
+void SwitchDesk::serve(hardware_interface::RobotHW& robot, const ros::Time& time) {
+  SwitchRequest* request = for_loop_.load(std::memory_order_seq_cst);
+  if (request != nullptr && request->advance(robot, time)) {
+    for_loop_.store(nullptr, std::memory_order_release);
+    request->phase.store(Phase::kDone, std::memory_order_release);
+  }
+}
+
+bool SwitchDesk::mustEnd() const { return closed_ || !ros::ok(); }
+
+bool SwitchDesk::grant() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (busy_ || (request_ && request_->phase != Phase::kDone)) {
+    return false;
+  }
+  request_.reset();
+  busy_ = true;
+  return true;
+}
+
+bool SwitchDesk::involves(const std::string& name) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return request_ && request_->phase != Phase::kDone && request_->involves(name);
+}
+
+SwitchDesk::Turn::Turn(SwitchDesk& desk, double timeout)
+    : desk_(desk), timeout_(timeout), begin_(Clock::now()) {
+  while (!(granted_ = desk_.grant()) && !desk_.mustEnd() &&
+         !(timeout_ > 0.0 && elapsed() > timeout_)) {
+    std::this_thread::sleep_for(kPollPeriod);
+  }
+}
+
+SwitchDesk::Turn::~Turn() {
+  if (granted_) {
+    const std::lock_guard<std::mutex> lock(desk_.mutex_);
+    desk_.busy_ = false;
+  }
+}
+
+double SwitchDesk::Turn::elapsed() const {
+  return std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+void SwitchDesk::Turn::post(std::unique_ptr<SwitchRequest> request) {
+  const std::lock_guard<std::mutex> lock(desk_.mutex_);
+  desk_.request_ = std::move(request);
+  desk_.for_loop_.store(desk_.request_.get(), std::memory_order_seq_cst);
+}
+
+SwitchDesk::Result SwitchDesk::Turn::await() {
+  // Only the holder of the turn replaces the request, so it may be read without the mutex.
+  SwitchRequest& request = *desk_.request_;
+  while (request.phase.load(std::memory_order_acquire) != Phase::kDone) {
+    const double limit = timeout_ > 0.0 ? timeout_ : std::numeric_limits<double>::infinity();
+    const bool must_end = desk_.mustEnd();
+    if ((must_end || elapsed() > limit) && withdraw()) {
+      return Result::kWithdrawn;
+    }
+    if (must_end || elapsed() > limit + kGrace) {
+      request.cancelled.store(true, std::memory_order_relaxed);
+      return Result::kAbandoned;
+    }
+    std::this_thread::sleep_for(kPollPeriod);
+  }
+  return Result::kDone;
+}
+
+bool SwitchDesk::Turn::withdraw() {
+  Phase expected = Phase::kPosted;
+  if (!desk_.request_->phase.compare_exchange_strong(expected, Phase::kWithdrawn)) {
+    return false;
+  }
+  desk_.for_loop_.store(nullptr, std::memory_order_seq_cst);
+  const bool left = desk_.gate_.waitUntilLeft(kLongestCycle);
+  const std::lock_guard<std::mutex> lock(desk_.mutex_);
+  desk_.withdrawn_.push_back(std::move(desk_.request_));
+  if (left) {
+    desk_.withdrawn_.clear();
+  }
+  return true;
+}
+
+}  // namespace internal
+}  // namespace controller_manager

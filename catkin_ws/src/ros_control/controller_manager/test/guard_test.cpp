@@ -1,0 +1,96 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The loop's side neither allocates nor locks nor sleeps, whatever the other side does.
+#include <algorithm>
+
+#include <rt_guard/rt_guard.h>
+
+#include "manager_fixture.h"
+
+using dummies::kStrict;
+using hardware_interface::RobotHW;
+
+namespace {
+
+class GuardTest : public dummies::ManagerTest {
+ protected:
+  void SetUp() override { load({"a", "b", "c", "d"}); }
+
+  /// A step whose calls are counted.
+  void guardedStep(bool reset = false) {
+    time_ += ros::Duration(0.001);
+    const ros::Duration period(0.001);
+    const rt_guard::Scope scope;
+    manager_->update(time_, period, reset);
+    allocations_ += scope.allocations();
+    locks_ += scope.locks();
+    sleeps_ += scope.sleeps();
+  }
+
+  void guardedSwitch(const Names& start, const Names& stop, bool asap) {
+    const auto answer = postSwitch(start, stop, kStrict, asap, 5.0);
+    waitFor([&] {
+      guardedStep();
+      return isReady(answer);
+    });
+  }
+
+  void TearDown() override {
+    EXPECT_EQ(0u, allocations_);
+    EXPECT_EQ(0u, locks_);
+    EXPECT_EQ(0u, sleeps_);
+  }
+
+  std::size_t allocations_{0}, locks_{0}, sleeps_{0};
+};
+
+}  // namespace
+
+TEST_F(GuardTest, theGuardWatches) {
+  ASSERT_TRUE(rt_guard::kActive);
+  const rt_guard::Scope scope;
+  delete new int(1);
+  std::mutex mutex;
+  mutex.lock();
+  mutex.unlock();
+  EXPECT_GE(scope.allocations(), 1u);
+  EXPECT_EQ(1u, scope.locks());
+}
+
+TEST_F(GuardTest, steadyState) {
+  ASSERT_TRUE(doSwitch({"a", "c", "d"}, {}));
+  for (int i = 0; i < 1000; ++i) {
+    guardedStep();
+  }
+  guardedStep(true);
+}
+
+TEST_F(GuardTest, switchesWithWaitingRestartAndAbort) {
+  for (const bool asap : {false, true}) {
+    robot_.script_.assign(robot_.result_calls_ + 20, RobotHW::SwitchState::ONGOING);
+    guardedSwitch({"a", "c"}, {}, asap);
+    EXPECT_TRUE(controller("a").isRunning());
+    guardedSwitch({"b", "c"}, {"a", "c"}, asap);
+    EXPECT_TRUE(controller("b").isRunning());
+    robot_.after_script_ = RobotHW::SwitchState::ERROR;
+    guardedSwitch({"d"}, {"b", "c"}, asap);
+    EXPECT_TRUE(controller("d").isAborted());
+    robot_.after_script_ = RobotHW::SwitchState::DONE;
+  }
+}
+
+TEST_F(GuardTest, whileControllersComeAndGo) {
+  ASSERT_TRUE(doSwitch({"c"}, {}));
+  std::atomic<bool> done{false};
+  const auto others = std::async(std::launch::async, [&] {
+    for (int i = 0; i < 50; ++i) {
+      EXPECT_TRUE(manager_->unloadController("a"));
+      EXPECT_TRUE(manager_->loadController("a"));
+    }
+    done = true;
+  });
+  waitFor([&] {
+    guardedStep();
+    return done.load();
+  });
+}

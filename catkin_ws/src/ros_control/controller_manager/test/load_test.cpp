@@ -1,0 +1,150 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "manager_fixture.h"
+
+using dummies::DummyController;
+using dummies::LogCatcher;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+class LoadTest : public dummies::ManagerTest {};
+
+}  // namespace
+
+TEST_F(LoadTest, keepsControllersInTheOrderOfLoading) {
+  load({"c", "a"});
+  EXPECT_THAT(loaded(), ElementsAre("c", "a"));
+  const auto specs = manager_->getControllers();
+  EXPECT_EQ("dummy/Good", specs[0].info.type);
+  ASSERT_EQ(1u, specs[0].info.claimed_resources.size());
+  EXPECT_EQ("hardware_interface::EffortJointInterface",
+            specs[0].info.claimed_resources[0].hardware_interface);
+  EXPECT_THAT(specs[0].info.claimed_resources[0].resources, ElementsAre("j1"));
+  EXPECT_TRUE(controller("a").isInitialized());
+  EXPECT_EQ(nullptr, manager_->getControllerByName("unknown"));
+}
+
+TEST_F(LoadTest, asksALoaderOnceForEachLoad) {
+  load({"a", "c"});
+  EXPECT_EQ(2, loader_->listings_);
+}
+
+TEST_F(LoadTest, failuresSayWhyAndLeaveTheListAlone) {
+  describe("refusing", "dummy/Refusing", {});
+  describe("throwing", "dummy/Throwing", {});
+  describe("broken", "dummy/Broken", {});
+  describe("typo", "dummy/God", {});
+  describe("no_joint", "dummy/Good", {"elbow"});
+  nh_.setParam("number/type", 3);
+  load({"a"});
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"a", "A controller named 'a' was already loaded inside the controller manager"},
+      {"nobody",
+       "Could not load controller 'nobody' because the type was not specified. Did you load the "
+       "controller configuration on the parameter server (namespace: '/manager_test/nobody')?"},
+      {"number", "Could not load controller 'number' because the type was not specified."},
+      {"refusing", "Initializing controller 'refusing' failed"},
+      {"throwing", "Exception thrown while initializing controller 'throwing'.\nno such joint"},
+      {"no_joint",
+       "Exception thrown while initializing controller 'no_joint'.\nCould not find resource "
+       "'elbow' in 'hardware_interface::EffortJointInterface'."},
+      {"broken", "Could not load class 'dummy/Broken': the library is broken"},
+      {"typo",
+       "Could not load controller 'typo' because controller type 'dummy/God' does not exist.\n"
+       "Use 'rosservice call controller_manager/list_controller_types' to get the available "
+       "types"},
+      {"bad name!", "Could not load controller 'bad name!' because the name cannot be used"},
+      {"", "because the type was not specified"},
+  };
+  for (const auto& one : cases) {
+    LogCatcher log;
+    EXPECT_FALSE(manager_->loadController(one.first)) << one.first;
+    EXPECT_THAT(log.text(), HasSubstr(one.second));
+    EXPECT_THAT(loaded(), ElementsAre("a"));
+  }
+  EXPECT_EQ(1, DummyController::living());
+}
+
+TEST_F(LoadTest, worksAgainAfterAFailureOfTheSameName) {
+  describe("x", "dummy/Refusing", {});
+  EXPECT_FALSE(manager_->loadController("x"));
+  describe("x", "dummy/Good", {});
+  EXPECT_TRUE(manager_->loadController("x"));
+}
+
+TEST_F(LoadTest, earlierLoadersAreAskedFirst) {
+  const auto second = std::make_shared<dummies::DummyLoader>();
+  manager_->registerControllerLoader(second);
+  load({"a"});
+  EXPECT_EQ(1, loader_->listings_);
+  EXPECT_EQ(0, second->listings_);
+}
+
+TEST_F(LoadTest, declaredTypesNameTheirLoader) {
+  int dummies_found = 0;
+  for (const auto& declared : manager_->getDeclaredTypes()) {
+    if (declared.base_class == "dummies::DummyController") {
+      ++dummies_found;
+    } else {
+      EXPECT_EQ("controller_interface::ControllerBase", declared.base_class);
+    }
+  }
+  EXPECT_EQ(4, dummies_found);
+}
+
+TEST_F(LoadTest, unloadsAndDestroys) {
+  load({"a", "c"});
+  EXPECT_EQ(2, DummyController::living());
+  step();
+  EXPECT_TRUE(manager_->unloadController("a"));
+  EXPECT_EQ(1, DummyController::living());
+  EXPECT_THAT(loaded(), ElementsAre("c"));
+}
+
+TEST_F(LoadTest, refusesToUnloadWhatRunsOrIsUnknown) {
+  load({"a"});
+  ASSERT_TRUE(doSwitch({"a"}, {}));
+  LogCatcher log;
+  EXPECT_FALSE(manager_->unloadController("a"));
+  EXPECT_FALSE(manager_->unloadController("z"));
+  EXPECT_THAT(log.text(),
+              HasSubstr("Could not unload controller with name 'a' because it is still running"));
+  EXPECT_THAT(log.text(), HasSubstr("Could not unload controller with name 'z' because no "
+                                    "controller with this name exists"));
+  ASSERT_TRUE(doSwitch({}, {"a"}));
+  EXPECT_TRUE(manager_->unloadController("a"));
+  EXPECT_THAT(loaded(), IsEmpty());
+}
+
+TEST_F(LoadTest, reloadNeedsForceWhileControllersAreLoaded) {
+  load({"a", "c"});
+  LogCatcher log;
+  EXPECT_FALSE(manager_->reloadControllerLibraries(false));
+  EXPECT_THAT(log.text(), HasSubstr("Controller manager: Cannot reload controller libraries "
+                                    "because there are still 2 controllers running"));
+  EXPECT_EQ(0, loader_->reloads_);
+  EXPECT_TRUE(manager_->reloadControllerLibraries(true)) << "nothing runs, so no loop is needed";
+  EXPECT_EQ(1, loader_->reloads_);
+  EXPECT_EQ(0, DummyController::living());
+  EXPECT_TRUE(manager_->reloadControllerLibraries(false));
+  EXPECT_EQ(2, loader_->reloads_);
+}
+
+TEST_F(LoadTest, forcedReloadStopsWhatRuns) {
+  load({"a", "c"});
+  ASSERT_TRUE(doSwitch({"a"}, {}));
+  EXPECT_TRUE(stepUntil(std::async(std::launch::async, [this] {
+    return manager_->reloadControllerLibraries(true);
+  })));
+  EXPECT_EQ(0, DummyController::living());
+  EXPECT_EQ(1, loader_->reloads_);
+}
+
+TEST_F(LoadTest, theManagersEndDestroysEverything) {
+  load({"a", "c"});
+  manager_.reset();
+  EXPECT_EQ(0, DummyController::living());
+}

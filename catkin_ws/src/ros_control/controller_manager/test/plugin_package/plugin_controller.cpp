@@ -1,0 +1,16 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <controller_interface/controller_base.h>
+// By the header's ROS 1 name, as users' controllers include it.
+#include <pluginlib/class_list_macros.h>
+
+#include "../dummies.h"
+
+namespace controller_manager_test {
+
+class PluginController : public dummies::DummyController {};
+
+}  // namespace controller_manager_test
+
+PLUGINLIB_EXPORT_CLASS(controller_manager_test::PluginController,
+                       controller_interface::ControllerBase)

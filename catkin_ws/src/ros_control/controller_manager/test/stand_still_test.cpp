@@ -1,0 +1,141 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// What is answered, and what waits, while nobody calls update().
+#include <controller_manager_msgs/SwitchController.h>
+#include <ros/service.h>
+
+#include "manager_fixture.h"
+
+using dummies::DummyController;
+using dummies::kBestEffort;
+using dummies::kStrict;
+using dummies::LogCatcher;
+using hardware_interface::RobotHW;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+namespace {
+
+class StandStillTest : public dummies::ManagerTest {
+ protected:
+  void SetUp() override { load({"a"}); }
+};
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Tries to switch, load and unload from inside its update.
+class Meddler : public DummyController {
+ public:
+  void update(const ros::Time& /*time*/, const ros::Duration& /*period*/) override {
+    if (manager_ != nullptr) {
+      answers_ = manager_->switchController({}, {"meddler"}, kStrict) ||
+                 manager_->loadController("c") || manager_->unloadController("a");
+      manager_ = nullptr;
+      meddled_ = true;
+    }
+  }
+  controller_manager::ControllerManager* manager_{nullptr};
+  bool answers_{true};
+  bool meddled_{false};
+};
+
+class MeddlerLoader : public controller_manager::ControllerLoaderInterface {
+ public:
+  MeddlerLoader() : ControllerLoaderInterface("Meddler") {}
+  controller_interface::ControllerBaseSharedPtr createInstance(const std::string&) override {
+    return std::make_shared<Meddler>();
+  }
+  std::vector<std::string> getDeclaredClasses() override { return {"dummy/Meddler"}; }
+  void reload() override {}
+};
+
+}  // namespace
+
+TEST_F(StandStillTest, loadUnloadAndListAnswerAfterTheLoopStopped) {
+  ASSERT_TRUE(doSwitch({"a"}, {}));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(manager_->loadController("c"));
+    EXPECT_THAT(loaded(), ElementsAre("a", "c"));
+    EXPECT_TRUE(manager_->unloadController("c"));
+  }
+  EXPECT_EQ(1, DummyController::living());
+}
+
+TEST_F(StandStillTest, aSwitchFailsAfterItsTimeout) {
+  LogCatcher log;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(manager_->switchController({"a"}, {}, kStrict, false, 0.2));
+  const double elapsed = secondsSince(begin);
+  EXPECT_GE(elapsed, 0.2);
+  EXPECT_LT(elapsed, 1.0);
+  EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers, because the control loop did "
+                                    "not run for 0.2"));
+  step();
+  EXPECT_TRUE(controller("a").isInitialized()) << "a withdrawn switch never happens";
+  EXPECT_EQ(0, robot_.switches_);
+  EXPECT_THAT(robot_.prepared_start_, ElementsAre("a", "")) << "and is taken back";
+  EXPECT_THAT(robot_.prepared_stop_, ElementsAre("", "a"));
+  EXPECT_TRUE(doSwitch({"a"}, {}));
+}
+
+TEST_F(StandStillTest, othersAreAnsweredWhileASwitchWaits) {
+  auto answer = postAndWait({"a"}, {});
+  EXPECT_TRUE(manager_->loadController("c"));
+  EXPECT_THAT(loaded(), ElementsAre("a", "c"));
+  EXPECT_TRUE(manager_->unloadController("c"));
+  LogCatcher log;
+  EXPECT_FALSE(manager_->unloadController("a")) << "the switch still needs it";
+  EXPECT_THAT(log.text(), HasSubstr("Could not unload controller with name 'a' because it takes "
+                                    "part in a switch that has not finished"));
+  EXPECT_FALSE(manager_->switchController({}, {}, kStrict, false, 0.1)) << "one after the other";
+  EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers, because the switch before this "
+                                    "one has not finished after 0.1"));
+  EXPECT_FALSE(isReady(answer)) << "without a timeout it waits for ever";
+  EXPECT_TRUE(stepUntil(std::move(answer)));
+  EXPECT_TRUE(controller("a").isRunning());
+}
+
+TEST_F(StandStillTest, aSwitchBegunIsAbortedWhenTheLoopComesBack) {
+  load({"c"});
+  robot_.after_script_ = RobotHW::SwitchState::ONGOING;
+  auto answer = beginSwitch({"a"}, {}, kStrict, false, 0.5);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(answer.get());
+  EXPECT_LT(secondsSince(begin), 3.0);
+  robot_.after_script_ = RobotHW::SwitchState::DONE;
+  step();
+  EXPECT_FALSE(controller("a").isRunning()) << "nobody waits for it any more";
+  EXPECT_TRUE(doSwitch({"c"}, {}));
+  EXPECT_TRUE(controller("c").isRunning());
+}
+
+TEST_F(StandStillTest, theManagersEndFreesWhoWaits) {
+  controller_manager_msgs::SwitchController service;
+  service.request.start_controllers = {"a"};
+  service.request.strictness = kStrict;
+  auto answer = std::async(std::launch::async, [&] {
+    return ros::service::call("manager_test/controller_manager/switch_controller", service) &&
+           service.response.ok;
+  });
+  waitFor([&] { return robot_.prepares_ > 0; });
+  manager_.reset();
+  EXPECT_EQ(0, DummyController::living());
+  EXPECT_FALSE(answer.get());
+}
+
+TEST_F(StandStillTest, theLoopItselfIsRefused) {
+  manager_->registerControllerLoader(std::make_shared<MeddlerLoader>());
+  describe("meddler", "dummy/Meddler", {});
+  load({"meddler"});
+  ASSERT_TRUE(doSwitch({"meddler"}, {}));
+  auto& meddler = dynamic_cast<Meddler&>(*manager_->getControllerByName("meddler"));
+  meddler.manager_ = manager_.get();
+  LogCatcher log;
+  step();
+  EXPECT_TRUE(meddler.meddled_);
+  EXPECT_FALSE(meddler.answers_);
+  EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers from a callback of the control "
+                                    "loop"));
+}
