@@ -1,16 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "realtime_tools/realtime_buffer.h"
+
+#include <gtest/gtest.h>
+#include <rt_guard/rt_guard.h>
+
 #include <algorithm>
 #include <atomic>
 #include <thread>
 #include <vector>
 
-#include <gtest/gtest.h>
-
-#include <rt_guard/rt_guard.h>
-
 #include "realtime_tools/realtime_box.h"
-#include "realtime_tools/realtime_buffer.h"
 
 using realtime_tools::RealtimeBox;
 using realtime_tools::RealtimeBuffer;

@@ -1,6 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "realtime_tools/realtime_publisher.h"
+
 #include <dirent.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <rt_guard/rt_guard.h>
+#include <std_msgs/Float64MultiArray.h>
+#include <std_msgs/UInt32.h>
 
 #include <atomic>
 #include <chrono>
@@ -11,15 +18,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#include <gtest/gtest.h>
-#include <ros/ros.h>
-#include <std_msgs/Float64MultiArray.h>
-#include <std_msgs/UInt32.h>
-
-#include <rt_guard/rt_guard.h>
-
-#include "realtime_tools/realtime_publisher.h"
 
 using realtime_tools::RealtimePublisher;
 using Clock = std::chrono::steady_clock;

@@ -1,13 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "realtime_tools/detail/turn_lock.h"
+
+#include <gtest/gtest.h>
+
 #include <atomic>
 #include <chrono>
 #include <mutex>
 #include <thread>
-
-#include <gtest/gtest.h>
-
-#include "realtime_tools/detail/turn_lock.h"
 
 using realtime_tools::detail::TurnLock;
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
 #include <memory>
 #include <string>
 #include <thread>
-
-#include <ros/node_handle.h>
-#include <ros/publisher.h>
 
 #include "realtime_tools/detail/turn_lock.h"
 
@@ -33,9 +33,7 @@ class RealtimePublisher {
   Msg msg_;
 
   /// Advertises at once, as init() does.
-  RealtimePublisher(const ros::NodeHandle& node,
-                    const std::string& topic,
-                    int queue_size,
+  RealtimePublisher(const ros::NodeHandle& node, const std::string& topic, int queue_size,
                     bool latched = false) {
     init(node, topic, queue_size, latched);
   }
@@ -61,9 +59,7 @@ class RealtimePublisher {
   /// @param queue_size of the publisher towards its subscribers [messages].
   /// @param latched whether late subscribers get the last message.
   /// @throw ros::InvalidNameException if the topic's name is not valid.
-  void init(const ros::NodeHandle& node,
-            const std::string& topic,
-            int queue_size,
+  void init(const ros::NodeHandle& node, const std::string& topic, int queue_size,
             bool latched = false) {
     stop();
     join();

@@ -1,0 +1,166 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <control_msgs/PidState.h>
+#include <realtime_tools/realtime_publisher.h>
+#include <ros/duration.h>
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "control_toolbox/ParametersConfig.h"
+#include "control_toolbox/detail/snapshot.h"
+
+class TiXmlElement;
+
+namespace control_toolbox {
+
+/// A PID controller for one value:
+///
+///   command = p e + clamp(i I, i_min, i_max) + d de/dt,   I = integral of e over time.
+///
+/// Without `antiwindup` the integral itself keeps growing and only its term is limited; with it
+/// the integral is limited to [i_min/i, i_max/i]. The command is not limited. Units are the
+/// caller's: with e in [rad] and a command in [Nm], p is [Nm/rad], i [Nm/(rad s)], d [Nm s/rad].
+///
+/// Threads: one thread calls computeCommand(), reset(), setCurrentCmd() and the getters of errors
+/// and command. Gains may be read and set by any thread. Real-time safe: those just named,
+/// getGains() and trySetGains(). Everything else belongs to set-up or to other threads.
+class Pid {
+ public:
+  struct Gains {
+    Gains(double p, double i, double d, double i_max, double i_min)
+        : Gains(p, i, d, i_max, i_min, false) {}
+    Gains(double p, double i, double d, double i_max, double i_min, bool antiwindup)
+        : p_gain_(p),
+          i_gain_(i),
+          d_gain_(d),
+          i_max_(i_max),
+          i_min_(i_min),
+          antiwindup_(antiwindup) {}
+    Gains() = default;
+
+    double p_gain_{0.0};
+    double i_gain_{0.0};
+    double d_gain_{0.0};
+    double i_max_{0.0};  ///< upper limit of the integral term
+    double i_min_{0.0};  ///< lower limit of the integral term
+    bool antiwindup_{false};
+  };
+
+  // The original's default of i_min; it compares equal to 0.
+  Pid(double p = 0.0, double i = 0.0, double d = 0.0, double i_max = 0.0, double i_min = -0.0,
+      bool antiwindup = false);
+  /// Copies take over the gains, with errors and command at zero; they have no reconfigure server
+  /// and publish no state.
+  Pid(const Pid& source);
+  Pid& operator=(const Pid& source);
+  ~Pid();
+
+  /// Sets the gains and resets errors and command.
+  void initPid(double p, double i, double d, double i_max, double i_min, bool antiwindup = false);
+  /// Likewise, and opens dynamic reconfigure in the namespace "pid" of this node.
+  /// @param node not used, as in the original.
+  void initPid(double p, double i, double d, double i_max, double i_min,
+               const ros::NodeHandle& node);
+  void initPid(double p, double i, double d, double i_max, double i_min, bool antiwindup,
+               const ros::NodeHandle& node);
+
+  /// init() with the parameters in the namespace `prefix`.
+  bool initParam(const std::string& prefix, bool quiet = false);
+
+  /// Reads the gains from parameters, resets, and opens dynamic reconfigure in that namespace.
+  ///
+  /// Parameters: `p` (required), `i`, `d`, `i_clamp` (limits of the integral term, + and -),
+  /// `i_clamp_min`, `i_clamp_max` (each overrides its side), `antiwindup`, `publish_state`
+  /// (control_msgs/PidState on the topic `state`; stamping it takes a lock where time is
+  /// simulated). Signs of the limits are ignored.
+  ///
+  /// @param quiet say nothing about a missing `p`.
+  /// @return false, with an error in the log, when `p` is missing or a value has the wrong type.
+  bool init(const ros::NodeHandle& node, bool quiet = false);
+
+  /// Reads the attributes p, i, d, iClamp and antiwindup, resets, and opens dynamic reconfigure in
+  /// the namespace "pid".
+  bool initXml(TiXmlElement* config);
+
+  /// Opens a dynamic reconfigure server for the gains; it starts with those in use, whatever the
+  /// parameter server says.
+  void initDynamicReconfig(ros::NodeHandle& node);
+
+  /// Sets errors and command to zero. The next derivative is taken from an error of zero.
+  void reset();
+  /// Likewise with given starting values: the next computeCommand(error, dt) uses `d_error` as
+  /// derivative, and the integral continues from `i_error`.
+  void reset(double d_error, double i_error);
+
+  void getGains(double& p, double& i, double& d, double& i_max, double& i_min);
+  void getGains(double& p, double& i, double& d, double& i_max, double& i_min, bool& antiwindup);
+  Gains getGains();
+
+  /// Sets the gains and shows them in dynamic reconfigure, which publishes: not real-time safe.
+  void setGains(double p, double i, double d, double i_max, double i_min, bool antiwindup = false);
+  void setGains(const Gains& gains);
+
+  /// Sets the gains from the real-time thread; dynamic reconfigure does not show them. An addition
+  /// of ours. @return false when another thread is just setting gains.
+  bool trySetGains(const Gains& gains) noexcept { return gains_.trySet(gains); }
+
+  /// Shows the gains in use, other gains, or a whole configuration in dynamic reconfigure.
+  void updateDynamicReconfig();
+  void updateDynamicReconfig(Gains gains_config);
+  void updateDynamicReconfig(ParametersConfig config);
+
+  /// Takes over the gains of a configuration.
+  void dynamicReconfigCallback(ParametersConfig& config, std::uint32_t level);
+
+  /// One step with the derivative of the error taken from the previous step.
+  /// @param error target minus actual value.
+  /// @param dt since the previous step.
+  /// @return the command; 0 when dt is 0 or the error is not finite.
+  double computeCommand(double error, ros::Duration dt);
+
+  /// One step with a given derivative of the error.
+  /// @return the command; 0 when dt is 0 or an input is not finite.
+  double computeCommand(double error, double error_dot, ros::Duration dt);
+
+  [[deprecated("Use computeCommand(), which returns the opposite sign.")]] double updatePid(
+      double p_error, ros::Duration dt);
+  [[deprecated("Use computeCommand(), which returns the opposite sign.")]] double updatePid(
+      double error, double error_dot, ros::Duration dt);
+
+  /// The command of the last step, and a way to correct it to what was really sent.
+  void setCurrentCmd(double cmd);
+  double getCurrentCmd();
+
+  /// The last error, its integral and its derivative.
+  void getCurrentPIDErrors(double* pe, double* ie, double* de);
+
+  /// Writes gains, errors and command to the log.
+  void printValues();
+
+ private:
+  class Reconfigure;
+
+  double derivative(double error, ros::Duration dt);
+  double integralTerm(const Gains& gains, double error, ros::Duration dt);
+  void publishState(const Gains& gains, double i_term, ros::Duration dt);
+
+  detail::Snapshot<Gains> gains_;
+
+  double p_error_last_{0.0};
+  double p_error_{0.0};
+  double i_error_{0.0};
+  double d_error_{0.0};
+  double cmd_{0.0};
+  /// Whether p_error_last_ may serve to compute a derivative.
+  bool error_last_valid_{true};
+
+  realtime_tools::RealtimePublisherSharedPtr<control_msgs::PidState> state_publisher_;
+  std::unique_ptr<Reconfigure> reconfigure_;
+};
+
+}  // namespace control_toolbox
