@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include <franka_sim_mujoco/ros/physics_config.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
@@ -16,10 +17,18 @@ namespace franka_sim_mujoco {
 
 class World;
 
+/// Runs a piece of work in the stepping thread between two ticks and returns when it is done, also while
+/// the simulation is paused. Rethrows what the work throws; throws std::runtime_error with a sentence when
+/// the stepping thread does not come by in time. For service and action threads; not for the 1 kHz loop.
+using BetweenTicks = std::function<void(const std::function<void()>& work)>;
+
 /// A robot of the simulated world, as a RobotHWSim plugin gets to know it.
 struct RobotHandle {
-  World* world;      ///< only to be touched in initSim, readSim and writeSim
+  World* world;      ///< only to be touched in initSim, readSim, writeSim and between ticks
   std::string name;  ///< of the robot in the world
+  std::string urdf;  ///< the text of its description
+  JointPhysics arm_physics;  ///< what the world's joints have of rotor inertia and friction
+  BetweenTicks between_ticks;
 };
 
 /// Base class of simulated hardware, shaped like gazebo_ros_control's (decision 34): plugins of this type

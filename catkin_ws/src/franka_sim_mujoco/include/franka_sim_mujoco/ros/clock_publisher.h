@@ -1,0 +1,34 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <realtime_tools/realtime_publisher.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+#include <rosgraph_msgs/Clock.h>
+
+namespace franka_sim_mujoco {
+
+/// Publishes /clock, at most 1000 times a wall second however fast the simulation runs (decision 22).
+/// The stepping thread owns it.
+class ClockPublisher {
+ public:
+  explicit ClockPublisher(ros::NodeHandle& node);
+
+  /// After a tick. Neither locks nor allocates; skips a message when one is still under way.
+  void tick(const ros::Time& time);
+  /// While the simulation stands: makes sure the last time is known, also to nodes that start late.
+  /// Publishes at most ten times a wall second unless the time is new. May wait for the network.
+  void standStill(const ros::Time& time);
+
+ private:
+  realtime_tools::RealtimePublisher<rosgraph_msgs::Clock> publisher_;
+  std::int64_t next_ns_{0};
+  ros::Time published_;
+  std::int64_t published_ns_{0};
+};
+
+}  // namespace franka_sim_mujoco

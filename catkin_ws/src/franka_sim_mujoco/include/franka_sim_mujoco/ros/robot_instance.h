@@ -1,0 +1,83 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <controller_manager/controller_manager.h>
+#include <pluginlib/class_loader.hpp>
+#include <ros/node_handle.h>
+#include <urdf/model.h>
+
+#include <franka_sim_mujoco/physics/world.h>
+#include <franka_sim_mujoco/robot_hw_sim.h>
+
+namespace franka_sim_mujoco {
+
+/// What is asked for when a robot is put into the world.
+struct SpawnOrder {
+  std::string name;
+  std::string urdf;
+  std::string robot_namespace;
+  Pose pose;
+  std::map<std::string, double> initial_positions;
+};
+
+/// A spawn order, read and checked: everything that needs neither the world nor the stepping thread.
+struct RobotPlan {
+  RobotDescription description;
+  std::string robot_namespace;
+  std::string arm_id;
+  JointPhysics arm_physics;
+  std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a body without hardware
+  int control_ticks{1};       ///< controlPeriod in ticks of 1 ms
+  urdf::Model urdf;
+  std::vector<transmission_interface::TransmissionInfo> transmissions;
+};
+
+/// Reads the URDF, its <gazebo> plugin element and transmissions, the arm's physics parameters.
+/// Any thread. @throws std::runtime_error with a sentence
+RobotPlan planRobot(const SpawnOrder& order);
+
+using HardwareLoader = pluginlib::ClassLoader<RobotHWSim>;
+
+/// Durations of the parts of a tick, summed up while a benchmark runs [ns].
+struct TickTimes {
+  std::int64_t read{0}, update{0}, write{0};
+};
+
+/// A robot in the world with its hardware plugin and controller manager. Made, run and taken out of
+/// the robots by the stepping thread; destroyed by any thread afterwards.
+class RobotInstance {
+ public:
+  /// Enters the robot into the world and starts its hardware; nothing is left behind when it throws.
+  /// @throws std::runtime_error with a sentence
+  RobotInstance(const RobotPlan& plan, World& world, HardwareLoader& loader, BetweenTicks between_ticks);
+  ~RobotInstance();
+  RobotInstance(const RobotInstance&) = delete;
+  RobotInstance& operator=(const RobotInstance&) = delete;
+
+  const std::string& name() const noexcept { return name_; }
+
+  /// Read, controllers, write. 1 kHz loop. @param times when not null, durations are added to it
+  void tick(const ros::Time& time, TickTimes* times);
+
+  /// The world was put back; controllers are restarted in the next tick.
+  void worldWasReset();
+
+ private:
+  void startHardware(const RobotPlan& plan, World& world, HardwareLoader& loader,
+                     BetweenTicks between_ticks);
+
+  std::string name_;
+  int control_ticks_;
+  int ticks_to_control_{0};
+  bool restart_controllers_{false};
+  std::shared_ptr<RobotHWSim> hardware_;  ///< destroyed after the manager that uses it
+  std::unique_ptr<controller_manager::ControllerManager> manager_;
+};
+
+}  // namespace franka_sim_mujoco

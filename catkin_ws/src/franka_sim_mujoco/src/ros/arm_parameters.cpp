@@ -1,0 +1,159 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/ros/arm_parameters.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <franka_sim_mujoco/ros/param_reader.h>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+/// Flange to the hand's nominal end effector (manual: turned by -45 deg about z, 10.34 cm along it).
+constexpr std::array<double, 16> kHandF_T_NE{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0,      0,
+                                             0,      0,       1, 0, 0,      0,      0.1034, 1};
+
+/// The four printed digits of the hand's rotation are not a rotation within the unit's tolerance: the
+/// columns are brought to length one, which gives back cos(45 deg) and leaves exact matrices as they are.
+std::array<double, 16> withUnitColumns(std::array<double, 16> transform) {
+  for (std::size_t column = 0; column < 3; ++column) {
+    double* entry = transform.data() + 4 * column;
+    const double length = std::sqrt(entry[0] * entry[0] + entry[1] * entry[1] + entry[2] * entry[2]);
+    // Only rounding is repaired; what is no rotation is left for the check to refuse.
+    if (std::abs(length - 1.0) < 1e-3) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        entry[row] /= length;
+      }
+    }
+  }
+  return transform;
+}
+
+std::string transformFault(const std::array<double, 16>& transform) {
+  constexpr double kTolerance = 1e-5;
+  if (transform[3] != 0.0 || transform[7] != 0.0 || transform[11] != 0.0 || transform[15] != 1.0) {
+    return "its bottom row (entries 4, 8, 12 and 16) is not 0 0 0 1";
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      double product = 0.0;
+      for (std::size_t row = 0; row < 3; ++row) {
+        product += transform[4 * i + row] * transform[4 * j + row];
+      }
+      if (std::abs(product - (i == j ? 1.0 : 0.0)) > kTolerance) {
+        return "its first three columns are not at right angles and of length one";
+      }
+    }
+  }
+  const auto at = [&](std::size_t row, std::size_t column) { return transform[4 * column + row]; };
+  const double determinant = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) -
+                             at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
+                             at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
+  return determinant > 0.0 ? "" : "it mirrors (its determinant is -1)";
+}
+
+void readTransform(const ros::NodeHandle& node, const std::string& name,
+                   std::array<double, 16>& transform) {
+  readArray(node, name, transform);
+  transform = withUnitColumns(transform);
+  const std::string fault = transformFault(transform);
+  if (!fault.empty()) {
+    throw std::invalid_argument("The parameter " + node.resolveName(name) +
+                                " is not a column-major 4x4 transform: " + fault + ".");
+  }
+}
+
+void readPayload(const ros::NodeHandle& node, const std::string& mass, const std::string& com,
+                 const std::string& inertia, franka_core::Payload& payload) {
+  payload.mass = readNumber(node, mass).value_or(payload.mass);
+  if (payload.mass < 0.0) {
+    throw std::invalid_argument("The parameter " + node.resolveName(mass) + " is a mass of " +
+                                std::to_string(payload.mass) + " kg; it must not be negative.");
+  }
+  readArray(node, com, payload.com);
+  readArray(node, inertia, payload.inertia);
+}
+
+void readThresholds(const ros::NodeHandle& node, const std::string& phase,
+                    CollisionThresholds& thresholds) {
+  readArray(node, "collision_config/lower_torque_thresholds_" + phase, thresholds.lower_torque);
+  readArray(node, "collision_config/upper_torque_thresholds_" + phase, thresholds.upper_torque);
+  readArray(node, "collision_config/lower_force_thresholds_" + phase, thresholds.lower_force);
+  readArray(node, "collision_config/upper_force_thresholds_" + phase, thresholds.upper_force);
+  const std::string fault = checkThresholds(thresholds);
+  if (!fault.empty()) {
+    throw std::invalid_argument("The parameters " + node.resolveName("collision_config") + "/*_" + phase +
+                                " are wrong: " + fault);
+  }
+}
+
+template <std::size_t N>
+std::string checkPair(const std::array<double, N>& lower, const std::array<double, N>& upper,
+                      const std::string& what) {
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::string which = what + " threshold " + std::to_string(i + 1);
+    if (!std::isfinite(lower[i]) || !std::isfinite(upper[i]) || lower[i] < 0.0 || upper[i] < 0.0) {
+      return "The " + which + " must be a finite number that is not negative.";
+    }
+    if (lower[i] > upper[i]) {
+      return "The lower " + which + " (" + std::to_string(lower[i]) + ") is above the upper one (" +
+             std::to_string(upper[i]) + ").";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string checkThresholds(const CollisionThresholds& thresholds) {
+  const std::string fault = checkPair(thresholds.lower_torque, thresholds.upper_torque, "torque");
+  return fault.empty() ? checkPair(thresholds.lower_force, thresholds.upper_force, "force") : fault;
+}
+
+std::string readArmId(const ros::NodeHandle& node, const std::string& robot_namespace,
+                      const std::string& robot_name) {
+  std::string from_namespace = robot_namespace;
+  from_namespace.erase(std::remove(from_namespace.begin(), from_namespace.end(), '/'),
+                       from_namespace.end());
+  const std::string fallback = from_namespace.empty() ? robot_name : from_namespace;
+  const std::string arm_id = readString(node, "arm_id").value_or(fallback);
+  if (arm_id.empty()) {
+    throw std::invalid_argument("The parameter " + node.resolveName("arm_id") +
+                                " is empty; it must be the prefix of the arm's joint names.");
+  }
+  return arm_id;
+}
+
+ControlUnitParameters readArmParameters(const ros::NodeHandle& node, const std::string& urdf,
+                                        const std::string& arm_id, bool has_hand,
+                                        const std::array<double, 3>& gravity) {
+  ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdf, arm_id)};
+  parameters.gravity = gravity;
+  readArray(node, "gravity_vector", parameters.gravity);
+
+  // With all three given, a hand that has no inertial in the URDF is no fault.
+  const bool explicit_end_effector =
+      node.hasParam("m_ee") && node.hasParam("I_ee") && node.hasParam("F_x_Cee");
+  if (!explicit_end_effector) {
+    parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, arm_id);
+  }
+  readPayload(node, "m_ee", "F_x_Cee", "I_ee", parameters.end_effector);
+  readPayload(node, "m_load", "F_x_Cload", "I_load", parameters.load);
+
+  if (has_hand) {
+    parameters.F_T_NE = kHandF_T_NE;
+  }
+  readTransform(node, "F_T_NE", parameters.F_T_NE);
+  readTransform(node, "NE_T_EE", parameters.NE_T_EE);
+  readTransform(node, "EE_T_K", parameters.EE_T_K);
+
+  readThresholds(node, "nominal", parameters.nominal);
+  parameters.acceleration = parameters.nominal;
+  readThresholds(node, "acceleration", parameters.acceleration);
+  return parameters;
+}
+
+}  // namespace franka_sim_mujoco

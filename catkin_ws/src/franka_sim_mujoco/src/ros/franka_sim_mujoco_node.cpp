@@ -1,0 +1,85 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// The simulation as a ROS node. Parameters: ~world, ~real_time_factor, ~paused (see Simulation and
+/// findWorldFile); services: see SimServices and PictureService. It needs use_sim_time.
+
+#include <cstdlib>
+#include <exception>
+#include <optional>
+
+#include <ros/callback_queue.h>
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/node_handle.h>
+#include <ros/package.h>
+#include <ros/spinner.h>
+
+#include <franka_sim_mujoco/ros/param_reader.h>
+#include <franka_sim_mujoco/ros/picture_service.h>
+#include <franka_sim_mujoco/ros/sim_services.h>
+#include <franka_sim_mujoco/ros/simulation.h>
+#include <franka_sim_mujoco/ros/world_file.h>
+
+namespace {
+
+namespace sim = franka_sim_mujoco;
+
+constexpr char kLog[] = "franka_sim_mujoco";
+/// Controllers' and robots' services and topics; a switch of controllers may hold one for long.
+constexpr std::uint32_t kThreads = 4;
+
+sim::SimulationOptions readOptions(const ros::NodeHandle& node) {
+  sim::SimulationOptions options;
+  const std::string world = sim::readString(node, "world").value_or("");
+  options.world_file = sim::findWorldFile(world, {ros::package::getPath("franka_sim_mujoco") + "/worlds"});
+  if (!options.world_file.empty() && options.world_file != world) {
+    ROS_INFO_NAMED(kLog, "World '%s': taking %s", world.c_str(), options.world_file.c_str());
+  }
+  options.real_time_factor = sim::readNumber(node, "real_time_factor").value_or(1.0);
+  options.paused = sim::readBool(node, "paused").value_or(false);
+  return options;
+}
+
+void checkSimTime() {
+  bool use_sim_time = false;
+  ros::param::param("/use_sim_time", use_sim_time, false);
+  if (!use_sim_time) {
+    throw std::runtime_error(
+        "The parameter /use_sim_time is not true, so no node would follow the simulation's clock. Set it "
+        "before the nodes start: <param name=\"/use_sim_time\" value=\"true\"/> in the launch file.");
+  }
+}
+
+int run() {
+  ros::NodeHandle node;
+  ros::NodeHandle private_node("~");
+  checkSimTime();
+  sim::Simulation simulation(readOptions(private_node), node);
+  std::optional<sim::SimServices> services(std::in_place, private_node, simulation);
+  std::optional<sim::PictureService> pictures(std::in_place, private_node, simulation);
+  ros::AsyncSpinner spinner(kThreads);
+  spinner.start();
+  simulation.start();
+  ROS_INFO_NAMED(kLog, "The simulation is ready.");
+  ros::waitForShutdown();
+  // From the outside in: no new requests, then no more ticks, then no more callbacks.
+  simulation.stop();
+  pictures.reset();
+  services.reset();
+  spinner.stop();
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "gazebo");
+  try {
+    return run();
+  } catch (const std::exception& error) {
+    ROS_FATAL_NAMED(kLog, "%s", error.what());
+    return EXIT_FAILURE;
+  }
+}

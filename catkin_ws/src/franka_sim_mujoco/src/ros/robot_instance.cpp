@@ -1,0 +1,120 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/ros/robot_instance.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include <ros/console.h>
+
+#include <franka_sim_mujoco/ros/pacer.h>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr char kLog[] = "franka_sim_mujoco";
+
+/// The URDF names the hardware by the original's name; where the package franka_gazebo is not ours (it
+/// steps aside for the original) the same hardware has our own.
+std::string availableName(HardwareLoader& loader, const std::string& type) {
+  static const std::string kOriginal = "franka_gazebo/";
+  if (!loader.isClassAvailable(type) && type.compare(0, kOriginal.size(), kOriginal) == 0) {
+    return "franka_sim_mujoco/" + type.substr(kOriginal.size());
+  }
+  return type;
+}
+
+/// Adds the time since its making to a sum, when there is one.
+class Stopwatch {
+ public:
+  explicit Stopwatch(bool runs) noexcept : last_(runs ? monotonicNanoseconds() : 0) {}
+  void lap(std::int64_t& sum) noexcept {
+    const std::int64_t now = monotonicNanoseconds();
+    sum += now - last_;
+    last_ = now;
+  }
+
+ private:
+  std::int64_t last_;
+};
+
+}  // namespace
+
+RobotInstance::RobotInstance(const RobotPlan& plan, World& world, HardwareLoader& loader,
+                             BetweenTicks between_ticks)
+    : name_(plan.description.name), control_ticks_(plan.control_ticks) {
+  world.addRobot(plan.description);
+  if (plan.hardware_type.empty()) {
+    ROS_INFO_NAMED(kLog, "'%s' names no robotSimType: it stands in the world without hardware.",
+                   name_.c_str());
+    return;
+  }
+  try {
+    startHardware(plan, world, loader, std::move(between_ticks));
+  } catch (...) {
+    manager_.reset();
+    hardware_.reset();
+    world.removeRobot(name_);
+    throw;
+  }
+}
+
+RobotInstance::~RobotInstance() = default;
+
+void RobotInstance::startHardware(const RobotPlan& plan, World& world, HardwareLoader& loader,
+                                  BetweenTicks between_ticks) {
+  const std::string type = availableName(loader, plan.hardware_type);
+  try {
+    hardware_ = loader.createSharedInstance(type);
+  } catch (const pluginlib::PluginlibException& error) {
+    throw std::runtime_error("The hardware plugin '" + type + "' of '" + name_ +
+                             "' cannot be loaded: " + error.what());
+  }
+  const ros::NodeHandle node(plan.robot_namespace);
+  RobotHandle robot{&world, name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks)};
+  if (!hardware_->initSim(plan.robot_namespace, node, std::move(robot), &plan.urdf, plan.transmissions)) {
+    throw std::runtime_error("The hardware '" + type + "' of '" + name_ +
+                             "' did not start; the log of the simulation says why.");
+  }
+  manager_ = std::make_unique<controller_manager::ControllerManager>(hardware_.get(), node);
+}
+
+void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
+  if (!hardware_) {
+    return;
+  }
+  Stopwatch watch(times != nullptr);
+  TickTimes unused;
+  TickTimes& sums = times != nullptr ? *times : unused;
+  const ros::Duration tick(World::kTick);
+  if (ticks_to_control_ > 0) {
+    --ticks_to_control_;
+  } else {
+    const ros::Duration period(control_ticks_ * World::kTick);
+    hardware_->readSim(time, period);
+    if (times != nullptr) {
+      watch.lap(sums.read);
+    }
+    manager_->update(time, period, restart_controllers_);
+    if (times != nullptr) {
+      watch.lap(sums.update);
+    }
+    restart_controllers_ = false;
+    ticks_to_control_ = control_ticks_ - 1;
+  }
+  hardware_->writeSim(time, tick);
+  if (times != nullptr) {
+    watch.lap(sums.write);
+  }
+}
+
+void RobotInstance::worldWasReset() {
+  if (hardware_) {
+    hardware_->worldWasReset();
+    restart_controllers_ = true;
+    ticks_to_control_ = 0;
+  }
+}
+
+}  // namespace franka_sim_mujoco

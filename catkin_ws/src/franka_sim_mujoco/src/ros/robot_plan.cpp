@@ -1,0 +1,138 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/ros/robot_instance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <ros/console.h>
+#include <ros/package.h>
+#include <tinyxml2.h>
+#include <transmission_interface/transmission_parser.h>
+
+#include <franka_sim_mujoco/ros/arm_parameters.h>
+#include <franka_sim_mujoco/ros/param_reader.h>
+#include <franka_sim_mujoco/ros/physics_config.h>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr char kLog[] = "franka_sim_mujoco";
+
+/// What the URDF's <gazebo><plugin> element says about hardware.
+struct PluginElement {
+  std::string hardware_type, robot_namespace;
+  double control_period{1e-3};
+};
+
+std::string childText(const tinyxml2::XMLElement& element, const char* name) {
+  const tinyxml2::XMLElement* child = element.FirstChildElement(name);
+  return child != nullptr && child->GetText() != nullptr ? child->GetText() : "";
+}
+
+PluginElement readPluginElement(const std::string& urdf) {
+  PluginElement result;
+  tinyxml2::XMLDocument document;
+  if (document.Parse(urdf.c_str()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) {
+    throw std::runtime_error("The robot description is not XML: " + std::string(document.ErrorStr()));
+  }
+  for (const auto* gazebo = document.RootElement()->FirstChildElement("gazebo"); gazebo != nullptr;
+       gazebo = gazebo->NextSiblingElement("gazebo")) {
+    for (const auto* plugin = gazebo->FirstChildElement("plugin"); plugin != nullptr;
+         plugin = plugin->NextSiblingElement("plugin")) {
+      if (plugin->FirstChildElement("robotSimType") == nullptr) {
+        continue;
+      }
+      result.hardware_type = childText(*plugin, "robotSimType");
+      result.robot_namespace = childText(*plugin, "robotNamespace");
+      const auto* period = plugin->FirstChildElement("controlPeriod");
+      if (period != nullptr && (period->QueryDoubleText(&result.control_period) != tinyxml2::XML_SUCCESS ||
+                                !(result.control_period > 0.0 && result.control_period <= 1.0))) {
+        throw std::runtime_error("The controlPeriod of the robot description is '" +
+                                 childText(*plugin, "controlPeriod") +
+                                 "'; it must be a time in seconds, above 0 and up to 1.");
+      }
+      return result;
+    }
+  }
+  return result;
+}
+
+std::string resolveUri(const std::string& uri) {
+  static const std::string kPackage = "package://", kFile = "file://";
+  if (uri.compare(0, kFile.size(), kFile) == 0) {
+    return uri.substr(kFile.size());
+  }
+  if (uri.compare(0, kPackage.size(), kPackage) != 0) {
+    return uri;
+  }
+  const std::size_t slash = uri.find('/', kPackage.size());
+  const std::string package = uri.substr(kPackage.size(), slash - kPackage.size());
+  const std::string folder = ros::package::getPath(package);
+  return folder.empty() || slash == std::string::npos ? "" : folder + uri.substr(slash);
+}
+
+JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& urdf_name) {
+  const std::string friction = readString(node, "friction").value_or("none");
+  const std::string folder = ros::package::getPath("franka_description");
+  if (folder.empty()) {
+    ROS_WARN_NAMED(kLog, "The package franka_description was not found: joints get the default physics.");
+    return JointPhysics{};
+  }
+  return readJointPhysics(folder + "/config/physics.yaml", urdf_name == "fr3" ? "fr3" : "panda", friction);
+}
+
+}  // namespace
+
+RobotPlan planRobot(const SpawnOrder& order) {
+  RobotPlan plan;
+  if (order.name.empty()) {
+    throw std::runtime_error("A robot needs a name.");
+  }
+  if (!plan.urdf.initString(order.urdf)) {
+    throw std::runtime_error("The robot description of '" + order.name +
+                             "' is not a URDF that can be read; the lines above in the log say why.");
+  }
+  const PluginElement plugin = readPluginElement(order.urdf);
+  plan.hardware_type = plugin.hardware_type;
+  plan.control_ticks = std::max(1, static_cast<int>(std::lround(plugin.control_period / World::kTick)));
+  plan.robot_namespace =
+      order.robot_namespace.empty() ? plugin.robot_namespace : order.robot_namespace;
+  if (plan.robot_namespace.empty()) {
+    plan.robot_namespace = "/";
+  }
+  std::string why;
+  if (!ros::names::validate(plan.robot_namespace, why)) {
+    throw std::runtime_error("'" + plan.robot_namespace + "' is no valid namespace: " + why);
+  }
+  if (!plan.hardware_type.empty() &&
+      !transmission_interface::TransmissionParser::parse(order.urdf, plan.transmissions)) {
+    throw std::runtime_error("The transmissions of '" + order.name + "' cannot be read.");
+  }
+
+  const ros::NodeHandle node(plan.robot_namespace);
+  plan.arm_id = readArmId(node, plan.robot_namespace, order.name);
+  plan.description.name = order.name;
+  plan.description.urdf = order.urdf;
+  plan.description.resolve = resolveUri;
+  plan.description.base = order.pose;
+  plan.description.initial_positions = order.initial_positions;
+  for (const auto& joint : order.initial_positions) {
+    if (!plan.urdf.getJoint(joint.first)) {
+      throw std::runtime_error("The robot '" + order.name + "' has no joint '" + joint.first +
+                               "' for which an initial position was given.");
+    }
+    if (!std::isfinite(joint.second)) {
+      throw std::runtime_error("The initial position of '" + joint.first + "' is not a finite number.");
+    }
+  }
+  if (plan.urdf.getJoint(plan.arm_id + "_joint1")) {
+    plan.arm_physics = choosePhysics(node, plan.urdf.getName());
+    applyJointPhysics(plan.arm_physics, plan.arm_id, plan.description);
+  }
+  return plan;
+}
+
+}  // namespace franka_sim_mujoco
