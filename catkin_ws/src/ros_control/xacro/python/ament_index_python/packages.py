@@ -1,0 +1,36 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where packages are, by rospkg: what `$(find package)` means to ROS 1."""
+
+import functools
+import os
+
+import rospkg
+
+
+class PackageNotFoundError(KeyError):
+    """No package of that name is on ROS_PACKAGE_PATH."""
+
+    def __str__(self):
+        """Return the sentence as it is, not its repr as KeyError does."""
+        return str(self.args[0])
+
+
+def get_package_share_directory(package_name):
+    """Return the directory of a package: its sources in a devel space, else its share directory.
+
+    Raises PackageNotFoundError when there is no such package.
+    """
+    path = os.environ.get("ROS_PACKAGE_PATH", "")
+    try:
+        return _packages(path).get_path(package_name)
+    except rospkg.ResourceNotFound:
+        raise PackageNotFoundError(
+            "The package '{}' was not found. Is it built, and is the setup.bash of its workspace "
+            "sourced? ROS_PACKAGE_PATH is '{}'.".format(package_name, path)) from None
+
+
+@functools.lru_cache(maxsize=4)
+def _packages(path):
+    """Return the packages on `path`; walking it takes long enough to do it once."""
+    return rospkg.RosPack(rospkg.get_ros_paths({"ROS_PACKAGE_PATH": path}))
