@@ -206,19 +206,21 @@ bool ControllerManager::unloadController(const std::string& name) {
 }
 
 bool ControllerManager::reloadControllerLibraries(bool force_kill) {
-  const std::vector<ControllerSpec> loaded = getControllers();
+  // Names only: whoever held the controllers would keep their libraries from being unloaded.
+  std::vector<std::string> loaded;
+  std::vector<std::string> running;
+  for (const ControllerSpec& spec : getControllers()) {
+    loaded.push_back(spec.info.name);
+    if (spec.c->isRunning()) {
+      running.push_back(spec.info.name);
+    }
+  }
   if (!loaded.empty() && !force_kill) {
     ROS_ERROR(
         "Controller manager: Cannot reload controller libraries because there are still %i "
         "controllers running",
         static_cast<int>(loaded.size()));
     return false;
-  }
-  std::vector<std::string> running;
-  for (const ControllerSpec& spec : loaded) {
-    if (spec.c->isRunning()) {
-      running.push_back(spec.info.name);
-    }
   }
   // Without anything to stop this must not wait for the loop.
   constexpr int kBestEffort = controller_manager_msgs::SwitchControllerRequest::BEST_EFFORT;
@@ -227,11 +229,11 @@ bool ControllerManager::reloadControllerLibraries(bool force_kill) {
               "controllers could not be stopped");
     return false;
   }
-  for (const ControllerSpec& spec : loaded) {
-    if (!unloadController(spec.info.name)) {
+  for (const std::string& name : loaded) {
+    if (!unloadController(name)) {
       ROS_ERROR("Controller manager: Cannot reload controller libraries because controller '%s' "
                 "could not be unloaded",
-                spec.info.name.c_str());
+                name.c_str());
       return false;
     }
   }

@@ -173,6 +173,10 @@ bool ControllerManager::switchController(const Names& start_controllers,
 
   SwitchDesk::Turn turn(*desk_, timeout);
   if (!turn) {
+    if (desk_->mustEnd()) {
+      ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
+      return false;
+    }
     ROS_ERROR("Could not switch controllers, because the switch before this one has not finished "
               "after %g s. Is the control loop running?",
               turn.elapsed());
@@ -206,9 +210,13 @@ bool ControllerManager::switchController(const Names& start_controllers,
     case SwitchDesk::Result::kWithdrawn:
       break;
   }
-  ROS_ERROR("Could not switch controllers, because the control loop did not run for %g s. Is the "
-            "robot connected, or the simulation paused?",
-            turn.elapsed());
+  if (desk_->mustEnd()) {
+    ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
+  } else {
+    ROS_ERROR("Could not switch controllers, because the control loop did not run for %g s. Is the "
+              "robot connected, or the simulation paused?",
+              turn.elapsed());
+  }
   // The robot prepared for a switch that never came: let it prepare for the way back.
   const std::lock_guard<std::mutex> lock(services_mutex_);
   if (!robot_hw_->prepareSwitch(stop_list, start_list)) {

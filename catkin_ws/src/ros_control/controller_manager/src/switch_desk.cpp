@@ -35,17 +35,29 @@ bool SwitchDesk::mustEnd() const { return closed_ || !ros::ok(); }
 
 bool SwitchDesk::grant() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (busy_ || (request_ && request_->phase != Phase::kDone)) {
+  if (busy_) {
     return false;
   }
-  request_.reset();
+  dropFinished();
+  if (request_) {
+    return false;
+  }
   busy_ = true;
   return true;
 }
 
-bool SwitchDesk::involves(const std::string& name) const {
+bool SwitchDesk::involves(const std::string& name) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (!busy_) {
+    dropFinished();
+  }
   return request_ && request_->phase != Phase::kDone && request_->involves(name);
+}
+
+void SwitchDesk::dropFinished() {
+  if (request_ && request_->phase == Phase::kDone) {
+    request_.reset();
+  }
 }
 
 SwitchDesk::Turn::Turn(SwitchDesk& desk, double timeout)
@@ -59,6 +71,7 @@ SwitchDesk::Turn::Turn(SwitchDesk& desk, double timeout)
 SwitchDesk::Turn::~Turn() {
   if (granted_) {
     const std::lock_guard<std::mutex> lock(desk_.mutex_);
+    desk_.dropFinished();
     desk_.busy_ = false;
   }
 }

@@ -48,13 +48,21 @@ class GuardTest : public dummies::ManagerTest {
 
 TEST_F(GuardTest, theGuardWatches) {
   ASSERT_TRUE(rt_guard::kActive);
-  const rt_guard::Scope scope;
-  delete new int(1);
-  std::mutex mutex;
-  mutex.lock();
-  mutex.unlock();
-  EXPECT_GE(scope.allocations(), 1u);
-  EXPECT_EQ(1u, scope.locks());
+  std::size_t allocations = 0;
+  std::size_t locks = 0;
+  {
+    const rt_guard::Scope scope;
+    // Through a volatile pointer, or the compiler leaves both calls out.
+    void* volatile memory = std::malloc(1);
+    std::free(memory);
+    std::mutex mutex;
+    mutex.lock();
+    mutex.unlock();
+    allocations = scope.allocations();
+    locks = scope.locks();
+  }
+  EXPECT_EQ(2u, allocations);
+  EXPECT_EQ(1u, locks);
 }
 
 TEST_F(GuardTest, steadyState) {

@@ -117,6 +117,7 @@ TEST_F(LoadTest, refusesToUnloadWhatRunsOrIsUnknown) {
   ASSERT_TRUE(doSwitch({}, {"a"}));
   EXPECT_TRUE(manager_->unloadController("a"));
   EXPECT_THAT(loaded(), IsEmpty());
+  EXPECT_EQ(0, DummyController::living()) << "no finished switch may keep it alive";
 }
 
 TEST_F(LoadTest, reloadNeedsForceWhileControllersAreLoaded) {

@@ -106,7 +106,9 @@ TEST_F(StandStillTest, aSwitchBegunIsAbortedWhenTheLoopComesBack) {
   EXPECT_LT(secondsSince(begin), 3.0);
   robot_.after_script_ = RobotHW::SwitchState::DONE;
   step();
-  EXPECT_FALSE(controller("a").isRunning()) << "nobody waits for it any more";
+  EXPECT_TRUE(controller("a").isAborted()) << "nobody waits for it any more";
+  EXPECT_TRUE(manager_->unloadController("a"));
+  EXPECT_EQ(1, DummyController::living());
   EXPECT_TRUE(doSwitch({"c"}, {}));
   EXPECT_TRUE(controller("c").isRunning());
 }

@@ -64,21 +64,24 @@ class SwitchDesk {
     bool granted_{false};
   };
 
-  /// Whether an unfinished switch starts or stops this controller. Thread-safe, does not wait.
-  bool involves(const std::string& name) const;
+  /// Whether an unfinished switch starts or stops this controller; if not, the desk holds nothing
+  /// of it. Thread-safe, does not wait.
+  bool involves(const std::string& name);
 
   /// Ends all waiting, now and later, for the manager's end.
   void close() { closed_ = true; }
+  /// Whether waiting was ended, here or for the whole program.
+  bool mustEnd() const;
 
  private:
   bool grant();
-  bool mustEnd() const;
+  void dropFinished();  ///< with the mutex locked
 
   LoopGate& gate_;
   std::atomic<SwitchRequest*> for_loop_{nullptr};
   std::atomic<bool> closed_{false};
 
-  mutable std::mutex mutex_;  ///< for what follows; the loop never takes it
+  std::mutex mutex_;  ///< for what follows; the loop never takes it
   bool busy_{false};          ///< somebody holds the turn
   std::unique_ptr<SwitchRequest> request_;
   std::vector<std::unique_ptr<SwitchRequest>> withdrawn_;  ///< may still be read by the loop
