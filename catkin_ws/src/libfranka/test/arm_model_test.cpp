@@ -1,0 +1,236 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The arm's dynamics against answers found another way: KDL, energy, finite differences, each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <Eigen/Eigenvalues>
+#include <kdl/chaindynparam.hpp>
+
+#include "kdl_arm.h"
+#include "random_state.h"
+
+namespace franka_test {
+namespace {
+
+using franka_core::ArmDynamics;
+using franka_core::ArmFrame;
+using franka_core::ArmModel;
+using franka_core::Payload;
+
+class ArmDynamicsTest : public ::testing::TestWithParam<Arm> {
+ protected:
+  const std::string urdf_{readData(GetParam().file)};
+  const ArmModel arm_{ArmModel::fromUrdf(urdf_, GetParam().arm_id)};
+  StateSource states_{*GetParam().limits};
+};
+
+INSTANTIATE_TEST_SUITE_P(Arms, ArmDynamicsTest, ::testing::Values(kPanda, kFr3), armName);
+
+KDL::JntArray joints(const std::array<double, 7>& values) {
+  KDL::JntArray array(7);
+  array.data = vector(values);
+  return array;
+}
+
+TEST_P(ArmDynamicsTest, AgreesWithKdl) {
+  double mass_error = 0.0, coriolis_error = 0.0, gravity_error = 0.0;
+  const KDL::Chain bare = kdlArm(urdf_, GetParam().arm_id);
+  for (int n = 0; n < kStates; n++) {
+    const State s = states_.next();
+    KDL::Chain chain = bare;
+    addPayload(chain, s.payload);
+    KDL::ChainDynParam solver(
+        chain, KDL::Vector(s.gravity_earth[0], s.gravity_earth[1], s.gravity_earth[2]));
+    KDL::JntSpaceInertiaMatrix mass(7);
+    KDL::JntArray coriolis(7), gravity(7);
+    ASSERT_EQ(0, solver.JntToMass(joints(s.q), mass));
+    ASSERT_EQ(0, solver.JntToCoriolis(joints(s.q), joints(s.dq), coriolis));
+    ASSERT_EQ(0, solver.JntToGravity(joints(s.q), gravity));
+    mass_error = std::max(
+        mass_error, (matrix(arm_.mass(s.q, s.payload)) - mass.data).cwiseAbs().maxCoeff());
+    coriolis_error = std::max(
+        coriolis_error,
+        (vector(arm_.coriolis(s.q, s.dq, s.payload)) - coriolis.data).cwiseAbs().maxCoeff());
+    gravity_error = std::max(
+        gravity_error,
+        (vector(arm_.gravity(s.q, s.payload, s.gravity_earth)) - gravity.data).cwiseAbs().maxCoeff());
+  }
+  std::printf("largest difference to KDL: mass %.1e kg m^2, Coriolis %.1e Nm, gravity %.1e Nm\n",
+              mass_error, coriolis_error, gravity_error);
+  EXPECT_LT(mass_error, 1e-13);
+  EXPECT_LT(coriolis_error, 1e-12);
+  EXPECT_LT(gravity_error, 1e-12);
+}
+
+TEST_P(ArmDynamicsTest, ComputeDynamicsIsTheSameAsItsParts) {
+  for (int n = 0; n < kStates; n++) {
+    const State s = states_.next();
+    const auto frame = static_cast<ArmFrame>(n % 10);
+    ArmDynamics all;
+    arm_.computeDynamics(frame, s.q, s.dq, s.F_T_EE, s.EE_T_K, s.payload, s.gravity_earth, all);
+    EXPECT_LT((matrix(all.mass) - matrix(arm_.mass(s.q, s.payload))).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LT((vector(all.coriolis) - vector(arm_.coriolis(s.q, s.dq, s.payload)))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-12);
+    EXPECT_LT((vector(all.gravity) - vector(arm_.gravity(s.q, s.payload, s.gravity_earth)))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-12);
+    EXPECT_EQ(all.pose, arm_.pose(frame, s.q, s.F_T_EE, s.EE_T_K));
+    EXPECT_EQ(all.zero_jacobian, arm_.zeroJacobian(frame, s.q, s.F_T_EE, s.EE_T_K));
+  }
+}
+
+TEST_P(ArmDynamicsTest, MassIsSymmetricAndPositiveDefinite) {
+  for (int n = 0; n < kStates; n++) {
+    const State s = states_.next();
+    const Matrix7 mass = matrix(arm_.mass(s.q, s.payload));
+    EXPECT_EQ(mass, mass.transpose());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix7>(mass).eigenvalues().minCoeff(), 0.0);
+  }
+}
+
+TEST_P(ArmDynamicsTest, InverseDynamicsIsMassCoriolisAndGravity) {
+  for (int n = 0; n < kStates; n++) {
+    const State s = states_.next();
+    const Vector7 sum = matrix(arm_.mass(s.q, s.payload)) * vector(s.ddq) +
+                        vector(arm_.coriolis(s.q, s.dq, s.payload)) +
+                        vector(arm_.gravity(s.q, s.payload, s.gravity_earth));
+    const Vector7 torque =
+        vector(arm_.inverseDynamics(s.q, s.dq, s.ddq, s.payload, s.gravity_earth));
+    EXPECT_LT((sum - torque).cwiseAbs().maxCoeff(), 1e-11);
+  }
+}
+
+// c_i = sum_jk (dM_ij/dq_k - 1/2 dM_jk/dq_i) dq_j dq_k: the Coriolis vector follows from the mass matrix
+// alone, which makes the power of the Coriolis forces that of the changing kinetic energy.
+TEST_P(ArmDynamicsTest, CoriolisFollowsFromTheMassMatrix) {
+  constexpr double kStep = 1e-4;
+  for (int n = 0; n < 100; n++) {
+    const State s = states_.next();
+    std::array<Matrix7, 7> derivative;
+    for (std::size_t k = 0; k < 7; k++) {
+      const auto massAt = [&](double step) {
+        std::array<double, 7> q = s.q;
+        q[k] += step;
+        return Matrix7(matrix(arm_.mass(q, s.payload)));
+      };
+      // Fourth order, so that the step's error is far below rounding's.
+      derivative[k] = (8.0 * (massAt(kStep) - massAt(-kStep)) -
+                       (massAt(2 * kStep) - massAt(-2 * kStep))) / (12.0 * kStep);
+    }
+    const Vector7 dq = vector(s.dq);
+    Vector7 expected = Vector7::Zero();
+    for (std::size_t k = 0; k < 7; k++) {
+      expected += derivative[k] * dq * dq[k];
+      expected[k] -= 0.5 * dq.dot(derivative[k] * dq);
+    }
+    const Vector7 coriolis = vector(arm_.coriolis(s.q, s.dq, s.payload));
+    EXPECT_LT((coriolis - expected).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+double potentialEnergy(const ArmModel& arm, const State& s, const std::array<double, 7>& q) {
+  const Eigen::Map<const Eigen::Vector3d> earth(s.gravity_earth.data());
+  const auto energyOf = [&earth](const std::array<double, 16>& at, double mass,
+                                 const std::array<double, 3>& com) {
+    const Eigen::Vector3d c = pose(at).topLeftCorner<3, 3>() *
+                                  Eigen::Map<const Eigen::Vector3d>(com.data()) +
+                              pose(at).topRightCorner<3, 1>();
+    return -mass * earth.dot(c);
+  };
+  double energy = energyOf(arm.pose(ArmFrame::kFlange, q), s.payload.mass, s.payload.com);
+  for (int i = 0; i < 7; i++) {
+    energy += energyOf(arm.pose(static_cast<ArmFrame>(i), q), arm.links()[i].mass,
+                       arm.links()[i].com);
+  }
+  return energy;
+}
+
+TEST_P(ArmDynamicsTest, GravityIsTheSlopeOfThePotentialEnergy) {
+  constexpr double kStep = 1e-5;
+  for (int n = 0; n < 100; n++) {
+    const State s = states_.next();
+    const auto gravity = arm_.gravity(s.q, s.payload, s.gravity_earth);
+    for (std::size_t i = 0; i < 7; i++) {
+      std::array<double, 7> above = s.q, below = s.q;
+      above[i] += kStep;
+      below[i] -= kStep;
+      EXPECT_NEAR((potentialEnergy(arm_, s, above) - potentialEnergy(arm_, s, below)) / (2 * kStep),
+                  gravity[i], 1e-7);
+    }
+  }
+}
+
+// The sign, worked out by hand: a weight pulls down joint 2 of an arm stretched forward.
+TEST(ArmDynamics, GravityHoldsALoadUp) {
+  const ArmModel arm = ArmModel::fromUrdf(readData("panda_hand.urdf"));
+  const std::array<double, 7> forward{0.0, 1.5707963267948966, 0.0, -0.07, 0.0, 1.57, 0.0};
+  Payload load;
+  const double empty = arm.gravity(forward, load)[1];
+  load.mass = 1.0;
+  const double loaded = arm.gravity(forward, load)[1];
+  const double reach = arm.pose(ArmFrame::kFlange, forward)[12];
+  EXPECT_GT(reach, 0.5);
+  // Positive q2 leans forward and down, so holding needs a negative torque.
+  EXPECT_NEAR(-9.81 * reach, loaded - empty, 1e-12);
+}
+
+TEST(Combine, FollowsTheParallelAxisTheorem) {
+  Payload hand{0.73, {-0.01, 0.0, 0.03}, {0.001, 0, 0, 0, 0.0025, 0, 0, 0, 0.0017}};
+  Payload load{1.2, {0.05, -0.02, 0.11}, {0.003, 1e-4, 0, 1e-4, 0.002, 0, 0, 0, 0.004}};
+  const Payload total = combine(hand, load);
+  EXPECT_DOUBLE_EQ(1.93, total.mass);
+  EXPECT_NEAR((0.73 * -0.01 + 1.2 * 0.05) / 1.93, total.com[0], 1e-16);
+  // Two bodies about their common centre: both inertias and the reduced mass at their distance.
+  const Eigen::Vector3d d(0.06, -0.02, 0.08);
+  const double reduced = 0.73 * 1.2 / 1.93;
+  const Eigen::Matrix3d expected =
+      Eigen::Map<const Eigen::Matrix3d>(hand.inertia.data()) +
+      Eigen::Map<const Eigen::Matrix3d>(load.inertia.data()) +
+      reduced * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
+  EXPECT_LT((expected - Eigen::Map<const Eigen::Matrix3d>(total.inertia.data())).cwiseAbs().maxCoeff(),
+            1e-16);
+}
+
+TEST(Combine, LeavesOutPartsWithoutMass) {
+  const Payload hand{0.73, {-0.01, 0.0, 0.03}, {0.001, 0, 0, 0, 0.0025, 0, 0, 0, 0.0017}};
+  const Payload nothing{0.0, {1.0, 2.0, 3.0}, {9, 0, 0, 0, 9, 0, 0, 0, 9}};
+  for (const Payload& total : {combine(hand, nothing), combine(nothing, hand)}) {
+    EXPECT_EQ(hand.mass, total.mass);
+    EXPECT_EQ(hand.com, total.com);
+    EXPECT_EQ(hand.inertia, total.inertia);
+  }
+  const Payload none = combine(nothing, nothing);
+  EXPECT_EQ(0.0, none.mass);
+  EXPECT_EQ((std::array<double, 3>{}), none.com);
+  EXPECT_EQ((std::array<double, 9>{}), none.inertia);
+}
+
+// Mass, Coriolis and gravity do not care whether two bodies are given as one.
+TEST(Combine, GivesTheDynamicsOfBothBodies) {
+  const std::string urdf = readData("panda_hand.urdf");
+  const ArmModel arm = ArmModel::fromUrdf(urdf);
+  StateSource states(franka_core::kFerLimits);
+  for (int n = 0; n < 100; n++) {
+    const State hand = states.next();
+    const State load = states.next();
+    KDL::Chain chain = kdlArm(urdf, "panda");
+    addPayload(chain, hand.payload);
+    addPayload(chain, load.payload);
+    KDL::ChainDynParam solver(chain, KDL::Vector(0, 0, -9.81));
+    KDL::JntSpaceInertiaMatrix mass(7);
+    ASSERT_EQ(0, solver.JntToMass(joints(hand.q), mass));
+    EXPECT_LT((matrix(arm.mass(hand.q, combine(hand.payload, load.payload))) - mass.data)
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace franka_test

@@ -1,0 +1,183 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reading arms from URDF texts: what is taken, and the sentence when something is wrong.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+#include <Eigen/Eigenvalues>
+
+#include "random_state.h"
+
+namespace franka_test {
+namespace {
+
+using franka_core::ArmFrame;
+using franka_core::ArmModel;
+using franka_core::endEffectorFromUrdf;
+using franka_core::Payload;
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  const std::size_t at = text.find(what);
+  if (at == std::string::npos) {
+    throw std::logic_error("the test's URDF has no " + what);
+  }
+  return text.replace(at, what.size(), with);
+}
+
+std::string withoutInertial(const std::string& urdf, const std::string& link) {
+  const std::size_t begin = urdf.find("<link name=\"" + link + "\">");
+  const std::size_t from = urdf.find("<inertial>", begin);
+  const std::size_t to = urdf.find("</inertial>", from) + std::string("</inertial>").size();
+  return urdf.substr(0, from) + urdf.substr(to);
+}
+
+template <typename Action>
+std::string refusalOf(Action action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no exception";
+}
+
+std::string armRefusal(const std::string& urdf, const std::string& arm_id = "") {
+  return refusalOf([&] { ArmModel::fromUrdf(urdf, arm_id); });
+}
+
+void expectContains(const std::string& text, const std::string& part) {
+  EXPECT_NE(std::string::npos, text.find(part)) << text;
+}
+
+const std::string& panda() {
+  static const std::string text = readData("panda_hand.urdf");
+  return text;
+}
+
+// Two arms in one description, the second a copy with another name and another place.
+std::string twoArms() {
+  const std::string second = std::regex_replace(panda(), std::regex("panda_|world"), "right_arm_");
+  const auto bodyOf = [](const std::string& urdf) {
+    const std::size_t from = urdf.find('>', urdf.find("<robot")) + 1;
+    return urdf.substr(from, urdf.rfind("</robot>") - from);
+  };
+  return "<robot name=\"two\"><link name=\"table\"/>" + bodyOf(panda()) + bodyOf(second) +
+         "<joint name=\"a\" type=\"fixed\"><parent link=\"table\"/><child link=\"world\"/>"
+         "<origin xyz=\"0 1 0\"/></joint>"
+         "<joint name=\"b\" type=\"fixed\"><parent link=\"table\"/><child link=\"right_arm_\"/>"
+         "<origin xyz=\"0 -1 0\"/></joint></robot>";
+}
+
+TEST(FromUrdf, ReadsLinkInertiasAsGiven) {
+  const ArmModel arm = ArmModel::fromUrdf(panda(), "panda");
+  EXPECT_EQ(4.970684, arm.links()[0].mass);
+  EXPECT_EQ(0.70337, arm.links()[0].inertia[0]);
+  EXPECT_EQ(-0.000139, arm.links()[0].inertia[1]);
+  EXPECT_EQ(0.006772, arm.links()[0].inertia[2]);
+  EXPECT_EQ(0.735522, arm.links()[6].mass);
+  EXPECT_EQ((std::array<double, 3>{0.010517, -0.004252, 0.061597}), arm.links()[6].com);
+  EXPECT_EQ(0.107, arm.flange()[14]);
+}
+
+TEST(FromUrdf, FindsTheOneArmAndPicksOneOfTwo) {
+  const ArmModel one = ArmModel::fromUrdf(panda());
+  const ArmModel right = ArmModel::fromUrdf(twoArms(), "right_arm");
+  const std::array<double, 7> q{0.1, -0.2, 0.3, -1.4, 0.5, 1.6, 0.7};
+  EXPECT_EQ(one.pose(ArmFrame::kFlange, q), right.pose(ArmFrame::kFlange, q));
+  EXPECT_EQ(one.mass(q, {}), right.mass(q, {}));
+}
+
+TEST(FromUrdf, ReadsAnyPrefixAlsoNone) {
+  const std::string bare = std::regex_replace(panda(), std::regex("panda_"), "");
+  const std::string other = std::regex_replace(panda(), std::regex("panda_"), "arm-7_b_");
+  EXPECT_EQ(0.735522, ArmModel::fromUrdf(bare).links()[6].mass);
+  EXPECT_EQ(0.735522, ArmModel::fromUrdf(other, "arm-7_b").links()[6].mass);
+}
+
+TEST(FromUrdf, LeavesTheHandToThePayload) {
+  const std::string heavy = replaced(panda(), "mass value=\"0.73\"", "mass value=\"73\"");
+  EXPECT_EQ(ArmModel::fromUrdf(panda()).mass({}, {}), ArmModel::fromUrdf(heavy).mass({}, {}));
+  EXPECT_GT(endEffectorFromUrdf(heavy).mass, 73.0);
+}
+
+// The same body, its inertia given in axes turned by a quarter about z.
+TEST(FromUrdf, TurnsInertiasGivenInOtherAxes) {
+  const std::string turned = replaced(
+      replaced(panda(), "<origin rpy=\"0 0 0\" xyz=\"0.010517 -0.004252 0.061597\" />",
+               "<origin rpy=\"0 0 1.5707963267948966\" xyz=\"0.010517 -0.004252 0.061597\" />"),
+      "ixx=\"0.012516\" ixy=\"-0.000428\" ixz=\"-0.001196\" iyy=\"0.010027\" iyz=\"-0.000741\"",
+      "ixx=\"0.010027\" ixy=\"0.000428\" ixz=\"-0.000741\" iyy=\"0.012516\" iyz=\"0.001196\"");
+  const auto expected = ArmModel::fromUrdf(panda()).links()[6];
+  const auto link = ArmModel::fromUrdf(turned).links()[6];
+  EXPECT_EQ(expected.com, link.com);
+  for (std::size_t i = 0; i < 9; i++) {
+    EXPECT_NEAR(expected.inertia[i], link.inertia[i], 1e-17);
+  }
+}
+
+TEST(FromUrdf, CountsWhatIsFixedToALink) {
+  const std::string camera =
+      replaced(panda(), "</robot>",
+               "<link name=\"camera\"><inertial><mass value=\"0.5\"/><origin xyz=\"0 0 0.1\"/>"
+               "<inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial></link>"
+               "<joint name=\"camera_joint\" type=\"fixed\"><parent link=\"panda_link5\"/>"
+               "<child link=\"camera\"/><origin xyz=\"0.2 0 0\"/></joint></robot>");
+  const auto plain = ArmModel::fromUrdf(panda()).links()[4];
+  const auto link = ArmModel::fromUrdf(camera).links()[4];
+  EXPECT_DOUBLE_EQ(plain.mass + 0.5, link.mass);
+  EXPECT_NEAR((plain.mass * plain.com[0] + 0.5 * 0.2) / link.mass, link.com[0], 1e-16);
+  EXPECT_NEAR((plain.mass * plain.com[2] + 0.5 * 0.1) / link.mass, link.com[2], 1e-16);
+}
+
+TEST(FromUrdf, SaysWhatIsWrong) {
+  expectContains(armRefusal(""), "cannot be read as a robot description");
+  expectContains(armRefusal("<robot"), "cannot be read as a robot description");
+  expectContains(armRefusal("<robot name=\"r\"><link name=\"base\"/></robot>"),
+                 "no chain of links <arm_id>_link0 to <arm_id>_link8");
+  expectContains(armRefusal(panda(), "fr3"), "Arms found: 'panda'");
+  expectContains(armRefusal(twoArms()), "several arms: 'panda', 'right_arm'");
+  expectContains(armRefusal(withoutInertial(panda(), "panda_link4")),
+                 "link 'panda_link4' has no inertial");
+  expectContains(armRefusal(replaced(panda(), "mass value=\"3.587895\"", "mass value=\"0\"")),
+                 "the mass of link 'panda_link4' must be greater than 0 kg");
+  expectContains(armRefusal(replaced(panda(), "<axis xyz=\"0 0 1\" />", "<axis xyz=\"0 0 -1\" />")),
+                 "joint 'panda_joint1' must turn about +z");
+  expectContains(armRefusal(replaced(panda(), "<joint name=\"panda_joint3\" type=\"revolute\">",
+                                     "<joint name=\"panda_joint3\" type=\"prismatic\">")),
+                 "joint 'panda_joint3' must be of type revolute");
+  expectContains(armRefusal(replaced(panda(), "<joint name=\"panda_joint8\" type=\"fixed\">",
+                                     "<joint name=\"panda_joint8\" type=\"floating\">")),
+                 "joint 'panda_joint8' between 'panda_link7' and 'panda_link8' must be fixed");
+}
+
+// Hand 0.73 kg and two fingers of 0.015 kg, hand turned by -45 degrees about the flange's z (decision 7).
+TEST(EndEffectorFromUrdf, ComposesHandAndClosedFingers) {
+  const Payload ee = endEffectorFromUrdf(panda(), "panda");
+  EXPECT_NEAR(0.73 + 2 * 0.015, ee.mass, 1e-15);
+  const Eigen::AngleAxisd turn(-M_PI / 4, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d hand = turn * Eigen::Vector3d(-0.01, 0.0, 0.03);
+  const Eigen::Vector3d finger = turn * Eigen::Vector3d(0.0, 0.0, 0.0584);
+  EXPECT_NEAR(hand.x() * 0.73 / 0.76, ee.com[0], 1e-12);
+  EXPECT_NEAR(hand.y() * 0.73 / 0.76, ee.com[1], 1e-12);
+  EXPECT_NEAR((0.73 * 0.03 + 0.03 * finger.z()) / 0.76, ee.com[2], 1e-15);
+  const Eigen::Matrix3d inertia = Eigen::Map<const Eigen::Matrix3d>(ee.inertia.data());
+  EXPECT_EQ(inertia, inertia.transpose());
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues().minCoeff(), 0.0);
+}
+
+TEST(EndEffectorFromUrdf, IsNothingForABareArmAndRefusesAHandWithoutMass) {
+  const std::string bare = std::regex_replace(
+      panda(), std::regex("<parent link=\"panda_link8\" />"), "<parent link=\"panda_link0\" />");
+  EXPECT_EQ(0.0, endEffectorFromUrdf(bare).mass);
+  expectContains(refusalOf([] { endEffectorFromUrdf(withoutInertial(panda(), "panda_hand")); }),
+                 "link 'panda_hand' has no inertial");
+  expectContains(
+      refusalOf([] { endEffectorFromUrdf(withoutInertial(panda(), "panda_rightfinger")); }),
+      "link 'panda_rightfinger' has no inertial");
+}
+
+}  // namespace
+}  // namespace franka_test

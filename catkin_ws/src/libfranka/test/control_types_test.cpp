@@ -1,0 +1,72 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include <franka/control_types.h>
+
+namespace {
+
+template <typename Type>
+void expectRefused(std::initializer_list<double> values) {
+  EXPECT_THROW(Type{values}, std::invalid_argument);
+}
+
+TEST(ControlTypes, TakeArraysAndLists) {
+  const std::array<double, 7> seven{1, 2, 3, 4, 5, 6, 7};
+  EXPECT_EQ(seven, franka::Torques(seven).tau_J);
+  EXPECT_EQ(seven, (franka::Torques{1, 2, 3, 4, 5, 6, 7}.tau_J));
+  EXPECT_EQ(seven, (franka::JointPositions{1, 2, 3, 4, 5, 6, 7}.q));
+  EXPECT_EQ(seven, (franka::JointVelocities{{1, 2, 3, 4, 5, 6, 7}}.dq));
+  const std::array<double, 6> six{1, 2, 3, 4, 5, 6};
+  EXPECT_EQ(six, (franka::CartesianVelocities{1, 2, 3, 4, 5, 6}.O_dP_EE));
+  const std::array<double, 16> sixteen{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1};
+  EXPECT_EQ(sixteen,
+            (franka::CartesianPose{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}.O_T_EE));
+}
+
+TEST(ControlTypes, RefuseListsOfTheWrongSize) {
+  expectRefused<franka::Torques>({});
+  expectRefused<franka::Torques>({1, 2, 3, 4, 5, 6});
+  expectRefused<franka::JointPositions>({1, 2, 3, 4, 5, 6, 7, 8});
+  expectRefused<franka::JointVelocities>({1});
+  expectRefused<franka::CartesianPose>({1, 2, 3, 4, 5, 6, 7});
+  expectRefused<franka::CartesianVelocities>({1, 2, 3, 4, 5, 6, 7});
+  using Pair = std::initializer_list<double>;
+  EXPECT_THROW((franka::CartesianVelocities{Pair{1, 2, 3, 4, 5, 6}, Pair{1}}),
+               std::invalid_argument);
+  EXPECT_THROW(
+      (franka::CartesianPose{Pair{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}, Pair{1, 1, 1}}),
+      std::invalid_argument);
+  try {
+    franka::JointPositions({1, 2});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ("libfranka: franka::JointPositions needs 7 values, but 2 were given.",
+                 error.what());
+  }
+}
+
+TEST(ControlTypes, KnowWhetherAnElbowIsCommanded) {
+  const std::array<double, 16> pose{};
+  const std::array<double, 6> twist{};
+  EXPECT_FALSE(franka::CartesianPose(pose).hasElbow());
+  EXPECT_FALSE((franka::CartesianPose(pose, {0.0, 0.0}).hasElbow()));
+  EXPECT_TRUE((franka::CartesianPose(pose, std::array<double, 2>{0.0, -1.0}).hasElbow()));
+  EXPECT_FALSE(franka::CartesianVelocities(twist).hasElbow());
+  EXPECT_TRUE((franka::CartesianVelocities(twist, std::array<double, 2>{0.3, 1.0}).hasElbow()));
+}
+
+TEST(ControlTypes, MotionFinishedMarksACopy) {
+  const franka::Torques torques{1, 2, 3, 4, 5, 6, 7};
+  const franka::Torques last = franka::MotionFinished(torques);
+  EXPECT_FALSE(torques.motion_finished);
+  EXPECT_TRUE(last.motion_finished);
+  EXPECT_EQ(torques.tau_J, last.tau_J);
+  EXPECT_TRUE(franka::MotionFinished(franka::CartesianPose(std::array<double, 16>{}))
+                  .motion_finished);
+}
+
+}  // namespace

@@ -1,0 +1,59 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <franka/exception.h>
+#include <franka/model.h>
+
+namespace {
+
+template <typename Type>
+void expectOneOfTheFamily() {
+  try {
+    throw Type("what happened");
+  } catch (const franka::Exception& error) {
+    EXPECT_STREQ("what happened", error.what());
+    EXPECT_NE(nullptr, dynamic_cast<const std::runtime_error*>(&error));
+    EXPECT_NE(nullptr, dynamic_cast<const Type*>(&error));
+  }
+}
+
+TEST(Exception, IsOneFamily) {
+  expectOneOfTheFamily<franka::ModelException>();
+  expectOneOfTheFamily<franka::NetworkException>();
+  expectOneOfTheFamily<franka::ProtocolException>();
+  expectOneOfTheFamily<franka::CommandException>();
+  expectOneOfTheFamily<franka::RealtimeException>();
+  expectOneOfTheFamily<franka::InvalidOperationException>();
+  expectOneOfTheFamily<franka::ControlException>();
+}
+
+TEST(Exception, AVersionMismatchNamesBothVersions) {
+  const franka::IncompatibleVersionException error(5, 10);
+  EXPECT_EQ(5, error.server_version);
+  EXPECT_EQ(10, error.library_version);
+  EXPECT_NE(std::string::npos,
+            std::string(error.what()).find("(server version: 5, library version: 10)"));
+}
+
+TEST(Exception, AControlExceptionKeepsTheLog) {
+  std::vector<franka::Record> log(2);
+  log[1].state.time = franka::Duration(17);
+  const franka::ControlException error("aborted", log);
+  ASSERT_EQ(2u, error.log.size());
+  EXPECT_EQ(17u, error.log[1].state.time.toMSec());
+  EXPECT_TRUE(franka::ControlException("aborted").log.empty());
+}
+
+TEST(Frame, LoopsOverTheTen) {
+  int count = 0;
+  franka::Frame frame = franka::Frame::kJoint1;
+  EXPECT_EQ(franka::Frame::kJoint1, frame++);
+  EXPECT_EQ(franka::Frame::kJoint2, frame);
+  for (franka::Frame f = franka::Frame::kJoint1; f <= franka::Frame::kStiffness; f++) {
+    count++;
+  }
+  EXPECT_EQ(10, count);
+}
+
+}  // namespace

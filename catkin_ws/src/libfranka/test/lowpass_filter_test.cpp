@@ -1,0 +1,78 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+
+#include <franka/lowpass_filter.h>
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::array<double, 16> poseAt(double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& p) {
+  std::array<double, 16> pose{};
+  Eigen::Map<Eigen::Matrix4d> t(pose.data());
+  t.setIdentity();
+  t.topLeftCorner<3, 3>() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  t.topRightCorner<3, 1>() = p;
+  return pose;
+}
+
+TEST(LowpassFilter, KeepsWhatStandsStill) {
+  EXPECT_DOUBLE_EQ(1.5, franka::lowpassFilter(0.001, 1.5, 1.5, 100.0));
+}
+
+// g = 0.001 / (0.001 + 1 / (2 pi 100)) = 0.38586954509503757.
+TEST(LowpassFilter, MovesByItsGain) {
+  EXPECT_NEAR(0.38586954509503757, franka::lowpassFilter(0.001, 1.0, 0.0, 100.0), 1e-15);
+  EXPECT_NEAR(2.0 - 0.38586954509503757, franka::lowpassFilter(0.001, 1.0, 2.0, 100.0), 1e-15);
+  EXPECT_EQ(2.0, franka::lowpassFilter(0.0, 1.0, 2.0, 100.0));
+}
+
+TEST(LowpassFilter, RefusesWhatMakesNoSense) {
+  for (double time : {-0.001, kNan, kInfinity}) {
+    EXPECT_THROW(franka::lowpassFilter(time, 1.0, 1.0, 100.0), std::invalid_argument);
+  }
+  for (double frequency : {0.0, -1.0, kNan, kInfinity}) {
+    EXPECT_THROW(franka::lowpassFilter(0.001, 1.0, 1.0, frequency), std::invalid_argument);
+  }
+  EXPECT_THROW(franka::lowpassFilter(0.001, kNan, 1.0, 100.0), std::invalid_argument);
+  EXPECT_THROW(franka::lowpassFilter(0.001, 1.0, kInfinity, 100.0), std::invalid_argument);
+  std::array<double, 16> pose = poseAt(0.0, Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero());
+  std::array<double, 16> wrong = pose;
+  wrong[13] = kNan;
+  EXPECT_THROW(franka::cartesianLowpassFilter(0.001, wrong, pose, 100.0), std::invalid_argument);
+  EXPECT_THROW(franka::cartesianLowpassFilter(0.001, pose, wrong, 100.0), std::invalid_argument);
+  EXPECT_THROW(franka::cartesianLowpassFilter(0.001, pose, pose, 0.0), std::invalid_argument);
+}
+
+TEST(CartesianLowpassFilter, TurnsAboutTheSameAxisByItsGain) {
+  const Eigen::Vector3d axis(0.3, -0.5, 0.8);
+  const double gain = 0.38586954509503757;
+  const auto last = poseAt(0.2, axis, {0.0, 0.1, 0.2});
+  const auto wanted = poseAt(1.2, axis, {1.0, 0.1, -0.2});
+  const auto expected = poseAt(0.2 + gain, axis, {gain, 0.1, 0.2 - 0.4 * gain});
+  const auto filtered = franka::cartesianLowpassFilter(0.001, wanted, last, 100.0);
+  for (std::size_t i = 0; i < 16; i++) {
+    EXPECT_NEAR(expected[i], filtered[i], 1e-15) << i;
+  }
+}
+
+// 170 degrees one way and 170 the other: the short way leads over 180.
+TEST(CartesianLowpassFilter, TakesTheShortWay) {
+  const double angle = 170.0 / 180.0 * M_PI;
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
+  const auto filtered = franka::cartesianLowpassFilter(0.001, poseAt(-angle, z, origin),
+                                                       poseAt(angle, z, origin), 100.0);
+  const double expected = angle + 0.38586954509503757 * 20.0 / 180.0 * M_PI;
+  EXPECT_NEAR(std::cos(expected), filtered[0], 1e-14);
+  EXPECT_NEAR(std::sin(expected), filtered[1], 1e-14);
+}
+
+}  // namespace

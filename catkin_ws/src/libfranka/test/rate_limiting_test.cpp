@@ -1,0 +1,167 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+
+#include <franka/rate_limiting.h>
+
+namespace {
+
+using franka::kDeltaT;
+using franka::limitRate;
+using Six = std::array<double, 6>;
+using Seven = std::array<double, 7>;
+using Pose = std::array<double, 16>;
+
+constexpr double kV = 2.0, kA = 10.0, kJ = 5000.0;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// Rounding of a difference quotient over 1 ms, twice.
+constexpr double kRounding = 1e-8;
+
+Pose identity() { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }
+
+TEST(LimitRate, TorquesChangeNoFasterThanAllowed) {
+  Seven rates;
+  rates.fill(1000.0);
+  const Seven last{1, 1, 1, 1, 1, 1, 1};
+  const Seven limited = limitRate(rates, {1.5, 3.0, -3.0, 1.0, 2.0, 0.0, 1.25}, last);
+  const Seven expected{1.5, 2.0, 0.0, 1.0, 2.0, 0.0, 1.25};
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_DOUBLE_EQ(expected[i], limited[i]) << i;
+  }
+  EXPECT_THROW(limitRate(rates, Seven{0, 0, 0, kNan, 0, 0, 0}, last), std::invalid_argument);
+}
+
+TEST(LimitRate, LeavesAllowedVelocitiesAlone) {
+  EXPECT_NEAR(0.004, limitRate(kV, kA, kJ, 0.004, 0.0, 0.0), 1e-17);
+}
+
+// A step to a velocity beyond the limit: jerk, then acceleration, then velocity bound the way there, and
+// the limit is reached without overshoot.
+TEST(LimitRate, FollowsAStepWithinAllDerivatives) {
+  for (double wanted : {5.0, -5.0, 1.0}) {
+    double v = 0.0, a = 0.0;
+    for (int k = 0; k < 2000; k++) {
+      const double next = limitRate(kV, kA, kJ, wanted, v, a);
+      const double next_a = (next - v) / kDeltaT;
+      EXPECT_LE(std::abs(next), kV + 1e-12);
+      EXPECT_LE(std::abs(next_a), kA + kRounding);
+      EXPECT_LE(std::abs(next_a - a) / kDeltaT, kJ + 1e4 * kRounding);
+      v = next;
+      a = next_a;
+    }
+    EXPECT_NEAR(std::max(-kV, std::min(kV, wanted)), v, 1e-6);
+  }
+}
+
+TEST(LimitRate, PositionsAreIntegratedVelocities) {
+  double p = 0.0, v = 0.0, a = 0.0;
+  for (int k = 0; k < 1000; k++) {
+    const double next = limitRate(kV, kA, kJ, 100.0, p, v, a);
+    EXPECT_DOUBLE_EQ(p + kDeltaT * limitRate(kV, kA, kJ, (100.0 - p) / kDeltaT, v, a), next);
+    const double next_v = (next - p) / kDeltaT;
+    a = (next_v - v) / kDeltaT;
+    v = next_v;
+    p = next;
+  }
+  EXPECT_NEAR(kV, v, 1e-6);
+  EXPECT_THROW(limitRate(kV, kA, kJ, kNan, 0.0, 0.0, 0.0), std::invalid_argument);
+}
+
+TEST(LimitRate, JointsAreLimitedOneByOne) {
+  Seven v, a, j, zero{};
+  v.fill(kV);
+  a.fill(kA);
+  j.fill(kJ);
+  v[3] = 1e-4;
+  const Seven wanted{5, -5, 0.001, 5, 0, 0.01, -0.01};
+  const Seven limited = limitRate(v, a, j, wanted, zero, zero);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_EQ(limitRate(v[i], a[i], j[i], wanted[i], 0.0, 0.0), limited[i]);
+  }
+  EXPECT_LE(limited[3], 1e-4);
+  const Seven positions = limitRate(v, a, j, wanted, zero, zero, zero);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_EQ(limitRate(v[i], a[i], j[i], wanted[i], 0.0, 0.0, 0.0), positions[i]);
+  }
+}
+
+// Linear and angular part each along its own line, bounded by norm.
+TEST(LimitRate, TwistsAreBoundedByNorm) {
+  const Six wanted{3.0, 4.0, 0.0, 0.0, -6.0, 8.0};
+  Six v{}, a{};
+  for (int k = 0; k < 2000; k++) {
+    const Six next = limitRate(kV, kA, kJ, 1.0, 20.0, 8000.0, wanted, v, a);
+    Six next_a, jerk;
+    for (std::size_t i = 0; i < 6; i++) {
+      next_a[i] = (next[i] - v[i]) / kDeltaT;
+      jerk[i] = (next_a[i] - a[i]) / kDeltaT;
+    }
+    const auto norm = [](const Six& x, std::size_t at) { return std::hypot(x[at], x[at + 1], x[at + 2]); };
+    EXPECT_LE(norm(next, 0), kV + 1e-12);
+    EXPECT_LE(norm(next_a, 0), kA + kRounding);
+    EXPECT_LE(norm(jerk, 0), kJ + 1e4 * kRounding);
+    EXPECT_LE(norm(next, 3), 1.0 + 1e-12);
+    EXPECT_LE(norm(next_a, 3), 20.0 + kRounding);
+    EXPECT_LE(norm(jerk, 3), 8000.0 + 1e4 * kRounding);
+    v = next;
+    a = next_a;
+  }
+  EXPECT_NEAR(0.6 * kV, v[0], 1e-6);
+  EXPECT_NEAR(0.8 * kV, v[1], 1e-6);
+  EXPECT_NEAR(-0.6, v[4], 1e-6);
+  EXPECT_NEAR(0.8, v[5], 1e-6);
+  EXPECT_EQ(Six{}, limitRate(kV, kA, kJ, kV, kA, kJ, Six{}, Six{}, Six{}));
+  EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, Six{0, 0, 0, 0, 0, kNan}, Six{}, Six{}),
+               std::invalid_argument);
+}
+
+TEST(LimitRate, PosesFollowAtTheAllowedTwist) {
+  Pose wanted = identity();
+  Eigen::Map<Eigen::Matrix4d> target(wanted.data());
+  target.topLeftCorner<3, 3>() =
+      Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 2) / 3.0).toRotationMatrix();
+  target.topRightCorner<3, 1>() << 10.0, 0.0, 0.0;
+  Pose pose = identity();
+  Six v{}, a{};
+  for (int k = 0; k < 600; k++) {
+    const Pose next = limitRate(kV, kA, kJ, 1.0, 20.0, 8000.0, wanted, pose, v, a);
+    const Eigen::Map<const Eigen::Matrix4d> from(pose.data()), to(next.data());
+    const Eigen::AngleAxisd step(Eigen::Matrix3d(to.topLeftCorner<3, 3>() *
+                                                 from.topLeftCorner<3, 3>().transpose()));
+    const Eigen::Vector3d w = step.angle() / kDeltaT * step.axis();
+    const Six next_v{(next[12] - pose[12]) / kDeltaT, 0.0, 0.0, w.x(), w.y(), w.z()};
+    for (std::size_t i = 0; i < 6; i++) {
+      a[i] = (next_v[i] - v[i]) / kDeltaT;
+    }
+    v = next_v;
+    pose = next;
+    EXPECT_LE(w.norm(), 0.99 * 1.0 + kRounding);
+  }
+  EXPECT_NEAR(kV, v[0], 1e-6);
+  // At full speed about the wanted axis, at 99 % of the rotational limit.
+  EXPECT_NEAR(0.99 / 3.0, v[3], 1e-6);
+  EXPECT_NEAR(0.99 * 2.0 / 3.0, v[4], 1e-6);
+  const Eigen::Map<const Eigen::Matrix4d> end(pose.data());
+  EXPECT_LT((end.topLeftCorner<3, 3>() * end.topLeftCorner<3, 3>().transpose() -
+             Eigen::Matrix3d::Identity()).norm(), 1e-12);
+}
+
+TEST(LimitRate, RefusesPosesThatAreNone) {
+  Pose wrong = identity();
+  wrong[0] = 1.1;
+  EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, wrong, identity(), Six{}, Six{}),
+               std::invalid_argument);
+  wrong[0] = kNan;
+  EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, wrong, identity(), Six{}, Six{}),
+               std::invalid_argument);
+  EXPECT_EQ(identity(), limitRate(kV, kA, kJ, kV, kA, kJ, identity(), identity(), Six{}, Six{}));
+}
+
+}  // namespace
