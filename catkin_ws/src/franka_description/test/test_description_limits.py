@@ -1,0 +1,116 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Joint limits of the URDF and physics parameters against the published tables."""
+
+import pytest
+import yaml
+from description_robot import ROBOTS, expand, numbers
+
+PANDA = """-2.8973 2.8973 2.1750 87
+-1.7628 1.7628 2.1750 87
+-2.8973 2.8973 2.1750 87
+-3.0718 -0.0698 2.1750 87
+-2.8973 2.8973 2.6100 12
+-0.0175 3.7525 2.6100 12
+-2.8973 2.8973 2.6100 12"""
+FR3 = """-2.3093 2.3093 2.0 87
+-1.5133 1.5133 1.0 87
+-2.4937 2.4937 1.50 87
+-2.7478 -0.4461 1.25 87
+-2.4800 2.4800 3.00 12
+0.8521 4.2094 1.50 12
+-2.6895 2.6895 3.00 12"""
+TABLES = {
+    name: [numbers(row) for row in table.splitlines()]
+    for name, table in (("panda", PANDA), ("fr3", FR3))
+}
+
+# The limits the FCI documents, joints 1 to 7: Panda; FR3 before system 5.9; FR3 from 5.9 on.
+FCI = {
+    "panda": [
+        (
+            "-2.8973 -1.7628 -2.8973 -3.0718 -2.8973 -0.0175 -2.8973",
+            "2.8973 1.7628 2.8973 -0.0698 2.8973 3.7525 2.8973",
+        )
+    ],
+    "fr3": [
+        (
+            "-2.7437 -1.7837 -2.9007 -3.0421 -2.8065 0.5445 -3.0159",
+            "2.7437 1.7837 2.9007 -0.1518 2.8065 4.5169 3.0159",
+        ),
+        (
+            "-2.9007 -1.8361 -2.9007 -3.0770 -2.8763 0.4398 -3.0508",
+            "2.9007 1.8361 2.9007 -0.1169 2.8763 4.6216 3.0508",
+        ),
+    ],
+}
+
+
+@pytest.fixture
+def physics():
+    return yaml.safe_load((ROBOTS.parent / "config" / "physics.yaml").read_text())
+
+
+@pytest.mark.parametrize("name", TABLES)
+@pytest.mark.parametrize("gazebo", ["false", "true"])
+def test_limits(name, gazebo):
+    robot = expand(f"{name}/{name}", gazebo=gazebo, arm_id="a")
+    for i, row in enumerate(TABLES[name], start=1):
+        limit = robot.joints[f"a_joint{i}"].find("limit")
+        assert [float(limit.get(k)) for k in ("lower", "upper", "velocity", "effort")] == row
+        safety = robot.joints[f"a_joint{i}"].find("safety_controller")
+        assert {k: float(v) for k, v in safety.attrib.items()} == {
+            "k_position": 100.0,
+            "k_velocity": 40.0,
+            "soft_lower_limit": row[0],
+            "soft_upper_limit": row[1],
+        }
+
+
+def test_dual_panda_has_the_pandas_limits():
+    robot = expand("dual_panda/dual_panda_example", arm_id_1="l", arm_id_2="r")
+    for arm in "lr":
+        for i, row in enumerate(TABLES["panda"], start=1):
+            limit = robot.joints[f"{arm}_joint{i}"].find("limit")
+            assert [float(limit.get(k)) for k in ("lower", "upper", "velocity", "effort")] == row
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_finger_limits(number):
+    joint = expand("panda/panda", hand="true").joints[f"panda_finger_joint{number}"]
+    limit = {k: float(v) for k, v in joint.find("limit").attrib.items()}
+    assert limit == {"effort": 100, "lower": 0, "upper": 0.04, "velocity": 0.2}
+    assert joint.find("safety_controller") is None
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_stops_stand_outside_every_fci_limit(physics, name):
+    stops = physics[name]["joint_stops"]
+    tables = [(numbers(lower), numbers(upper)) for lower, upper in FCI[name]]
+    for joint in range(7):
+        lower = min(table[0][joint] for table in tables)
+        upper = max(table[1][joint] for table in tables)
+        assert stops["lower"][joint] == pytest.approx(lower - 0.02, abs=1e-12)
+        assert stops["upper"][joint] == pytest.approx(upper + 0.02, abs=1e-12)
+        assert stops["lower"][joint] < TABLES[name][joint][0]
+        assert stops["upper"][joint] > TABLES[name][joint][1]
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_rotor_inertia_and_friction(physics, name):
+    assert physics[name]["rotor_inertia"] == [0.1] * 7
+    assert physics[name]["damping"] == [0.0] * 7
+    assert physics[name]["coulomb_friction"] == [0.0] * 7
+
+
+def test_friction_sets(physics):
+    assert set(physics) == {"panda", "fr3", "friction_sets"}
+    assert set(physics["friction_sets"]) == {"none", "fr3"}
+    none = physics["friction_sets"]["none"]
+    assert none == {
+        k: physics["panda"][k] for k in ("rotor_inertia", "damping", "coulomb_friction")
+    }
+    fr3 = physics["friction_sets"]["fr3"]
+    assert fr3["rotor_inertia"] == [0.195] * 4 + [0.074] * 3
+    assert fr3["damping"] == [0.21] * 7
+    assert fr3["coulomb_friction"] == [1.137] * 4 + [0.763, 0.44, 0.248]

