@@ -9,53 +9,13 @@
 #include <cmath>
 
 #include "arm_fixture.h"
+#include "sine_driver.h"
 
 namespace franka_sim_mujoco::test {
 
 namespace {
 
 using franka_core::RobotState;
-
-/// Follows sine waves by computed torques, as a user's controller would: without gravity.
-class SineDriver {
- public:
-  SineDriver(const ControlUnitParameters& parameters, const franka_core::Payload& payload,
-             double frequency, double speed_fraction)
-      : model_(parameters.model), payload_(payload), frequency_(frequency) {
-    const std::array<double, 7> speed{{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}};
-    for (std::size_t i = 0; i < 7; i++) {
-      amplitude_[i] = speed_fraction * speed[i] / frequency * (i % 2 == 0 ? 1.0 : -1.0);
-    }
-  }
-
-  franka_core::RobotCommand command(const RobotState& state) {
-    time_ += 1e-3;
-    std::array<double, 7> ddq;
-    for (std::size_t i = 0; i < 7; i++) {
-      // Phases differ, so that speeds and accelerations meet in all combinations; starts softly.
-      const double ramp = std::min(time_ / 2.0, 1.0);
-      const double phase = frequency_ * time_ + 0.7 * static_cast<double>(i);
-      const double a = ramp * amplitude_[i];
-      const double q_d = kReady[i] + a * (std::sin(phase) - std::sin(0.7 * static_cast<double>(i)));
-      const double dq_d = a * frequency_ * std::cos(phase);
-      ddq[i] = -a * frequency_ * frequency_ * std::sin(phase) + 400 * (q_d - state.q[i]) +
-               40 * (dq_d - state.dq[i]);
-    }
-    franka_core::RobotCommand command;
-    command.tau_J_d = model_.inverseDynamics(state.q, state.dq, ddq, payload_, {{0, 0, 0}});
-    for (std::size_t i = 0; i < 7; i++) {
-      command.tau_J_d[i] += FakeArm::kRotor * ddq[i];
-    }
-    return command;
-  }
-
- private:
-  franka_core::ArmModel model_;
-  franka_core::Payload payload_;
-  double frequency_;
-  double time_{0.0};
-  std::array<double, 7> amplitude_{};
-};
 
 double smallestSingularValue(const ControlUnit& unit) {
   const RobotState& s = unit.state();

@@ -1,0 +1,257 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Control unit and gripper unit on the physics they are made for, Panda and FR3.
+#include <franka_sim_mujoco/robot/control_unit.h>
+#include <franka_sim_mujoco/robot/gripper_unit.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "../physics/test_support.h"
+#include "arm_fixture.h"
+#include "sine_driver.h"
+
+namespace franka_sim_mujoco::test {
+
+namespace {
+
+using franka_core::RobotState;
+
+class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  std::string id() const { return GetParam(); }
+
+  /// @param change of the robot's URDF, e.g. a heavier hand than the unit knows
+  void start(const std::string& scene, const std::string& from = "", const std::string& to = "") {
+    RobotDescription description = robot(id());
+    if (!from.empty()) {
+      EXPECT_NE(std::string::npos, description.urdf.find(from)) << "the test data has changed";
+      description.urdf = replaceAll(description.urdf, from, to);
+    }
+    if (scene == "stone") {
+      description.base.position = {{-0.5, 0, 0.3}};
+      description.initial_positions[id() + "_finger_joint1"] = 0.03;
+    }
+    for (std::size_t i = 0; i < 7; i++) {
+      description.initial_positions[id() + "_joint" + std::to_string(i + 1)] = kReady[i];
+    }
+    world = std::make_unique<World>(test::world(scene));
+    world->addRobot(description);
+    arm = &world->arm(id(), id());
+    hand = &world->hand(id(), id());
+    ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdfOf(id()), id())};
+    parameters.end_effector = handPayload();
+    parameters.F_T_NE = handFrame();
+    unit = std::make_unique<ControlUnit>(parameters);
+    gripper = std::make_unique<GripperUnit>(GripperParameters{});
+  }
+
+  const RobotState& tick(const franka_core::RobotCommand* command = nullptr) {
+    const RobotState& state = unit->observe(arm->measure());
+    act(command);
+    return state;
+  }
+
+  void act(const franka_core::RobotCommand* command) {
+    arm->applyTorques(unit->actuate(command));
+    arm->setBrakes(unit->brakesClosed());
+    hand->applyForces(gripper->step(hand->measure(), 1e-3));
+    world->step();
+  }
+
+  const RobotState& run(int ticks, const franka_core::RobotCommand* command = nullptr) {
+    for (int i = 0; i < ticks; i++) {
+      tick(command);
+    }
+    return unit->state();
+  }
+
+  GripperOutcome finish(GripperUnit::Ticket ticket) {
+    for (int i = 0; i < 10000 && gripper->outcome(ticket) == GripperOutcome::kRunning; i++) {
+      tick();
+    }
+    return gripper->outcome(ticket);
+  }
+
+  Eigen::Vector3d forceOnStone(const std::string& link) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Contact& c : world->contacts()) {
+      const Eigen::Vector3d force(c.force.data());
+      if (c.body1 == link && c.body2 == "stone") {
+        sum += force;
+      } else if (c.body2 == link && c.body1 == "stone") {
+        sum -= force;
+      }
+    }
+    return sum;
+  }
+
+  std::unique_ptr<World> world;
+  ArmPlant* arm{nullptr};
+  HandPlant* hand{nullptr};
+  std::unique_ptr<ControlUnit> unit;
+  std::unique_ptr<GripperUnit> gripper;
+};
+
+TEST_P(UnitInWorldTest, ZeroTorqueDoesNotDriftAndReadsNothing) {
+  start("empty");
+  tick();
+  ASSERT_EQ(RequestStatus::kSuccess, unit->startTorqueControl());
+  const franka_core::RobotCommand zero;
+  double force = 0.0;
+  double moment = 0.0;
+  for (int i = 0; i < 10000; i++) {
+    const RobotState& state = tick(&zero);
+    force = std::max(force, norm(state.O_F_ext_hat_K, 0, 3));
+    moment = std::max(moment, norm(state.O_F_ext_hat_K, 3, 3));
+  }
+  double drift = 0.0;
+  for (std::size_t i = 0; i < 7; i++) {
+    drift = std::max(drift, std::abs(unit->state().q[i] - kReady[i]));
+  }
+  std::printf("%s at rest for 10 s: drift %.3g rad, wrench %.3g N, %.3g Nm\n", GetParam(), drift,
+              force, moment);
+  EXPECT_LT(drift, 1e-4);
+  EXPECT_LT(force, 1e-3);
+  EXPECT_LT(moment, 1e-4);
+}
+
+TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
+  start("empty");
+  tick();
+  ASSERT_EQ(RequestStatus::kSuccess, unit->startTorqueControl());
+  SineDriver driver(unit->parameters(), unit->parameters().end_effector, 8.0, 0.9,
+                    id() == "fr3" ? kFr3Speed : kPandaSpeed);
+  double force = 0.0;
+  double moment = 0.0;
+  std::array<double, 7> fastest{};
+  for (int i = 0; i < 8000; i++) {
+    const RobotState& state = unit->observe(arm->measure());
+    for (std::size_t j = 0; j < 7; j++) {
+      fastest[j] = std::max(fastest[j], std::abs(state.dq[j]) / driver.limit()[j]);
+    }
+    force = std::max(force, norm(state.O_F_ext_hat_K, 0, 3));
+    moment = std::max(moment, norm(state.O_F_ext_hat_K, 3, 3));
+    const franka_core::RobotCommand command = driver.command(state);
+    act(&command);
+    ASSERT_TRUE(world->contacts().empty()) << "the motion is not free";
+  }
+  const double slowest = *std::min_element(fastest.begin(), fastest.end());
+  std::printf("%s in free motion at %.1f %% of the speed limits: wrench error %.4f N, %.5f Nm\n",
+              GetParam(), 100 * slowest, force, moment);
+  EXPECT_GT(slowest, 0.88);
+  EXPECT_LT(force, 0.1);
+  EXPECT_LT(moment, 0.02);
+}
+
+TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
+  start("empty");
+  const double c = std::cos(0.5235987755982988);
+  ASSERT_EQ(RequestStatus::kSuccess,
+            unit->setK({{1, 0, 0, 0, 0, c, 0.5, 0, 0, -0.5, c, 0, 0.02, -0.03, 0.05, 1}}));
+  double worst = 0.0;
+  for (int axis = 0; axis < 3; axis++) {
+    for (const double sign : {10.0, -10.0}) {
+      Eigen::Vector3d push = Eigen::Vector3d::Zero();
+      push[axis] = sign;
+      for (int i = 0; i < 2000; i++) {
+        const RobotState& s = tick();
+        const std::array<double, 16> K = unit->parameters().model.pose(
+            franka_core::ArmFrame::kStiffness, s.q, s.F_T_EE, s.EE_T_K);
+        world->pushAt(id() + "_hand", {{K[12], K[13], K[14]}}, {{push[0], push[1], push[2]}}, 1);
+      }
+      const RobotState& s = unit->state();
+      const std::array<double, 16> K =
+          unit->parameters().model.pose(franka_core::ArmFrame::kStiffness, s.q, s.F_T_EE, s.EE_T_K);
+      const Eigen::Matrix3d R = Eigen::Map<const Eigen::Matrix4d>(K.data()).topLeftCorner<3, 3>();
+      const Eigen::Vector3d in_O = Eigen::Map<const Eigen::Vector3d>(s.O_F_ext_hat_K.data());
+      const Eigen::Vector3d in_K = Eigen::Map<const Eigen::Vector3d>(s.K_F_ext_hat_K.data());
+      worst = std::max({worst, (in_O + push).cwiseAbs().maxCoeff(),
+                        (in_K + R.transpose() * push).cwiseAbs().maxCoeff()});
+      EXPECT_LT(norm(s.O_F_ext_hat_K, 3, 3), 0.05);
+    }
+  }
+  std::printf("%s pushed with 10 N: worst error %.5f N\n", GetParam(), worst);
+  EXPECT_LT(worst, 0.05);
+}
+
+TEST_P(UnitInWorldTest, AKilogramInTheHandThatIsNotConfiguredReadsItsWeight) {
+  start("empty", "<mass value=\"0.73\"", "<mass value=\"1.73\"");
+  run(4000);
+  EXPECT_NEAR(9.81, unit->state().O_F_ext_hat_K[2], 0.01);
+  EXPECT_NEAR(0.0, unit->state().O_F_ext_hat_K[0], 0.01);
+  EXPECT_NEAR(0.0, unit->state().O_F_ext_hat_K[1], 0.01);
+}
+
+TEST_P(UnitInWorldTest, UserStopAtSpeedLocksTheArmWithoutACollision) {
+  start("empty");
+  tick();
+  ASSERT_EQ(RequestStatus::kSuccess, unit->startTorqueControl());
+  const franka_core::RobotCommand push = torques({{30, 0, 0, 0, 0, 0, 0}});
+  run(80, &push);
+  EXPECT_GT(std::abs(unit->state().dq[0]), 0.5);
+  unit->setUserStop(true);
+  run(200);
+  const std::array<double, 7> stopped = unit->state().q;
+  run(2000);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(stopped[i], unit->state().q[i], 1e-6);
+    EXPECT_NEAR(0.0, unit->state().tau_ext_hat_filtered[i], 0.01);
+  }
+  EXPECT_EQ((std::array<double, 7>{}), unit->state().joint_collision);
+  unit->setUserStop(false);
+  run(1000);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(stopped[i], unit->state().q[i], 1e-5);
+  }
+}
+
+TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
+  start("stone");
+  run(10);
+  EXPECT_EQ(GripperOutcome::kSucceeded, finish(gripper->move(0.08, 0.1)));
+  EXPECT_NEAR(0.08, gripper->width(), 1e-3);
+  EXPECT_EQ(GripperOutcome::kSucceeded, finish(gripper->move(0.05, 0.1)));
+  EXPECT_NEAR(0.05, gripper->width(), 1e-3);
+  // Its 32 mm along the fingers' way, held at first by nothing.
+  world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
+  const GripperUnit::Ticket grasp = gripper->grasp(0.032, 0.005, 0.005, 0.1, 5);
+  while (gripper->outcome(grasp) == GripperOutcome::kRunning) {
+    if (gripper->width() > 0.0325) {
+      world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
+    }
+    tick();
+  }
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper->outcome(grasp));
+  run(1000);
+  EXPECT_TRUE(gripper->isGrasped());
+  const Pose pose = world->bodyPose(id() + "_hand");
+  const Eigen::Vector3d across = Eigen::Quaterniond(pose.orientation[0], pose.orientation[1],
+                                                    pose.orientation[2], pose.orientation[3]) *
+                                 Eigen::Vector3d::UnitY();
+  EXPECT_NEAR(-2.5, forceOnStone(id() + "_leftfinger").dot(across), 0.25);
+  EXPECT_NEAR(2.5, forceOnStone(id() + "_rightfinger").dot(across), 0.25);
+
+  franka_core::Payload stone;
+  stone.mass = 0.1024;
+  stone.com = {{0, 0, 0.1034}};
+  EXPECT_NEAR(0.1024 * 9.81, unit->state().O_F_ext_hat_K[2], 0.02);
+  ASSERT_EQ(RequestStatus::kSuccess, unit->setLoad(stone));
+  run(1000);
+  EXPECT_NEAR(0.0, unit->state().O_F_ext_hat_K[2], 0.02);
+
+  gripper->stop();
+  run(1000);
+  EXPECT_FALSE(gripper->isGrasped());
+  EXPECT_GT(pose.position[2] - world->bodyPose("stone").position[2], 0.2) << "it has fallen";
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, UnitInWorldTest, ::testing::Values("panda", "fr3"));
+
+}  // namespace
+
+}  // namespace franka_sim_mujoco::test
