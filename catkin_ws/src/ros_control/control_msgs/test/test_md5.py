@@ -36,14 +36,18 @@ def generated_class(package, name):
 class Md5Test(unittest.TestCase):
     def test_every_type_of_the_table(self):
         checked = set()
+        not_built = set()
         for package, name, expected in read_table():
             generated = generated_class(package, name)
             if generated is None:
+                not_built.add(package)
                 continue
             with self.subTest(type=package + "/" + name):
                 self.assertEqual(generated._md5sum, expected)
             checked.add(package)
         self.assertIn(OWN_PACKAGE, checked)
+        if not_built:
+            self.skipTest("not built, so not checked: " + ", ".join(sorted(not_built)))
 
     def test_every_own_type_is_in_the_table(self):
         listed = {name for package, name, _ in read_table() if package == OWN_PACKAGE}

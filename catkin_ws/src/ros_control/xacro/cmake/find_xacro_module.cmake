@@ -9,7 +9,8 @@
 function(find_xacro_module module_variable metadata_variable)
   get_filename_component(project_venv ${CMAKE_CURRENT_SOURCE_DIR}/../../../../.venv ABSOLUTE)
   set(places)
-  foreach(venv ${FRANKA_VENV} ${project_venv})
+  set(venvs ${FRANKA_VENV} ${project_venv})
+  foreach(venv ${venvs})
     file(GLOB site_packages ${venv}/lib/python3*/site-packages)
     list(APPEND places ${site_packages})
   endforeach()
@@ -28,10 +29,10 @@ function(find_xacro_module module_variable metadata_variable)
       return()
     endif()
   endforeach()
-  string(REPLACE ";" ", " searched "${places}")
+  string(REPLACE ";" ", " venvs "${venvs}")
   message(
     FATAL_ERROR
-      "The Python module xacro (version 2) was not found; searched: ${searched}. Debian does not "
-      "package it: run `./franka install`, which fetches it into .venv, or name an environment "
-      "that has it with -DFRANKA_VENV=<directory>.")
+      "The Python module xacro (version 2) is neither in ${venvs} nor among the modules of "
+      "${PYTHON_EXECUTABLE}. Debian does not package it: run `./franka install`, which fetches it "
+      "into .venv, or name an environment that has it with -DFRANKA_VENV=<directory>.")
 endfunction()

@@ -26,8 +26,8 @@ def get_package_share_directory(package_name):
         return _packages(path).get_path(package_name)
     except rospkg.ResourceNotFound:
         raise PackageNotFoundError(
-            "The package '{}' was not found. Is it built, and is the setup.bash of its workspace "
-            "sourced? ROS_PACKAGE_PATH is '{}'.".format(package_name, path)) from None
+            f"The package '{package_name}' was not found. Is it built, and is the setup.bash of "
+            f"its workspace sourced? ROS_PACKAGE_PATH is '{path}'.") from None
 
 
 @functools.lru_cache(maxsize=4)
