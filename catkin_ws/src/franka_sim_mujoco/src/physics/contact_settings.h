@@ -19,8 +19,9 @@ constexpr const char* kStopSolref = "0.004 1";
 constexpr const char* kCouplingSolref = "0.002 1";
 constexpr const char* kBrakeSolref = "0.002 1";
 constexpr const char* kStiffSolimp = "0.9999 0.9999 0.001 0.5 2";
-/// Normal, tangential and torsional friction.
-constexpr const char* kCondim = "4";
+/// Normal and tangential friction; a grasp needs torsional friction too.
+constexpr const char* kCondim = "3";
+constexpr const char* kGraspCondim = "4";
 constexpr double kTorsionalFriction = 0.005;  ///< MuJoCo's default [m]
 constexpr double kRollingFriction = 0.0001;   ///< MuJoCo's default [m]
 /// Rubber of the fingers and any other link, where the URDF names none (the fingers' value is that of

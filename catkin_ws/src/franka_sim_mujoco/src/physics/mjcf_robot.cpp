@@ -343,7 +343,7 @@ class Writer {
     XMLElement* e = append(target_.contact, "pair");
     e->SetAttribute("geom1", pad.c_str());
     e->SetAttribute("geom2", other.name.c_str());
-    e->SetAttribute("condim", kCondim);
+    e->SetAttribute("condim", kGraspCondim);
     e->SetAttribute("friction",
                     toText({sliding, sliding, torsion, kRollingFriction, kRollingFriction}).c_str());
     e->SetAttribute("solref", kGraspSolref);

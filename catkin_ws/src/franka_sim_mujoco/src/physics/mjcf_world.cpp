@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/mjcf_world.h"
 
+#include <iterator>
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "physics/compile.h"
 #include "physics/contact_settings.h"
@@ -84,6 +88,25 @@ void nameGeoms(XMLElement* body, int* count) {
   }
 }
 
+/// Geoms with their sliding friction: the world's by name, those of robots from the attribute.
+void collectGeoms(XMLElement* body, const std::map<std::string, double>& frictions,
+                  std::vector<std::pair<XMLElement*, double>>* geoms) {
+  for (auto* e = body->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string kind = e->Name();
+    if (kind == "body") {
+      collectGeoms(e, frictions, geoms);
+    } else if (kind == "geom") {
+      const auto known = frictions.find(optional(*e, "name"));
+      const char* own = e->Attribute("friction");
+      if (known != frictions.end()) {
+        geoms->emplace_back(e, known->second);
+      } else if (own != nullptr) {
+        geoms->emplace_back(e, toNumbers(own, "friction").front());
+      }
+    }
+  }
+}
+
 bool movesFreely(const mjModel& model, int body) {
   for (int b = body; b > 0; b = model.body_parentid[b]) {
     if (model.body_dofnum[b] > 0) {
@@ -151,6 +174,29 @@ void MjcfWorld::inspect() {
     geom.graspable = movesFreely(*model, model->geom_bodyid[i]);
     geom.collides = (model->geom_contype[i] | model->geom_conaffinity[i]) != 0;
     geoms_.push_back(geom);
+    has_priorities_ = has_priorities_ || model->geom_priority[i] != 0;
+  }
+}
+
+/// Of two surfaces the more slippery one decides, as in Gazebo; MuJoCo would take the rougher one. It
+/// takes the one of higher priority first, so the priority is the rank in slipperiness.
+void MjcfWorld::rankFrictions(XMLElement* root) const {
+  std::map<std::string, double> frictions;
+  for (const WorldGeom& geom : geoms_) {
+    frictions[geom.name] = geom.friction;
+  }
+  std::vector<std::pair<XMLElement*, double>> geoms;
+  for (auto* e = root->FirstChildElement("worldbody"); e != nullptr;
+       e = e->NextSiblingElement("worldbody")) {
+    collectGeoms(e, frictions, &geoms);
+  }
+  std::set<double> values;
+  for (const auto& [geom, friction] : geoms) {
+    values.insert(friction);
+  }
+  for (const auto& [geom, friction] : geoms) {
+    const auto rougher = std::distance(values.upper_bound(friction), values.end());
+    geom->SetAttribute("priority", static_cast<int>(rougher));
   }
 }
 
@@ -164,6 +210,9 @@ std::string MjcfWorld::merge(const std::vector<const RobotModel*>& robots, bool 
                           &geoms_};
   for (const RobotModel* robot : robots) {
     writeRobot(*robot, target);
+  }
+  if (!has_priorities_ && !visuals) {
+    rankFrictions(root);
   }
   return toText(merged);
 }

@@ -33,11 +33,13 @@ class MjcfWorld {
   void load(const std::string& file);
   void normalise(const std::string& folder);
   void inspect();
+  void rankFrictions(tinyxml2::XMLElement* root) const;
 
   std::string title_;
   tinyxml2::XMLDocument document_;
   double angle_unit_{1};
   std::vector<WorldGeom> geoms_;
+  bool has_priorities_{false};  ///< the author decided which geom's friction counts
 };
 
 }  // namespace franka_sim_mujoco::physics

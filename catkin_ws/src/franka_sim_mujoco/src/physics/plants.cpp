@@ -76,7 +76,7 @@ void MujocoArm::writeBrake(std::size_t joint) noexcept {
   }
   // The equality holds q - qpos0 at its constant term.
   view_->model->eq_data[mjNEQDATA * brake] =
-      brake_positions_[joint] - view_->model->qpos0[slots_[joint].qpos];
+      brakes_closed_ ? brake_positions_[joint] - view_->model->qpos0[slots_[joint].qpos] : 0.0;
   view_->model->eq_active[brake] = brakes_closed_ ? 1 : 0;
 }
 

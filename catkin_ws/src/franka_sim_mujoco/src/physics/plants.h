@@ -38,8 +38,6 @@ class MujocoArm final : public ArmPlant {
   using Slots = std::array<JointSlot, 7>;
   /// After the model was compiled anew.
   void bind(const Slots& slots) noexcept { slots_ = slots; }
-  bool brakesClosed() const noexcept { return brakes_closed_; }
-  const std::array<double, 7>& brakePositions() const noexcept { return brake_positions_; }
   /// Writes brakes into the model as they were; for models compiled anew.
   void restoreBrakes() noexcept;
   /// A joint was put elsewhere: closed brakes hold it there.

@@ -42,11 +42,10 @@ std::uint64_t World::Impl::hash() const noexcept {
   hash.add(data->mocap_pos, 3 * model->nmocap);
   hash.add(data->mocap_quat, 4 * model->nmocap);
   hash.add(motor_side.torques().data(), model->nv);
-  for (const auto& [key, arm] : arms) {
-    hash.add(static_cast<std::uint64_t>(arm->brakesClosed()));
-    if (arm->brakesClosed()) {
-      hash.add(arm->brakePositions().data(), 7);
-    }
+  // Brakes, from the model: an arm nobody asked for has none closed.
+  for (int e = 0; e < model->neq; ++e) {
+    hash.add(static_cast<std::uint64_t>(model->eq_active[e]));
+    hash.add(model->eq_data + mjNEQDATA * e, 1);
   }
   for (const Push& push : pushes) {
     hash.add(push.ticks_left);

@@ -85,6 +85,7 @@ void World::Impl::index() {
   visual_mjcf.clear();
   view = {model.get(), data.get(), &motor_side};
   kinematics_fresh = false;
+  kept_qpos.assign(model->nq, 0.0);
   frames.clear();
   for (int b = 0; b < model->nbody; ++b) {
     frames[nameOf(*model, mjOBJ_BODY, b)] = {b, Eigen::Isometry3d::Identity()};
@@ -189,11 +190,15 @@ const RobotModel& World::Impl::robot(const std::string& name) const {
 }
 
 void World::Impl::updateKinematics() noexcept {
-  // A step leaves poses of the state before it. Recomputing them does not touch the state itself.
-  if (!kinematics_fresh) {
-    mj_kinematics(model.get(), data.get());
-    kinematics_fresh = true;
+  // A step leaves the poses of the state before it.
+  if (kinematics_fresh) {
+    return;
   }
+  // mj_kinematics normalises quaternions in place; the future must not depend on who looked.
+  std::copy_n(data->qpos, model->nq, kept_qpos.begin());
+  mj_kinematics(model.get(), data.get());
+  std::copy_n(kept_qpos.begin(), model->nq, data->qpos);
+  kinematics_fresh = true;
 }
 
 Eigen::Isometry3d World::Impl::pose(const Frame& frame) {

@@ -51,6 +51,7 @@ struct World::Impl {
   std::vector<Push> pushes;
   std::uint64_t ticks{0};
   bool kinematics_fresh{false};
+  std::vector<double> kept_qpos;  ///< room for a copy, so that looking allocates nothing
   std::string visual_mjcf;  ///< for pictures; written when first asked for
 
   /// The merged model of the given robots with the present state carried over by name. Strong guarantee.
