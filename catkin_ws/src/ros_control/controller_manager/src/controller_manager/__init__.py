@@ -1,0 +1,3 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Python side of the controller manager."""

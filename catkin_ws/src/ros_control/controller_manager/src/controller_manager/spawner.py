@@ -1,0 +1,344 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Loads controllers, starts them, and takes them away again when the spawner is ended."""
+
+import argparse
+import os
+import signal
+import threading
+import time
+
+import rosgraph
+import rosparam
+import rospy
+import yaml
+from controller_manager_msgs.srv import (
+    ListControllers,
+    LoadController,
+    LoadControllerRequest,
+    SwitchController,
+    SwitchControllerRequest,
+    UnloadController,
+)
+from std_msgs.msg import Bool
+
+DEFAULT_TIMEOUT = 30.0  # [s]
+# How long the loop may take to stop controllers at the end. roslaunch waits 15 s before it kills.
+STOP_TIMEOUT = 5.0  # [s]
+# The manager's own account of a failed load should stand above ours in the log.
+PAUSE_AFTER_FAILED_LOAD = 1.0  # [s]
+POLL_PERIOD = 0.1  # [s]
+# How long a request to end from outside (rosnode kill) waits for the controllers to be taken away.
+LONGEST_END = 15.0  # [s]
+
+
+class SpawnerError(Exception):
+    """What a person has to know before the spawner gives up."""
+
+
+class Ended(Exception):
+    """The spawner was told to end."""
+
+
+class Ending:
+    """Knows when the spawner shall end, by signal or by the master.
+
+    A signal only leaves a note: taking controllers away from within a signal handler would meet
+    whatever lock the interrupted code holds.
+    """
+
+    def __init__(self):
+        self._asked = threading.Event()
+        self._done = threading.Event()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, lambda *_: self._asked.set())
+        rospy.on_shutdown(self._wait_for_end)
+
+    def _wait_for_end(self):
+        self._asked.set()
+        self._done.wait(LONGEST_END)
+
+    def is_asked(self):
+        return self._asked.is_set()
+
+    def sleep(self, duration):
+        """Raises Ended when the time is cut short."""
+        if self._asked.wait(duration):
+            raise Ended
+
+    def finish(self):
+        """Everything is done: the node may go."""
+        self._done.set()
+        rospy.signal_shutdown("the spawner has ended")
+
+    def call(self, service, request):
+        """The answer of a service that may take for ever. Raises Ended when told to end meanwhile."""
+        outcome = {}
+
+        def work():
+            try:
+                outcome["answer"] = service(request)
+            except Exception as error:  # re-raised where it can be handled
+                outcome["error"] = error
+
+        worker = threading.Thread(target=work, daemon=True)
+        worker.start()
+        while worker.is_alive():
+            worker.join(POLL_PERIOD)
+            if self.is_asked() and worker.is_alive():
+                raise Ended
+        if "error" in outcome:
+            raise outcome["error"]
+        return outcome["answer"]
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(
+        prog="spawner",
+        description="Loads and starts controllers, and stops and unloads them when it is ended.",
+    )
+    parser.add_argument(
+        "controllers",
+        nargs="+",
+        metavar="controller",
+        help="name of a controller whose parameters are on the parameter server, or a YAML file "
+        "with the parameters of one or more controllers",
+    )
+    parser.add_argument("--stopped", action="store_true", help="load the controllers only")
+    parser.add_argument(
+        "--wait-for",
+        metavar="TOPIC",
+        help="wait until this topic (std_msgs/Bool) says true before anything is loaded",
+    )
+    parser.add_argument(
+        "--namespace", metavar="NS", default="", help="namespace of the controller manager"
+    )
+    timeouts = parser.add_mutually_exclusive_group()
+    timeouts.add_argument(
+        "--timeout",
+        type=float,
+        default=DEFAULT_TIMEOUT,
+        help="[s] how long to wait for the controller manager and for --wait-for, each; zero or "
+        "less waits for ever (default: %(default)s)",
+    )
+    timeouts.add_argument(
+        "--no-timeout",
+        dest="timeout",
+        action="store_const",
+        const=0.0,
+        help="wait for ever, as --timeout 0",
+    )
+    parser.add_argument(
+        "--shutdown-timeout", type=float, metavar="X", help="without effect, for older launch files"
+    )
+    return parser.parse_args(arguments)
+
+
+class Deadline:
+    """Wall time left for waiting. While a simulated clock has not begun, it does not run."""
+
+    def __init__(self, timeout):
+        self._timeout = timeout
+        self._end = time.monotonic() + timeout
+        self._said = False
+
+    def is_over(self):
+        if self._timeout <= 0:
+            return False
+        if rospy.rostime.is_rostime_initialized() and rospy.get_time() == 0.0:
+            if not self._said:
+                rospy.loginfo("Waiting for /clock to be available...")
+                self._said = True
+            self._end = time.monotonic() + self._timeout
+            return False
+        return time.monotonic() > self._end
+
+
+def wait_until(condition, deadline, ending):
+    """True when the condition holds, False when time is over."""
+    while not condition():
+        if deadline.is_over():
+            return False
+        ending.sleep(POLL_PERIOD)
+    return True
+
+
+def is_offered(service):
+    try:
+        rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
+        rospy.wait_for_service(service, timeout=POLL_PERIOD)
+        return True
+    except (rosgraph.MasterException, rospy.ROSException, OSError):
+        return False
+
+
+def wait_for_true(topic, timeout, ending):
+    heard = []
+    subscriber = rospy.Subscriber(topic, Bool, lambda message: heard.append(message.data))
+    rospy.loginfo("Controller Spawner: Waiting for %s to say true", subscriber.resolved_name)
+    try:
+        return wait_until(lambda: any(heard), Deadline(timeout), ending)
+    finally:
+        subscriber.unregister()
+
+
+def upload(path):
+    """Loads a YAML file on the parameter server. Returns the controllers it describes."""
+    names = []
+    try:
+        for parameters, namespace in rosparam.load_file(path):
+            if not isinstance(parameters, dict):
+                raise SpawnerError(
+                    f"'{path}' does not hold names of controllers with their parameters"
+                )
+            rosparam.upload_params(namespace, parameters)
+            names += list(parameters)
+    except (rosparam.RosParamException, yaml.YAMLError, OSError) as error:
+        raise SpawnerError(f"'{path}' could not be read: {error}") from error
+    if not names:
+        raise SpawnerError(f"'{path}' describes no controller")
+    return names
+
+
+def controller_names(arguments):
+    """Names as given, files replaced by what they describe, none twice."""
+    names = []
+    for argument in arguments:
+        if os.path.isfile(argument):
+            names += upload(argument)
+        elif argument.endswith((".yaml", ".yml")):
+            raise SpawnerError(f"there is no file '{argument}'")
+        else:
+            names.append(argument)
+    return list(dict.fromkeys(names))
+
+
+class Spawner:
+    """The controllers this program has loaded into one controller manager."""
+
+    def __init__(self, namespace, ending):
+        self._prefix = f"{namespace.rstrip('/')}/" if namespace else ""
+        self._prefix += "controller_manager/"
+        self._ending = ending
+        self.loaded = []
+
+    def _service(self, name, kind):
+        return rospy.ServiceProxy(self._prefix + name, kind)
+
+    def wait_for_manager(self, timeout):
+        for name in ("load_controller", "switch_controller", "unload_controller"):
+            service = self._prefix + name
+            rospy.loginfo("Controller Spawner: Waiting for service %s", service)
+            offered = wait_until(
+                lambda service=service: is_offered(service), Deadline(timeout), self._ending
+            )
+            if not offered:
+                return False
+        return True
+
+    def load(self, names):
+        load_controller = self._service("load_controller", LoadController)
+        for name in names:
+            rospy.loginfo("Loading controller: %s", name)
+            # Noted before the answer, so that it is taken away also if the end comes in between.
+            self.loaded.append(name)
+            if not self._ending.call(load_controller, LoadControllerRequest(name)).ok:
+                self.loaded.remove(name)
+                self._ending.sleep(PAUSE_AFTER_FAILED_LOAD)
+                rospy.logerr("Failed to load %s", name)
+
+    def start(self):
+        response = self._ending.call(
+            self._service("switch_controller", SwitchController),
+            SwitchControllerRequest(
+                start_controllers=self.loaded, strictness=SwitchControllerRequest.STRICT
+            ),
+        )
+        names = ", ".join(self.loaded)
+        if response.ok:
+            rospy.loginfo("Started controllers: %s", names)
+        else:
+            rospy.logerr("Failed to start controllers: %s", names)
+
+    def take_away(self):
+        """Stops what still runs and unloads what is still loaded; others may have done it."""
+        if not self.loaded:
+            return
+        rospy.loginfo("Shutting down spawner. Stopping and unloading controllers...")
+        try:
+            if not is_offered(self._prefix + "list_controllers"):
+                rospy.loginfo("The controller manager has ended already: nothing to stop")
+                return
+            listing = self._service("list_controllers", ListControllers)().controller
+            states = {controller.name: controller.state for controller in listing}
+            self._stop([name for name in self.loaded if states.get(name) == "running"])
+            self._unload([name for name in reversed(self.loaded) if name in states])
+        except (rospy.ServiceException, rospy.ROSException) as error:
+            rospy.logwarn("Controllers could not be taken away: %s", error)
+
+    def _stop(self, names):
+        if not names:
+            return
+        response = self._service("switch_controller", SwitchController)(
+            SwitchControllerRequest(
+                stop_controllers=names,
+                strictness=SwitchControllerRequest.STRICT,
+                timeout=STOP_TIMEOUT,
+            )
+        )
+        if response.ok:
+            rospy.loginfo("Stopped controllers: %s", ", ".join(names))
+        else:
+            rospy.logwarn("Failed to stop controllers: %s", ", ".join(names))
+
+    def _unload(self, names):
+        unload_controller = self._service("unload_controller", UnloadController)
+        for name in names:
+            if unload_controller(name).ok:
+                rospy.loginfo("Unloaded controller: %s", name)
+            else:
+                rospy.logwarn("Failed to unload controller: %s", name)
+
+
+def spawn(options, spawner, ending):
+    """Loads and starts. Raises Ended or SpawnerError."""
+    if not spawner.wait_for_manager(options.timeout):
+        raise SpawnerError(
+            "Controller Spawner couldn't find the expected controller_manager ROS interface."
+        )
+    if options.wait_for and not wait_for_true(options.wait_for, options.timeout, ending):
+        raise SpawnerError(
+            f"{rospy.resolve_name(options.wait_for)} did not say true within {options.timeout:g} s"
+        )
+    spawner.load(controller_names(options.controllers))
+    if not spawner.loaded:
+        raise SpawnerError("no controller could be loaded; the controller manager's log says why")
+    if options.stopped:
+        rospy.loginfo("Loaded controllers: %s", ", ".join(spawner.loaded))
+    else:
+        spawner.start()
+    while True:
+        ending.sleep(POLL_PERIOD)
+
+
+def main():
+    """Runs until it is told to end. Returns the exit status."""
+    options = parse_arguments(rospy.myargv()[1:])
+    rospy.init_node("spawner", anonymous=True, disable_signals=True)
+    if options.shutdown_timeout is not None:
+        rospy.logwarn("--shutdown-timeout has no effect any more")
+    ending = Ending()
+    spawner = Spawner(options.namespace, ending)
+    status = 0
+    try:
+        spawn(options, spawner, ending)
+    except Ended:
+        spawner.take_away()
+    except SpawnerError as error:
+        rospy.logerr("%s", error)
+        status = 1
+    except (rospy.ServiceException, rospy.ROSException) as error:
+        rospy.logerr("Controller Spawner lost the controller manager: %s", error)
+        status = 1
+    ending.finish()
+    return status

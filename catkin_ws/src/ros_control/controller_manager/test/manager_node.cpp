@@ -1,0 +1,49 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// A controller manager with a dummy robot and a 1 kHz loop that can be halted, for tests of the
+// services and scripts. It spins with one thread on purpose: a waiting switch must not block it.
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include <controller_manager/controller_manager.h>
+#include <ros/ros.h>
+#include <std_srvs/SetBool.h>
+
+#include "dummies.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "manager_node");
+  ros::NodeHandle nh;
+  dummies::DummyRobot robot;
+  controller_manager::ControllerManager manager(&robot, nh);
+  manager.registerControllerLoader(std::make_shared<dummies::DummyLoader>());
+
+  std::atomic<bool> running{true};
+  const auto set_running = [&](std_srvs::SetBool::Request& request,
+                               std_srvs::SetBool::Response& response) {
+    running = request.data;
+    response.success = true;
+    return true;
+  };
+  const ros::ServiceServer server =
+      nh.advertiseService<std_srvs::SetBool::Request, std_srvs::SetBool::Response>("run_loop",
+                                                                                   set_running);
+
+  std::atomic<bool> ended{false};
+  std::thread loop([&] {
+    const ros::Duration period(0.001);
+    ros::Time time(1.0);
+    while (!ended) {
+      if (running) {
+        time += period;
+        manager.update(time, period);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  ros::spin();
+  ended = true;
+  loop.join();
+  return 0;
+}

@@ -1,0 +1,83 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of services and scripts share."""
+
+import signal
+import subprocess
+import time
+
+import roslib.packages
+import rospy
+from controller_manager_msgs.srv import (
+    ListControllers,
+    LoadController,
+    SwitchController,
+    UnloadController,
+)
+from std_srvs.srv import SetBool
+
+DEADLINE = 30.0  # [s]
+
+
+def wait_until(condition, message):
+    end = time.monotonic() + DEADLINE
+    while not condition():
+        assert time.monotonic() < end, message
+        time.sleep(0.02)
+
+
+class Manager:
+    """A client of the manager under test."""
+
+    def __init__(self, namespace=""):
+        def proxy(name, kind):
+            full = f"{namespace}/{name}"
+            rospy.wait_for_service(full, DEADLINE)
+            return rospy.ServiceProxy(full, kind)
+
+        self.list = proxy("controller_manager/list_controllers", ListControllers)
+        self.load = proxy("controller_manager/load_controller", LoadController)
+        self.unload = proxy("controller_manager/unload_controller", UnloadController)
+        self.switch = proxy("controller_manager/switch_controller", SwitchController)
+        self.run_loop = proxy("run_loop", SetBool)
+
+    def states(self):
+        return {controller.name: controller.state for controller in self.list().controller}
+
+
+def program(name):
+    paths = roslib.packages.find_node("controller_manager", name)
+    assert paths, f"{name} is not installed"
+    return paths[0]
+
+
+class Running:
+    """A script in a process of its own, ended with the test."""
+
+    def __init__(self, name, *arguments):
+        self.process = subprocess.Popen(
+            [program(name), *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.communicate()
+
+    def is_running(self):
+        return self.process.poll() is None
+
+    def interrupt(self):
+        self.process.send_signal(signal.SIGINT)
+        return self.finish()
+
+    def finish(self):
+        """Waits for the end. Returns exit status and output."""
+        output, _ = self.process.communicate(timeout=DEADLINE)
+        return self.process.returncode, output

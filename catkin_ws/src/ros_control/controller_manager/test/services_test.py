@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The six services, with the loop running and with the loop halted."""
+
+import sys
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from controller_manager_msgs.srv import (
+    ListControllerTypes,
+    ReloadControllerLibraries,
+    SwitchControllerRequest,
+)
+from scripts_common import Manager
+
+STRICT = SwitchControllerRequest.STRICT
+
+
+class ServicesTest(unittest.TestCase):
+    def setUp(self):
+        self.manager = Manager()
+        self.manager.run_loop(True)
+
+    def tearDown(self):
+        self.manager.run_loop(True)
+        reload = rospy.ServiceProxy(
+            "controller_manager/reload_controller_libraries", ReloadControllerLibraries
+        )
+        self.assertTrue(reload(True).ok)
+        self.assertEqual({}, self.manager.states())
+
+    def test_types_name_their_base_class(self):
+        list_types = rospy.ServiceProxy(
+            "controller_manager/list_controller_types", ListControllerTypes
+        )
+        answer = list_types()
+        self.assertEqual(len(answer.types), len(answer.base_classes))
+        bases = dict(zip(answer.types, answer.base_classes))
+        self.assertEqual("dummies::DummyController", bases["dummy/Good"])
+
+    def test_life_of_a_controller(self):
+        self.assertTrue(self.manager.load("a").ok)
+        self.assertFalse(self.manager.load("a").ok)
+        (controller,) = self.manager.list().controller
+        self.assertEqual(
+            ("a", "dummy/Good", "initialized"), (controller.name, controller.type, controller.state)
+        )
+        (claimed,) = controller.claimed_resources
+        self.assertEqual("hardware_interface::EffortJointInterface", claimed.hardware_interface)
+        self.assertEqual(["j0", "j3"], claimed.resources)
+        self.assertTrue(self.manager.switch(start_controllers=["a"], strictness=STRICT).ok)
+        self.assertEqual({"a": "running"}, self.manager.states())
+        self.assertFalse(self.manager.unload("a").ok)
+        self.assertTrue(
+            self.manager.switch(
+                start_controllers=["a"], stop_controllers=["a"], strictness=STRICT
+            ).ok
+        )
+        self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
+        self.assertEqual({"a": "stopped"}, self.manager.states())
+        self.assertTrue(self.manager.unload("a").ok)
+        self.assertEqual({}, self.manager.states())
+
+    def test_a_switch_is_answered_in_a_few_milliseconds(self):
+        self.assertTrue(self.manager.load("a").ok)
+        times = []
+        for _ in range(10):
+            begin = time.monotonic()
+            self.assertTrue(self.manager.switch(start_controllers=["a"], strictness=STRICT).ok)
+            times.append(time.monotonic() - begin)
+            self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
+        print(f"switch service: median {1000 * sorted(times)[5]:.1f} ms")
+        self.assertLess(sorted(times)[5], 0.1)
+
+    def test_the_others_are_answered_while_a_switch_waits_for_the_loop(self):
+        self.assertTrue(self.manager.load("a").ok)
+        self.manager.run_loop(False)
+        answers = []
+        switch = threading.Thread(
+            target=lambda: answers.append(
+                self.manager.switch(start_controllers=["a"], strictness=STRICT)
+            )
+        )
+        switch.start()
+        # Long enough for the switch to be waiting at the latest when this is over.
+        for _ in range(20):
+            self.assertTrue(self.manager.load("c").ok)
+            self.assertTrue(self.manager.unload("c").ok)
+        self.assertEqual({"a": "initialized"}, self.manager.states())
+        self.assertEqual([], answers)
+        self.manager.run_loop(True)
+        switch.join(10.0)
+        self.assertTrue(answers[0].ok)
+        self.assertEqual({"a": "running"}, self.manager.states())
+
+    def test_a_switch_fails_after_its_timeout(self):
+        self.assertTrue(self.manager.load("a").ok)
+        self.manager.run_loop(False)
+        begin = time.monotonic()
+        answer = self.manager.switch(start_controllers=["a"], strictness=STRICT, timeout=0.3)
+        elapsed = time.monotonic() - begin
+        self.assertFalse(answer.ok)
+        self.assertGreaterEqual(elapsed, 0.3)
+        self.assertLess(elapsed, 5.0)
+
+
+if __name__ == "__main__":
+    rospy.init_node("services_test")
+    rostest.rosrun("controller_manager", "services_test", ServicesTest, sys.argv)

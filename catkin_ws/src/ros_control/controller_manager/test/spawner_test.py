@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The spawner, from its arguments to its end."""
+
+import os
+import sys
+import tempfile
+import time
+import unittest
+
+import rosnode
+import rospy
+import rostest
+from rosgraph_msgs.msg import Clock
+from scripts_common import Manager, Running, wait_until
+from std_msgs.msg import Bool
+
+STRICT = 2
+
+
+class SpawnerTest(unittest.TestCase):
+    def setUp(self):
+        self.manager = Manager()
+        self.manager.run_loop(True)
+        self.assertEqual({}, self.manager.states())
+
+    def expect(self, states, manager=None):
+        manager = manager or self.manager
+        wait_until(lambda: manager.states() == states, f"never {states}: {manager.states()}")
+
+    def test_starts_and_takes_away(self):
+        with Running("spawner", "a", "c", "a") as spawner:
+            self.expect({"a": "running", "c": "running"})
+            status, output = spawner.interrupt()
+        self.expect({})
+        self.assertEqual(0, status, output)
+        for text in (
+            "Loading controller: a",
+            "Started controllers: a, c",
+            "Stopped controllers: a, c",
+        ):
+            self.assertIn(text, output)
+        order = [output.index(f"Unloaded controller: {name}") for name in ("c", "a")]
+        self.assertEqual(sorted(order), order)
+
+    def test_stopped_only_loads(self):
+        with Running("spawner", "--stopped", "a") as spawner:
+            self.expect({"a": "initialized"})
+            status, output = spawner.interrupt()
+        self.assertEqual(0, status)
+        self.assertNotIn("Stopped controllers", output)
+        self.expect({})
+
+    def test_leaves_alone_what_others_stopped(self):
+        with Running("spawner", "a", "c") as spawner:
+            self.expect({"a": "running", "c": "running"})
+            self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
+            self.assertTrue(self.manager.unload("a").ok)
+            status, output = spawner.interrupt()
+        self.assertEqual(0, status)
+        self.assertNotIn("Failed", output)
+        self.expect({})
+
+    def test_one_failure_does_not_stop_the_rest(self):
+        with Running("spawner", "nobody", "c") as spawner:
+            self.expect({"c": "running"})
+            _, output = spawner.interrupt()
+        self.assertIn("Failed to load nobody", output)
+        self.assertIn("Started controllers: c", output)
+
+    def test_nothing_loaded_is_an_error(self):
+        with Running("spawner", "nobody") as spawner:
+            status, output = spawner.finish()
+        self.assertEqual(1, status)
+        self.assertIn("no controller could be loaded", output)
+
+    def test_a_conflict_is_reported_and_cleaned_up(self):
+        with Running("spawner", "a", "b") as spawner:
+            self.expect({"a": "initialized", "b": "initialized"})
+            time.sleep(1.0)
+            _, output = spawner.interrupt()
+        self.assertIn("Failed to start controllers: a, b", output)
+        self.expect({})
+
+    def test_waits_for_a_topic(self):
+        publisher = rospy.Publisher("initialized", Bool, queue_size=1, latch=True)
+        publisher.publish(False)
+        for timeout in (["--no-timeout"], ["--timeout", "20"]):
+            publisher.publish(False)
+            with Running("spawner", *timeout, "--wait-for", "initialized", "a") as spawner:
+                wait_until(lambda: publisher.get_num_connections() > 0, "nobody listens")
+                time.sleep(0.5)
+                self.assertEqual({}, self.manager.states())
+                publisher.publish(True)
+                self.expect({"a": "running"})
+                spawner.interrupt()
+            self.expect({})
+
+    def test_gives_up_on_a_topic(self):
+        with Running("spawner", "--timeout", "0.5", "--wait-for", "silence", "a") as spawner:
+            status, output = spawner.finish()
+        self.assertEqual(1, status)
+        self.assertIn("/silence did not say true within 0.5 s", output)
+
+    def test_gives_up_without_a_manager(self):
+        with Running("spawner", "--timeout", "0.5", "--namespace", "/nowhere", "a") as spawner:
+            status, output = spawner.finish()
+        self.assertEqual(1, status)
+        self.assertIn(
+            "Controller Spawner couldn't find the expected controller_manager ROS interface.",
+            output,
+        )
+
+    def test_a_clock_that_has_not_begun_does_not_count(self):
+        rospy.set_param("/use_sim_time", True)
+        try:
+            with Running("spawner", "--timeout", "0.5", "--namespace", "/nowhere", "a") as spawner:
+                time.sleep(4.0)
+                self.assertTrue(spawner.is_running())
+                publisher = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
+                publisher.publish(Clock(rospy.Time(1)))
+                status, output = spawner.finish()
+            self.assertEqual(1, status)
+            self.assertIn("Waiting for /clock to be available...", output)
+        finally:
+            rospy.delete_param("/use_sim_time")
+
+    def test_another_namespace(self):
+        other = Manager("/other")
+        with Running("spawner", "--namespace", "/other", "a") as spawner:
+            self.expect({"a": "running"}, other)
+            self.assertEqual({}, self.manager.states())
+            spawner.interrupt()
+        self.expect({}, other)
+
+    def test_yaml_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "controllers.yaml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("from_file: {type: dummy/Good, joints: [j1]}\n")
+                file.write("second: {type: dummy/Good, joints: [j2]}\n")
+            with Running("spawner", path) as spawner:
+                self.expect({"from_file": "running", "second": "running"})
+                spawner.interrupt()
+            self.expect({})
+            self.assertEqual("dummy/Good", rospy.get_param("/from_file/type"))
+
+            cases = (("- a\n", "names of controllers"), ("{a: [\n", "could not be read"))
+            for content, text in cases:
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(content)
+                with Running("spawner", path) as spawner:
+                    status, output = spawner.finish()
+                self.assertEqual(1, status, output)
+                self.assertIn(text, output)
+                self.assertNotIn("Traceback", output)
+
+    def test_a_missing_file_is_named(self):
+        with Running("spawner", "/no/such/file.yaml") as spawner:
+            status, output = spawner.finish()
+        self.assertEqual(1, status)
+        self.assertIn("there is no file '/no/such/file.yaml'", output)
+
+    def test_can_be_ended_while_the_start_waits_for_the_loop(self):
+        self.manager.run_loop(False)
+        with Running("spawner", "a") as spawner:
+            self.expect({"a": "initialized"})
+            time.sleep(0.5)
+            begin = time.monotonic()
+            status, output = spawner.interrupt()
+            self.assertLess(time.monotonic() - begin, 5.0)
+        self.assertEqual(0, status, output)
+        self.assertIn("Failed to unload controller: a", output)
+        self.manager.run_loop(True)
+        self.expect({"a": "running"})
+        self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
+        self.assertTrue(self.manager.unload("a").ok)
+
+    def test_rosnode_kill_takes_away_too(self):
+        with Running("spawner", "a", "__name:=victim") as spawner:
+            self.expect({"a": "running"})
+            killed, _ = rosnode.kill_nodes(["/victim"])
+            self.assertEqual(["/victim"], killed)
+            status, output = spawner.finish()
+        self.assertEqual(0, status, output)
+        self.assertIn("Unloaded controller: a", output)
+        self.expect({})
+
+    def test_shutdown_timeout_is_accepted(self):
+        with Running("spawner", "--shutdown-timeout", "1", "a") as spawner:
+            self.expect({"a": "running"})
+            _, output = spawner.interrupt()
+        self.assertIn("--shutdown-timeout has no effect", output)
+        self.expect({})
+
+    def test_bad_arguments_show_the_usage(self):
+        for arguments in ([], ["--timeout", "soon", "a"]):
+            with Running("spawner", *arguments) as spawner:
+                status, output = spawner.finish()
+            self.assertEqual(2, status)
+            self.assertIn("usage: spawner", output)
+
+    def test_ends_in_time_when_the_loop_stands_still(self):
+        with Running("spawner", "a") as spawner:
+            self.expect({"a": "running"})
+            self.manager.run_loop(False)
+            begin = time.monotonic()
+            status, output = spawner.interrupt()
+            self.assertLess(time.monotonic() - begin, 12.0)
+        self.assertEqual(0, status)
+        self.assertIn("Failed to stop controllers: a", output)
+        self.manager.run_loop(True)
+        self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
+        self.assertTrue(self.manager.unload("a").ok)
+
+
+if __name__ == "__main__":
+    rospy.init_node("spawner_test")
+    rostest.rosrun("controller_manager", "spawner_test", SpawnerTest, sys.argv)

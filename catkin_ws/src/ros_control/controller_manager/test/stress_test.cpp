@@ -1,0 +1,143 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Four threads load, unload, switch, restart and list controllers while the loop runs at 1 kHz and
+// halts now and then. Built with ThreadSanitizer by tsan.sh; without it the counts are checked.
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include <controller_manager/controller_manager.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include "dummies.h"
+
+namespace {
+
+constexpr int kThreads = 4;
+constexpr int kStrict = 2;
+constexpr int kBestEffort = 1;
+
+int operations() {
+  const char* const asked = std::getenv("STRESS_OPERATIONS");
+  return asked == nullptr ? 2000 : std::atoi(asked);
+}
+
+/// One of four users, each with a controller and a joint of its own, and one joint they fight for.
+class User {
+ public:
+  User(controller_manager::ControllerManager& manager, int number)
+      : manager_(manager), own_("own" + std::to_string(number)), random_(number) {}
+
+  void act() {
+    switch (random_() % 8) {
+      case 0:
+        succeeded_ += manager_.loadController(own_);
+        break;
+      case 1:
+        succeeded_ += manager_.unloadController(own_);
+        break;
+      case 2:
+        succeeded_ += manager_.switchController({own_}, {}, kStrict);
+        break;
+      case 3:
+        succeeded_ += manager_.switchController({}, {own_}, kStrict);
+        break;
+      case 4:
+        succeeded_ += manager_.switchController({own_}, {own_}, kBestEffort, true);
+        break;
+      case 5:
+        succeeded_ += manager_.switchController({"shared"}, {}, kBestEffort, false, 0.002);
+        break;
+      case 6:
+        succeeded_ += manager_.loadController("shared") || manager_.unloadController("shared");
+        break;
+      default:
+        for (const controller_manager::ControllerSpec& spec : manager_.getControllers()) {
+          succeeded_ += spec.c->isRunning() || !spec.info.name.empty();
+        }
+        break;
+    }
+  }
+
+  int succeeded() const { return succeeded_; }
+
+ private:
+  controller_manager::ControllerManager& manager_;
+  const std::string own_;
+  std::mt19937 random_;
+  int succeeded_{0};
+};
+
+/// Calls update every millisecond, and pauses for 20 ms every quarter of a second.
+void runLoop(controller_manager::ControllerManager& manager, const std::atomic<bool>& ended,
+             std::atomic<int>& cycles) {
+  const ros::Duration period(0.001);
+  ros::Time time(1.0);
+  auto next = std::chrono::steady_clock::now();
+  while (!ended) {
+    time += period;
+    manager.update(time, period, cycles % 101 == 0);
+    ++cycles;
+    next += std::chrono::milliseconds(cycles % 250 == 0 ? 20 : 1);
+    std::this_thread::sleep_until(next);
+  }
+}
+
+}  // namespace
+
+TEST(Stress, fourThreadsAgainstTheLoop) {
+  ros::NodeHandle nh("stress");
+  for (int i = 0; i < kThreads; ++i) {
+    const std::string name = "own" + std::to_string(i);
+    nh.setParam(name + "/type", "dummy/Good");
+    nh.setParam(name + "/joints", std::vector<std::string>{"j" + std::to_string(i)});
+  }
+  nh.setParam("shared/type", "dummy/Good");
+  nh.setParam("shared/joints", std::vector<std::string>{"j0"});
+
+  dummies::DummyRobot robot(kThreads);
+  {
+    controller_manager::ControllerManager manager(&robot, nh);
+    manager.registerControllerLoader(std::make_shared<dummies::DummyLoader>());
+
+    std::atomic<bool> ended{false};
+    std::atomic<int> cycles{0};
+    std::thread loop([&] { runLoop(manager, ended, cycles); });
+    std::atomic<int> done{0};
+    std::atomic<int> succeeded{0};
+    std::vector<std::thread> users;
+    const int asked = operations();
+    for (int i = 0; i < kThreads; ++i) {
+      users.emplace_back([&, i] {
+        User user(manager, i);
+        while (done++ < asked) {
+          user.act();
+        }
+        succeeded += user.succeeded();
+      });
+    }
+    for (std::thread& user : users) {
+      user.join();
+    }
+    ended = true;
+    loop.join();
+    std::printf("%d operations, %d succeeded, %d cycles, %d switches\n", asked, succeeded.load(),
+                cycles.load(), robot.switches_.load());
+    EXPECT_GT(succeeded, asked / 5) << "the users hardly got anything done";
+    EXPECT_GT(robot.switches_, asked / 20);
+    EXPECT_LE(static_cast<std::size_t>(dummies::DummyController::living()),
+              manager.getControllers().size());
+  }
+  EXPECT_EQ(0, dummies::DummyController::living());
+}
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "controller_manager_stress");
+  ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}
