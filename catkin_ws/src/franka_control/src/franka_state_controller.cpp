@@ -43,7 +43,7 @@ bool FrankaStateController::init(hardware_interface::RobotHW* robot_hardware,
   if (!readParameters(controller_node_handle) || !takeHandle(robot_hardware)) {
     return false;
   }
-  trigger_ = std::make_unique<franka_hw::TriggerRate>(publish_rate_, ros::Time());
+  trigger_ = franka_hw::TriggerRate(publish_rate_, ros::Time());
   createPublishers(root_node_handle, controller_node_handle);
   return true;
 }
@@ -122,8 +122,12 @@ void FrankaStateController::createPublishers(const ros::NodeHandle& root_node_ha
   prepare(joint_names_, joint_states_desired_publisher_->msg_);
 }
 
+void FrankaStateController::starting(const ros::Time& time) {
+  trigger_ = franka_hw::TriggerRate(publish_rate_, time);
+}
+
 void FrankaStateController::update(const ros::Time& time, const ros::Duration& /*period*/) {
-  if (!(*trigger_)(time)) {
+  if (!trigger_(time)) {
     return;
   }
   publishFrankaState(time);

@@ -38,6 +38,9 @@ class FrankaStateController
   bool init(hardware_interface::RobotHW* robot_hardware, ros::NodeHandle& root_node_handle,
             ros::NodeHandle& controller_node_handle) override;
 
+  /// Begins the first period; the first messages go out at its end.
+  void starting(const ros::Time& time) override;
+
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
@@ -56,8 +59,8 @@ class FrankaStateController
   std::string arm_id_;
   std::vector<std::string> joint_names_;
   std::unique_ptr<franka_hw::FrankaStateHandle> state_handle_;
-  std::unique_ptr<franka_hw::TriggerRate> trigger_;
   double publish_rate_{30.0};  ///< [Hz]
+  franka_hw::TriggerRate trigger_{publish_rate_, ros::Time()};
   std::uint32_t sequence_number_{0};
 
   Publisher<franka_msgs::FrankaState> franka_state_publisher_;

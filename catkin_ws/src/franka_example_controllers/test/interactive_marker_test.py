@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The interactive marker against a simulated arm and a person dragging it, on the test's own clock."""
+
+import math
+import sys
+import threading
+import time
+import unittest
+
+import rospy
+from franka_msgs.msg import FrankaState
+from geometry_msgs.msg import PoseStamped
+from rosgraph_msgs.msg import Clock
+from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit
+
+DEADLINE = 20.0  # [s] of wall time
+
+
+def wait_for(condition):
+    end = time.monotonic() + DEADLINE
+    while not condition():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.005)
+    return True
+
+
+class InteractiveMarkerTest(unittest.TestCase):
+    def setUp(self):
+        self.poses = []
+        self.markers = []
+        self.lock = threading.Lock()
+        self.clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        self.states = rospy.Publisher(
+            "franka_state_controller/franka_states", FrankaState, queue_size=1, latch=True
+        )
+        self.feedback = rospy.Publisher(
+            "equilibrium_pose_marker/feedback", InteractiveMarkerFeedback, queue_size=10
+        )
+        rospy.Subscriber("equilibrium_pose", PoseStamped, self.poses.append)
+        rospy.Subscriber(
+            "equilibrium_pose_marker/update_full", InteractiveMarkerInit, self.markers.append
+        )
+
+    def tick(self, seconds):
+        self.clock.publish(Clock(clock=rospy.Time.from_sec(seconds)))
+
+    def run_clock(self, first, last, step=0.005):
+        for i in range(int(round((last - first) / step)) + 1):
+            self.tick(first + i * step)
+            time.sleep(0.002)
+
+    def state(self, x=0.3, y=0.1, z=0.5):
+        message = FrankaState()
+        # Half a turn about x, the hand pointing down, typed with four digits.
+        message.O_T_EE = [1, 0, 0, 0, 0, -0.9999, 0, 0, 0, 0, -0.9999, 0, x, y, z, 1]
+        return message
+
+    def drag(self, x, y, z):
+        message = InteractiveMarkerFeedback()
+        message.client_id = "test"
+        message.marker_name = "equilibrium_pose"
+        message.event_type = InteractiveMarkerFeedback.POSE_UPDATE
+        message.pose.position.x, message.pose.position.y, message.pose.position.z = x, y, z
+        message.pose.orientation.w = 1.0
+        self.feedback.publish(message)
+
+    def test_follows_the_arm_then_the_person(self):
+        self.assertTrue(wait_for(lambda: self.states.get_num_connections() > 0))
+        self.assertEqual([], self.poses)
+
+        # A robot that knows no pose yet is not followed, and time still stands still.
+        self.states.publish(FrankaState())
+        time.sleep(0.3)
+        self.assertEqual([], self.markers)
+        self.states.publish(self.state())
+        self.assertTrue(wait_for(lambda: self.markers), "no marker came")
+        marker = self.markers[-1].markers[0]
+        self.assertEqual("equilibrium_pose", marker.name)
+        self.assertEqual("panda_link0", marker.header.frame_id)
+        self.assertAlmostEqual(0.3, marker.scale)
+        self.assertEqual(
+            {"rotate_x", "move_x", "rotate_y", "move_y", "rotate_z", "move_z"},
+            {control.name for control in marker.controls},
+        )
+
+        # Now the simulation starts.
+        self.assertTrue(wait_for(lambda: self.clock.get_num_connections() > 0))
+        self.run_clock(10.0, 11.0)
+        self.assertTrue(wait_for(lambda: self.poses), "no pose came")
+        pose = self.poses[-1]
+        self.assertEqual("panda_link0", pose.header.frame_id)
+        self.assertAlmostEqual(0.3, pose.pose.position.x)
+        self.assertAlmostEqual(0.1, pose.pose.position.y)
+        self.assertAlmostEqual(0.5, pose.pose.position.z)
+        q = pose.pose.orientation
+        self.assertAlmostEqual(1.0, q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, places=12)
+        self.assertAlmostEqual(1.0, abs(q.x), places=4)
+        first, last = self.poses[0].header.stamp, self.poses[-1].header.stamp
+        rate = (len(self.poses) - 1) / (last - first).to_sec()
+        self.assertGreater(rate, 100.0, "5 ms were asked for")
+        self.assertLess(rate, 210.0)
+
+        # Dragged inside and outside of where the arm may go.
+        drags = [
+            ((0.2, -0.2, 0.3), (0.2, -0.2, 0.3)),
+            ((9.0, 9.0, 9.0), (0.6, 0.6, 0.9)),
+            ((-9.0, -9.0, -9.0), (-0.6, -0.6, 0.05)),
+        ]
+        now = 11.0
+        for target, expected in drags:
+            self.drag(*target)
+            time.sleep(0.3)
+            self.poses.clear()
+            self.run_clock(now, now + 0.2)
+            now += 0.2
+            self.assertTrue(wait_for(lambda: self.poses))
+            position = self.poses[-1].pose.position
+            for value, wanted in zip((position.x, position.y, position.z), expected):
+                self.assertAlmostEqual(wanted, value)
+
+        # The simulation starts anew: time goes back, and the marker goes on publishing.
+        self.run_clock(1.0, 1.2)
+        self.poses.clear()
+        self.run_clock(1.2, 1.6)
+        self.assertTrue(wait_for(lambda: self.poses), "publishing ended when time went back")
+
+
+class QuaternionTest(unittest.TestCase):
+    def test_all_four_ways_to_compute_it(self):
+        import interactive_marker
+
+        half = math.sqrt(0.5)
+        for quaternion in [
+            (0, 0, 0, 1),
+            (1, 0, 0, 0),
+            (0, 1, 0, 0),
+            (0, 0, 1, 0),
+            (half, half, 0, 0),
+            (0.5, 0.5, 0.5, 0.5),
+            (0.1, -0.7, 0.3, math.sqrt(1 - 0.59)),
+        ]:
+            x, y, z, w = quaternion
+            rows = [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+            result = interactive_marker.rotation_to_quaternion(rows)
+            dot = sum(a * b for a, b in zip(quaternion, result))
+            self.assertAlmostEqual(1.0, abs(dot), places=12)
+
+
+class Suite(unittest.TestSuite):
+    """Both, in one run: rostest.rosrun() takes one suite."""
+
+    def __init__(self):
+        super().__init__()
+        loader = unittest.TestLoader()
+        for case in (QuaternionTest, InteractiveMarkerTest):
+            self.addTest(loader.loadTestsFromTestCase(case))
+
+
+if __name__ == "__main__":
+    import os
+
+    import rospkg
+    import rostest
+
+    package = rospkg.RosPack().get_path("franka_example_controllers")
+    sys.path.insert(0, os.path.join(package, "scripts"))
+    rospy.init_node("interactive_marker_test", disable_rostime=True)
+    rostest.rosrun("franka_example_controllers", "interactive_marker", "interactive_marker_test.Suite")
