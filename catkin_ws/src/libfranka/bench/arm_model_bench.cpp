@@ -1,17 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ArmModel::computeDynamics beside KDL's own solvers for the same five results, in one run. KDL's solvers
-// are built once and its payload is part of its chain, so both do nothing but calculate. Closes with one
-// line: the time of one call and the ratio.
+// ArmModel::computeDynamics beside KDL's own solvers for the same five results, in one run. KDL's
+// solvers are built once and its payload is part of its chain, so both do nothing but calculate.
+// Closes with one line: the time of one call and the ratio.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
-#include <vector>
-
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
+#include <vector>
 
 #include "kdl_arm.h"
 #include "random_state.h"
@@ -39,8 +38,8 @@ void armModel(benchmark::State& loop) {
   std::size_t n = 0;
   for (auto _ : loop) {
     const State& s = states[n++ % kDifferentStates];
-    arm.computeDynamics(franka_core::ArmFrame::kEndEffector, s.q, s.dq, states[0].F_T_EE,
-                        s.EE_T_K, payload, {0.0, 0.0, -9.81}, dynamics);
+    arm.computeDynamics(franka_core::ArmFrame::kEndEffector, s.q, s.dq, states[0].F_T_EE, s.EE_T_K,
+                        payload, {0.0, 0.0, -9.81}, dynamics);
     benchmark::DoNotOptimize(dynamics);
   }
 }

@@ -12,19 +12,15 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/franka ${PROJECT_SOURCE_DIR}/inc
         DESTINATION ${franka_include_destination} FILES_MATCHING PATTERN "*.h")
 install(EXPORT FrankaTargets NAMESPACE Franka:: DESTINATION ${franka_config_destination})
 
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/FrankaConfigVersion.cmake
+# Config and version are the same in both places; beside the built libraries the targets carry absolute
+# paths.
+write_basic_package_version_file(${franka_build_config_dir}/FrankaConfigVersion.cmake
                                  VERSION ${PROJECT_VERSION} COMPATIBILITY AnyNewerVersion)
 configure_package_config_file(
-  ${PROJECT_SOURCE_DIR}/cmake/FrankaConfig.cmake.in ${PROJECT_BINARY_DIR}/FrankaConfig.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FrankaConfig.cmake.in ${franka_build_config_dir}/FrankaConfig.cmake
   INSTALL_DESTINATION ${franka_config_destination} NO_SET_AND_CHECK_MACRO
   NO_CHECK_REQUIRED_COMPONENTS_MACRO)
-install(FILES ${PROJECT_BINARY_DIR}/FrankaConfig.cmake
-              ${PROJECT_BINARY_DIR}/FrankaConfigVersion.cmake
+install(FILES ${franka_build_config_dir}/FrankaConfig.cmake
+              ${franka_build_config_dir}/FrankaConfigVersion.cmake
         DESTINATION ${franka_config_destination})
-
-# The same two files beside the built libraries; there the targets carry absolute paths.
-configure_file(${PROJECT_BINARY_DIR}/FrankaConfig.cmake ${franka_build_config_dir}/FrankaConfig.cmake
-               COPYONLY)
-configure_file(${PROJECT_BINARY_DIR}/FrankaConfigVersion.cmake
-               ${franka_build_config_dir}/FrankaConfigVersion.cmake COPYONLY)
 export(EXPORT FrankaTargets NAMESPACE Franka:: FILE ${franka_build_config_dir}/FrankaTargets.cmake)

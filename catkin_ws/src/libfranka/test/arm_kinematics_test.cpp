@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Poses against KDL, Jacobians against KDL and against finite differences of the pose, all ten frames.
+// Poses against KDL, Jacobians against KDL and against finite differences of the pose, all ten
+// frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
@@ -28,7 +28,9 @@ class ArmKinematicsTest : public ::testing::TestWithParam<Arm> {
 
 INSTANTIATE_TEST_SUITE_P(Arms, ArmKinematicsTest, ::testing::Values(kPanda, kFr3), armName);
 
-std::size_t jointsOf(ArmFrame frame) { return std::min<std::size_t>(static_cast<int>(frame) + 1, 7); }
+std::size_t jointsOf(ArmFrame frame) {
+  return std::min<std::size_t>(static_cast<int>(frame) + 1, 7);
+}
 
 Eigen::Matrix4d toEigen(const KDL::Frame& frame) {
   Eigen::Matrix4d t = Eigen::Matrix4d::Identity();
@@ -74,8 +76,8 @@ TEST_P(ArmKinematicsTest, AgreesWithKdl) {
           pose_error,
           (pose(arm_.pose(frame, s.q, s.F_T_EE, s.EE_T_K)) - toEigen(tip)).cwiseAbs().maxCoeff());
       const Jacobian zero = jacobian(arm_.zeroJacobian(frame, s.q, s.F_T_EE, s.EE_T_K));
-      jacobian_error = std::max(
-          jacobian_error, (zero.leftCols(count) - expected.data).cwiseAbs().maxCoeff());
+      jacobian_error =
+          std::max(jacobian_error, (zero.leftCols(count) - expected.data).cwiseAbs().maxCoeff());
       if (count < 7) {
         EXPECT_EQ(0.0, zero.rightCols(7 - count).cwiseAbs().maxCoeff());
       }
@@ -110,12 +112,10 @@ TEST_P(ArmKinematicsTest, JacobiansAreDerivativesOfThePose) {
         twist << slope.topRightCorner<3, 1>(), turn(2, 1), turn(0, 2), turn(1, 0);
         error = std::max(error, (zero.col(i) - twist).cwiseAbs().maxCoeff());
         const Eigen::Matrix3d toBody = here.topLeftCorner<3, 3>().transpose();
-        error = std::max(error, (body.col(i).head<3>() - toBody * twist.head<3>())
-                                    .cwiseAbs()
-                                    .maxCoeff());
-        error = std::max(error, (body.col(i).tail<3>() - toBody * twist.tail<3>())
-                                    .cwiseAbs()
-                                    .maxCoeff());
+        error = std::max(error,
+                         (body.col(i).head<3>() - toBody * twist.head<3>()).cwiseAbs().maxCoeff());
+        error = std::max(error,
+                         (body.col(i).tail<3>() - toBody * twist.tail<3>()).cwiseAbs().maxCoeff());
       }
     }
   }
@@ -123,8 +123,8 @@ TEST_P(ArmKinematicsTest, JacobiansAreDerivativesOfThePose) {
   EXPECT_LT(error, 1e-9);
 }
 
-// Franka's published Denavit-Hartenberg table: stretched up, the flange is at 0.088, 0, 0.333 + 0.316 +
-// 0.384 - 0.107 and looks down.
+// Franka's published Denavit-Hartenberg table: stretched up, the flange is at 0.088, 0, 0.333 +
+// 0.316 + 0.384 - 0.107 and looks down.
 TEST_P(ArmKinematicsTest, StandsWhereTheDataSheetSays) {
   const auto flange = arm_.pose(ArmFrame::kFlange, {});
   EXPECT_NEAR(0.088, flange[12], 1e-15);

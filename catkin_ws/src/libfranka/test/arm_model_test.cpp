@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The arm's dynamics against answers found another way: KDL, energy, finite differences, each other.
+// The arm's dynamics against answers found another way: KDL, energy, finite differences, each
+// other.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <kdl/chaindynparam.hpp>
 
 #include "kdl_arm.h"
@@ -49,14 +49,15 @@ TEST_P(ArmDynamicsTest, AgreesWithKdl) {
     ASSERT_EQ(0, solver.JntToMass(joints(s.q), mass));
     ASSERT_EQ(0, solver.JntToCoriolis(joints(s.q), joints(s.dq), coriolis));
     ASSERT_EQ(0, solver.JntToGravity(joints(s.q), gravity));
-    mass_error = std::max(
-        mass_error, (matrix(arm_.mass(s.q, s.payload)) - mass.data).cwiseAbs().maxCoeff());
+    mass_error =
+        std::max(mass_error, (matrix(arm_.mass(s.q, s.payload)) - mass.data).cwiseAbs().maxCoeff());
     coriolis_error = std::max(
         coriolis_error,
         (vector(arm_.coriolis(s.q, s.dq, s.payload)) - coriolis.data).cwiseAbs().maxCoeff());
-    gravity_error = std::max(
-        gravity_error,
-        (vector(arm_.gravity(s.q, s.payload, s.gravity_earth)) - gravity.data).cwiseAbs().maxCoeff());
+    gravity_error = std::max(gravity_error,
+                             (vector(arm_.gravity(s.q, s.payload, s.gravity_earth)) - gravity.data)
+                                 .cwiseAbs()
+                                 .maxCoeff());
   }
   std::printf("largest difference to KDL: mass %.1e kg m^2, Coriolis %.1e Nm, gravity %.1e Nm\n",
               mass_error, coriolis_error, gravity_error);
@@ -72,10 +73,9 @@ TEST_P(ArmDynamicsTest, ComputeDynamicsIsTheSameAsItsParts) {
     ArmDynamics all;
     arm_.computeDynamics(frame, s.q, s.dq, s.F_T_EE, s.EE_T_K, s.payload, s.gravity_earth, all);
     EXPECT_LT((matrix(all.mass) - matrix(arm_.mass(s.q, s.payload))).cwiseAbs().maxCoeff(), 1e-13);
-    EXPECT_LT((vector(all.coriolis) - vector(arm_.coriolis(s.q, s.dq, s.payload)))
-                  .cwiseAbs()
-                  .maxCoeff(),
-              1e-12);
+    EXPECT_LT(
+        (vector(all.coriolis) - vector(arm_.coriolis(s.q, s.dq, s.payload))).cwiseAbs().maxCoeff(),
+        1e-12);
     EXPECT_LT((vector(all.gravity) - vector(arm_.gravity(s.q, s.payload, s.gravity_earth)))
                   .cwiseAbs()
                   .maxCoeff(),
@@ -106,8 +106,8 @@ TEST_P(ArmDynamicsTest, InverseDynamicsIsMassCoriolisAndGravity) {
   }
 }
 
-// c_i = sum_jk (dM_ij/dq_k - 1/2 dM_jk/dq_i) dq_j dq_k: the Coriolis vector follows from the mass matrix
-// alone, which makes the power of the Coriolis forces that of the changing kinetic energy.
+// c_i = sum_jk (dM_ij/dq_k - 1/2 dM_jk/dq_i) dq_j dq_k: the Coriolis vector follows from the mass
+// matrix alone, which makes the power of the Coriolis forces that of the changing kinetic energy.
 TEST_P(ArmDynamicsTest, CoriolisFollowsFromTheMassMatrix) {
   constexpr double kStep = 1e-4;
   for (int n = 0; n < 100; n++) {
@@ -120,8 +120,9 @@ TEST_P(ArmDynamicsTest, CoriolisFollowsFromTheMassMatrix) {
         return Matrix7(matrix(arm_.mass(q, s.payload)));
       };
       // Fourth order, so that the step's error is far below rounding's.
-      derivative[k] = (8.0 * (massAt(kStep) - massAt(-kStep)) -
-                       (massAt(2 * kStep) - massAt(-2 * kStep))) / (12.0 * kStep);
+      derivative[k] =
+          (8.0 * (massAt(kStep) - massAt(-kStep)) - (massAt(2 * kStep) - massAt(-2 * kStep))) /
+          (12.0 * kStep);
     }
     const Vector7 dq = vector(s.dq);
     Vector7 expected = Vector7::Zero();
@@ -138,15 +139,15 @@ double potentialEnergy(const ArmModel& arm, const State& s, const std::array<dou
   const Eigen::Map<const Eigen::Vector3d> earth(s.gravity_earth.data());
   const auto energyOf = [&earth](const std::array<double, 16>& at, double mass,
                                  const std::array<double, 3>& com) {
-    const Eigen::Vector3d c = pose(at).topLeftCorner<3, 3>() *
-                                  Eigen::Map<const Eigen::Vector3d>(com.data()) +
-                              pose(at).topRightCorner<3, 1>();
+    const Eigen::Vector3d c =
+        pose(at).topLeftCorner<3, 3>() * Eigen::Map<const Eigen::Vector3d>(com.data()) +
+        pose(at).topRightCorner<3, 1>();
     return -mass * earth.dot(c);
   };
   double energy = energyOf(arm.pose(ArmFrame::kFlange, q), s.payload.mass, s.payload.com);
   for (int i = 0; i < 7; i++) {
-    energy += energyOf(arm.pose(static_cast<ArmFrame>(i), q), arm.links()[i].mass,
-                       arm.links()[i].com);
+    energy +=
+        energyOf(arm.pose(static_cast<ArmFrame>(i), q), arm.links()[i].mass, arm.links()[i].com);
   }
   return energy;
 }
@@ -193,8 +194,9 @@ TEST(Combine, FollowsTheParallelAxisTheorem) {
       Eigen::Map<const Eigen::Matrix3d>(hand.inertia.data()) +
       Eigen::Map<const Eigen::Matrix3d>(load.inertia.data()) +
       reduced * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
-  EXPECT_LT((expected - Eigen::Map<const Eigen::Matrix3d>(total.inertia.data())).cwiseAbs().maxCoeff(),
-            1e-16);
+  EXPECT_LT(
+      (expected - Eigen::Map<const Eigen::Matrix3d>(total.inertia.data())).cwiseAbs().maxCoeff(),
+      1e-16);
 }
 
 TEST(Combine, LeavesOutPartsWithoutMass) {

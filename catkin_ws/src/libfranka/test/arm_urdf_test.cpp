@@ -4,10 +4,9 @@
 // Reading arms from URDF texts: what is taken, and the sentence when something is wrong.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <regex>
-
-#include <Eigen/Eigenvalues>
 
 #include "random_state.h"
 
@@ -119,12 +118,12 @@ TEST(FromUrdf, TurnsInertiasGivenInOtherAxes) {
 }
 
 TEST(FromUrdf, CountsWhatIsFixedToALink) {
-  const std::string camera =
-      replaced(panda(), "</robot>",
-               "<link name=\"camera\"><inertial><mass value=\"0.5\"/><origin xyz=\"0 0 0.1\"/>"
-               "<inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial></link>"
-               "<joint name=\"camera_joint\" type=\"fixed\"><parent link=\"panda_link5\"/>"
-               "<child link=\"camera\"/><origin xyz=\"0.2 0 0\"/></joint></robot>");
+  const std::string camera = replaced(
+      panda(), "</robot>",
+      "<link name=\"camera\"><inertial><mass value=\"0.5\"/><origin xyz=\"0 0 0.1\"/>"
+      "<inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial></link>"
+      "<joint name=\"camera_joint\" type=\"fixed\"><parent link=\"panda_link5\"/>"
+      "<child link=\"camera\"/><origin xyz=\"0.2 0 0\"/></joint></robot>");
   const auto plain = ArmModel::fromUrdf(panda()).links()[4];
   const auto link = ArmModel::fromUrdf(camera).links()[4];
   EXPECT_DOUBLE_EQ(plain.mass + 0.5, link.mass);
@@ -153,7 +152,8 @@ TEST(FromUrdf, SaysWhatIsWrong) {
                  "joint 'panda_joint8' between 'panda_link7' and 'panda_link8' must be fixed");
 }
 
-// Hand 0.73 kg and two fingers of 0.015 kg, hand turned by -45 degrees about the flange's z (decision 7).
+// Hand 0.73 kg and two fingers of 0.015 kg, hand turned by -45 degrees about the flange's z
+// (decision 7).
 TEST(EndEffectorFromUrdf, ComposesHandAndClosedFingers) {
   const Payload ee = endEffectorFromUrdf(panda(), "panda");
   EXPECT_NEAR(0.73 + 2 * 0.015, ee.mass, 1e-15);

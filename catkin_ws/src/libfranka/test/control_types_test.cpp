@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/control_types.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <string>
-
-#include <franka/control_types.h>
 
 namespace {
 
@@ -65,8 +64,8 @@ TEST(ControlTypes, MotionFinishedMarksACopy) {
   EXPECT_FALSE(torques.motion_finished);
   EXPECT_TRUE(last.motion_finished);
   EXPECT_EQ(torques.tau_J, last.tau_J);
-  EXPECT_TRUE(franka::MotionFinished(franka::CartesianPose(std::array<double, 16>{}))
-                  .motion_finished);
+  EXPECT_TRUE(
+      franka::MotionFinished(franka::CartesianPose(std::array<double, 16>{})).motion_finished);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/duration.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
-
-#include <franka/duration.h>
 
 namespace {
 

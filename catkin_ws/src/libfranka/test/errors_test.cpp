@@ -1,12 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/errors.h>
+#include <franka_core/error_names.h>
 #include <gtest/gtest.h>
 
 #include <set>
 #include <sstream>
-
-#include <franka/errors.h>
-#include <franka_core/error_names.h>
 
 namespace {
 
@@ -18,8 +17,10 @@ struct NamedMember {
   Member member;
 };
 
-#define MEMBER(name) \
-  NamedMember { #name, [](const Errors& errors) -> const bool& { return errors.name; } }
+#define MEMBER(name)                                                       \
+  NamedMember {                                                            \
+#name, [](const Errors& errors) -> const bool& { return errors.name; } \
+  }
 
 // In the order of the wire (fci.md 4.1).
 const NamedMember kMembers[] = {
@@ -104,7 +105,8 @@ TEST(Errors, ListSeveralInOrder) {
   flags[7] = flags[14] = true;
   std::ostringstream text;
   text << Errors(flags);
-  EXPECT_EQ("[\"cartesian_reflex\", \"joint_motion_generator_velocity_discontinuity\"]", text.str());
+  EXPECT_EQ("[\"cartesian_reflex\", \"joint_motion_generator_velocity_discontinuity\"]",
+            text.str());
 }
 
 TEST(Errors, CopiesLookAtTheirOwnFlags) {

@@ -1,9 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include <franka/exception.h>
 #include <franka/model.h>
+#include <gtest/gtest.h>
 
 namespace {
 

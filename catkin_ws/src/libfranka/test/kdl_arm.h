@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <string>
-
 #include <urdf_parser/urdf_parser.h>
+
+#include <cstddef>
 #include <kdl/chain.hpp>
+#include <string>
 
 #include "franka_core/arm_model.h"
 
@@ -29,9 +29,10 @@ inline KDL::Frame toKdl(const urdf::Pose& pose) {
           KDL::Vector(pose.position.x, pose.position.y, pose.position.z)};
 }
 
-/// The arm as KDL sees it, read from the URDF without ArmModel: segment i moves link i, the last segment
-/// is the flange. `count` moving segments, then the flange where count is 7.
-inline KDL::Chain kdlArm(const std::string& text, const std::string& arm_id, std::size_t count = 7) {
+/// The arm as KDL sees it, read from the URDF without ArmModel: segment i moves link i, the last
+/// segment is the flange. `count` moving segments, then the flange where count is 7.
+inline KDL::Chain kdlArm(const std::string& text, const std::string& arm_id,
+                         std::size_t count = 7) {
   const auto model = urdf::parseURDF(text);
   KDL::Chain chain;
   for (std::size_t i = 1; i <= count + (count == 7 ? 1 : 0); i++) {
@@ -41,9 +42,9 @@ inline KDL::Chain kdlArm(const std::string& text, const std::string& arm_id, std
     if (link->inertial) {
       const auto& in = *link->inertial;
       const KDL::Frame at = toKdl(in.origin);
-      inertia = at.M * KDL::RigidBodyInertia(in.mass, KDL::Vector::Zero(),
-                                             KDL::RotationalInertia(in.ixx, in.iyy, in.izz, in.ixy,
-                                                                    in.ixz, in.iyz));
+      inertia = at.M * KDL::RigidBodyInertia(
+                           in.mass, KDL::Vector::Zero(),
+                           KDL::RotationalInertia(in.ixx, in.iyy, in.izz, in.ixy, in.ixz, in.iyz));
       inertia = KDL::RigidBodyInertia(in.mass, at.p, inertia.getRotationalInertia());
     }
     if (i <= 7) {

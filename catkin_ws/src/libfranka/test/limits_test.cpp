@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/rate_limiting.h>
+#include <franka_core/limits.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include <franka/rate_limiting.h>
-#include <franka_core/limits.h>
 
 namespace {
 

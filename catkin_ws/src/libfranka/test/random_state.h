@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/arm_model.h>
+#include <franka_core/limits.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 #include <array>
 #include <fstream>
 #include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
-
-#include <franka_core/arm_model.h>
-#include <franka_core/limits.h>
 
 namespace franka_test {
 

@@ -1,15 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/rate_limiting.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-
-#include <Eigen/Geometry>
-
-#include <franka/rate_limiting.h>
 
 namespace {
 
@@ -42,8 +40,8 @@ TEST(LimitRate, LeavesAllowedVelocitiesAlone) {
   EXPECT_NEAR(0.004, limitRate(kV, kA, kJ, 0.004, 0.0, 0.0), 1e-17);
 }
 
-// A step to a velocity beyond the limit: jerk, then acceleration, then velocity bound the way there, and
-// the limit is reached without overshoot.
+// A step to a velocity beyond the limit: jerk, then acceleration, then velocity bound the way
+// there, and the limit is reached without overshoot.
 TEST(LimitRate, FollowsAStepWithinAllDerivatives) {
   for (double wanted : {5.0, -5.0, 1.0}) {
     double v = 0.0, a = 0.0;
@@ -103,7 +101,9 @@ TEST(LimitRate, TwistsAreBoundedByNorm) {
       next_a[i] = (next[i] - v[i]) / kDeltaT;
       jerk[i] = (next_a[i] - a[i]) / kDeltaT;
     }
-    const auto norm = [](const Six& x, std::size_t at) { return std::hypot(x[at], x[at + 1], x[at + 2]); };
+    const auto norm = [](const Six& x, std::size_t at) {
+      return std::hypot(x[at], x[at + 1], x[at + 2]);
+    };
     EXPECT_LE(norm(next, 0), kV + 1e-12);
     EXPECT_LE(norm(next_a, 0), kA + kRounding);
     EXPECT_LE(norm(jerk, 0), kJ + 1e4 * kRounding);
@@ -133,8 +133,8 @@ TEST(LimitRate, PosesFollowAtTheAllowedTwist) {
   for (int k = 0; k < 600; k++) {
     const Pose next = limitRate(kV, kA, kJ, 1.0, 20.0, 8000.0, wanted, pose, v, a);
     const Eigen::Map<const Eigen::Matrix4d> from(pose.data()), to(next.data());
-    const Eigen::AngleAxisd step(Eigen::Matrix3d(to.topLeftCorner<3, 3>() *
-                                                 from.topLeftCorner<3, 3>().transpose()));
+    const Eigen::AngleAxisd step(
+        Eigen::Matrix3d(to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose()));
     const Eigen::Vector3d w = step.angle() / kDeltaT * step.axis();
     const Six next_v{(next[12] - pose[12]) / kDeltaT, 0.0, 0.0, w.x(), w.y(), w.z()};
     for (std::size_t i = 0; i < 6; i++) {
@@ -150,7 +150,9 @@ TEST(LimitRate, PosesFollowAtTheAllowedTwist) {
   EXPECT_NEAR(0.99 * 2.0 / 3.0, v[4], 1e-6);
   const Eigen::Map<const Eigen::Matrix4d> end(pose.data());
   EXPECT_LT((end.topLeftCorner<3, 3>() * end.topLeftCorner<3, 3>().transpose() -
-             Eigen::Matrix3d::Identity()).norm(), 1e-12);
+             Eigen::Matrix3d::Identity())
+                .norm(),
+            1e-12);
 }
 
 TEST(LimitRate, RefusesPosesThatAreNone) {

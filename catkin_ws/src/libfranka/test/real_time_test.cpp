@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the 1 kHz loop calls neither allocates nor locks.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-
-#include <rt_guard/rt_guard.h>
-
 #include <franka/lowpass_filter.h>
 #include <franka/rate_limiting.h>
 #include <franka_core/to_franka.h>
+#include <gtest/gtest.h>
+#include <rt_guard/rt_guard.h>
+
+#include <cmath>
+#include <memory>
 
 #include "random_state.h"
 

@@ -1,13 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/gripper_state.h>
+#include <franka/robot_state.h>
+#include <franka/vacuum_gripper_state.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <sstream>
-
-#include <franka/gripper_state.h>
-#include <franka/robot_state.h>
-#include <franka/vacuum_gripper_state.h>
 
 namespace {
 
@@ -20,7 +19,8 @@ std::string textOf(const Type& value) {
 
 std::vector<std::string> keysOf(const std::string& json) {
   std::vector<std::string> keys;
-  for (std::size_t at = json.find("\": "); at != std::string::npos; at = json.find("\": ", at + 1)) {
+  for (std::size_t at = json.find("\": "); at != std::string::npos;
+       at = json.find("\": ", at + 1)) {
     const std::size_t begin = json.rfind('"', at - 1) + 1;
     keys.push_back(json.substr(begin, at - begin));
   }
@@ -28,14 +28,53 @@ std::vector<std::string> keysOf(const std::string& json) {
 }
 
 TEST(RobotState, WritesItsMembersInOrder) {
-  const std::vector<std::string> expected{
-      "O_T_EE", "O_T_EE_d", "F_T_NE", "NE_T_EE", "F_T_EE", "EE_T_K", "m_ee", "F_x_Cee", "I_ee",
-      "m_load", "F_x_Cload", "I_load", "m_total", "F_x_Ctotal", "I_total", "elbow", "elbow_d",
-      "elbow_c", "delbow_c", "ddelbow_c", "tau_J", "tau_J_d", "dtau_J", "q", "dq", "q_d", "dq_d",
-      "ddq_d", "joint_contact", "cartesian_contact", "joint_collision", "cartesian_collision",
-      "tau_ext_hat_filtered", "O_F_ext_hat_K", "K_F_ext_hat_K", "O_dP_EE_d", "O_ddP_O", "O_T_EE_c",
-      "O_dP_EE_c", "O_ddP_EE_c", "theta", "dtheta", "current_errors", "last_motion_errors",
-      "control_command_success_rate", "robot_mode", "time"};
+  const std::vector<std::string> expected{"O_T_EE",
+                                          "O_T_EE_d",
+                                          "F_T_NE",
+                                          "NE_T_EE",
+                                          "F_T_EE",
+                                          "EE_T_K",
+                                          "m_ee",
+                                          "F_x_Cee",
+                                          "I_ee",
+                                          "m_load",
+                                          "F_x_Cload",
+                                          "I_load",
+                                          "m_total",
+                                          "F_x_Ctotal",
+                                          "I_total",
+                                          "elbow",
+                                          "elbow_d",
+                                          "elbow_c",
+                                          "delbow_c",
+                                          "ddelbow_c",
+                                          "tau_J",
+                                          "tau_J_d",
+                                          "dtau_J",
+                                          "q",
+                                          "dq",
+                                          "q_d",
+                                          "dq_d",
+                                          "ddq_d",
+                                          "joint_contact",
+                                          "cartesian_contact",
+                                          "joint_collision",
+                                          "cartesian_collision",
+                                          "tau_ext_hat_filtered",
+                                          "O_F_ext_hat_K",
+                                          "K_F_ext_hat_K",
+                                          "O_dP_EE_d",
+                                          "O_ddP_O",
+                                          "O_T_EE_c",
+                                          "O_dP_EE_c",
+                                          "O_ddP_EE_c",
+                                          "theta",
+                                          "dtheta",
+                                          "current_errors",
+                                          "last_motion_errors",
+                                          "control_command_success_rate",
+                                          "robot_mode",
+                                          "time"};
   EXPECT_EQ(expected, keysOf(textOf(franka::RobotState())));
 }
 
@@ -51,8 +90,8 @@ TEST(RobotState, WritesValues) {
   state.robot_mode = franka::RobotMode::kAutomaticErrorRecovery;
   const std::string text = textOf(state);
   for (const char* part :
-       {"{\"O_T_EE\": [0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0], ", "\"m_ee\": 0.73, ", "\"elbow\": [0.25,-1], ",
-        "\"q\": [1,2,3,4,5,6,null], ", "\"current_errors\": [], ",
+       {"{\"O_T_EE\": [0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0], ", "\"m_ee\": 0.73, ",
+        "\"elbow\": [0.25,-1], ", "\"q\": [1,2,3,4,5,6,null], ", "\"current_errors\": [], ",
         "\"last_motion_errors\": [\"joint_reflex\"], ",
         "\"robot_mode\": \"Automatic error recovery\", \"time\": 12345}"}) {
     EXPECT_NE(std::string::npos, text.find(part)) << part << " in " << text;
@@ -65,8 +104,13 @@ TEST(RobotState, StartsUserStopped) {
 }
 
 TEST(RobotState, KeepsTheWiresNumbersOfModes) {
-  const char* names[] = {"\"Other\"", "\"Idle\"", "\"Move\"", "\"Guiding\"", "\"Reflex\"",
-                         "\"User stopped\"", "\"Automatic error recovery\""};
+  const char* names[] = {"\"Other\"",
+                         "\"Idle\"",
+                         "\"Move\"",
+                         "\"Guiding\"",
+                         "\"Reflex\"",
+                         "\"User stopped\"",
+                         "\"Automatic error recovery\""};
   for (int i = 0; i < 7; i++) {
     EXPECT_EQ(names[i], textOf(static_cast<franka::RobotMode>(i)));
   }

@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every field of the control unit's state arrives in the public one. Each is given a value of its own, so
-// that a field that is left out or taken from elsewhere shows.
-#include <gtest/gtest.h>
-
+// Every field of the control unit's state arrives in the public one. Each is given a value of its
+// own, so that a field that is left out or taken from elsewhere shows.
 #include <franka_core/to_franka.h>
+#include <gtest/gtest.h>
 
 namespace {
 
@@ -73,7 +72,8 @@ TEST(ToFranka, CarriesEveryField) {
   forEachField(from, [&next](auto& field) { number(field, next); });
   next = 1.0;
   forEachField(expected, [&next](auto& field) { number(field, next); });
-  // 4 numbers, 7 transforms, 3 inertias, 4 vectors, 5 elbows, 13 joint arrays, 7 twists and wrenches.
+  // 4 numbers, 7 transforms, 3 inertias, 4 vectors, 5 elbows, 13 joint arrays, 7 twists and
+  // wrenches.
   EXPECT_EQ(1.0 + 4 + 7 * 16 + 3 * 9 + 4 * 3 + 5 * 2 + 13 * 7 + 7 * 6, next);
   from.message_id = 987654321;
   from.errors[3] = from.reflex_reason[40] = true;

@@ -10,7 +10,8 @@
 
 namespace franka {
 
-/// A box that the end effector must not leave, as kept by the robot (robot protocol up to version 5).
+/// A box that the end effector must not leave, as kept by the robot (robot protocol up to version
+/// 5).
 struct VirtualWallCuboid {
   int32_t id{};                               ///< number of the wall
   std::array<double, 3> object_world_size{};  ///< edge lengths of the box [m]

@@ -6,8 +6,8 @@
 #include <initializer_list>
 
 /// @file
-/// What control callbacks return, once a millisecond. All types are values without allocation; their
-/// array constructors and MotionFinished are safe in the 1 kHz loop and from any thread.
+/// What control callbacks return, once a millisecond. All types are values without allocation;
+/// their array constructors and MotionFinished are safe in the 1 kHz loop and from any thread.
 
 namespace franka {
 
@@ -33,7 +33,8 @@ class Torques : public Finishable {
  public:
   /// @param torques tau_J_d [Nm].
   Torques(const std::array<double, 7>& torques) noexcept;
-  /// @param torques seven values [Nm]. @throws std::invalid_argument for any other number of values.
+  /// @param torques seven values [Nm]. @throws std::invalid_argument for any other number of
+  /// values.
   Torques(std::initializer_list<double> torques);
 
   std::array<double, 7> tau_J{};  ///< desired torques [Nm]
@@ -55,7 +56,8 @@ class JointVelocities : public Finishable {
  public:
   /// @param joint_velocities dq_c [rad/s].
   JointVelocities(const std::array<double, 7>& joint_velocities) noexcept;
-  /// @param joint_velocities seven values [rad/s]. @throws std::invalid_argument for any other number.
+  /// @param joint_velocities seven values [rad/s]. @throws std::invalid_argument for any other
+  /// number.
   JointVelocities(std::initializer_list<double> joint_velocities);
 
   std::array<double, 7> dq{};  ///< desired velocities [rad/s]

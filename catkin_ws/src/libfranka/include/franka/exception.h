@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka/log.h>
+
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <franka/log.h>
 
 /// @file
 /// The family of exceptions; what() is a sentence for a person.
@@ -47,8 +47,7 @@ struct IncompatibleVersionException : public Exception {
 /// A motion was aborted.
 struct ControlException : public Exception {
   /// @param what what happened. @param log the last states and commands, oldest first.
-  explicit ControlException(const std::string& what,
-                            std::vector<franka::Record> log = {}) noexcept;
+  explicit ControlException(const std::string& what, std::vector<franka::Record> log = {}) noexcept;
 
   const std::vector<franka::Record> log;  ///< the last states and commands, oldest first
 };

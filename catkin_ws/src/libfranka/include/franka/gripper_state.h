@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka/duration.h>
+
 #include <cstdint>
 #include <ostream>
-
-#include <franka/duration.h>
 
 /// @file
 /// The state of the hand.

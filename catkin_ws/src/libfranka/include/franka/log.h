@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <franka/control_types.h>
 #include <franka/robot_state.h>
+
+#include <string>
+#include <vector>
 
 /// @file
 /// What is kept of the last milliseconds of a motion.
@@ -15,11 +15,11 @@ namespace franka {
 
 /// The command sent for a state. What a motion does not use stays zero.
 struct RobotCommand {
-  JointPositions joint_positions{std::array<double, 7>{}};             ///< [rad]
-  JointVelocities joint_velocities{std::array<double, 7>{}};           ///< [rad/s]
-  CartesianPose cartesian_pose{std::array<double, 16>{}};              ///< pose in O
-  CartesianVelocities cartesian_velocities{std::array<double, 6>{}};   ///< twist in O
-  Torques torques{std::array<double, 7>{}};                            ///< [Nm]
+  JointPositions joint_positions{std::array<double, 7>{}};            ///< [rad]
+  JointVelocities joint_velocities{std::array<double, 7>{}};          ///< [rad/s]
+  CartesianPose cartesian_pose{std::array<double, 16>{}};             ///< pose in O
+  CartesianVelocities cartesian_velocities{std::array<double, 6>{}};  ///< twist in O
+  Torques torques{std::array<double, 7>{}};                           ///< [Nm]
 };
 
 /// A received state and the command that had been sent just before it.
@@ -28,8 +28,8 @@ struct Record {
   RobotCommand command;  ///< command sent before
 };
 
-/// The log as comma separated values: a header line, then one line a record; time in [ms], everything
-/// else in the units of RobotState. Not for the 1 kHz loop.
+/// The log as comma separated values: a header line, then one line a record; time in [ms],
+/// everything else in the units of RobotState. Not for the 1 kHz loop.
 /// @returns an empty string for an empty log.
 std::string logToCSV(const std::vector<Record>& log);
 

@@ -5,7 +5,8 @@
 #include <array>
 
 /// @file
-/// First-order low-pass filters for commands. Pure, allocation-free, for any thread and the 1 kHz loop.
+/// First-order low-pass filters for commands. Pure, allocation-free, for any thread and the 1 kHz
+/// loop.
 
 namespace franka {
 
@@ -15,12 +16,13 @@ constexpr double kDefaultCutoffFrequency = 100.0;  ///< the control loops' defau
 /// One step of the filter: g y + (1 - g) y_last with g = T / (T + 1 / (2 pi f)).
 /// @param sample_time T [s]. @param y new value. @param y_last filtered value of the cycle before.
 /// @param cutoff_frequency f [Hz].
-/// @throws std::invalid_argument for a negative or not finite time, a frequency that is not positive
-/// and finite, or a value that is not finite.
+/// @throws std::invalid_argument for a negative or not finite time, a frequency that is not
+/// positive and finite, or a value that is not finite.
 double lowpassFilter(double sample_time, double y, double y_last, double cutoff_frequency);
 
 /// One step for a pose: the translation as above, the rotation along the shortest way.
-/// @param sample_time T [s]. @param y new pose, 4x4 column-major. @param y_last pose of the cycle before.
+/// @param sample_time T [s]. @param y new pose, 4x4 column-major. @param y_last pose of the cycle
+/// before.
 /// @param cutoff_frequency f [Hz].
 /// @throws std::invalid_argument as lowpassFilter.
 std::array<double, 16> cartesianLowpassFilter(double sample_time, std::array<double, 16> y,

@@ -22,7 +22,8 @@ enum class Frame {
 };
 
 /// Steps to the next frame and returns the one before the step, for loops over all frames:
-/// `for (Frame f = Frame::kJoint1; f <= Frame::kStiffness; f++)`. The value after kStiffness is no frame.
+/// `for (Frame f = Frame::kJoint1; f <= Frame::kStiffness; f++)`. The value after kStiffness is no
+/// frame.
 Frame operator++(Frame& frame, int /* postfix */) noexcept;
 
 }  // namespace franka

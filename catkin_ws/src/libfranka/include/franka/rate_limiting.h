@@ -2,25 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/limits.h>
+
 #include <array>
 #include <cfloat>
 #include <cstddef>
 
-#include <franka_core/limits.h>
-
 /// @file
 /// Limits of the Panda (FER) as the robot's client keeps them, and the functions that keep commands
-/// within them. The constants are a margin smaller than the robot's own limits, so that a command that
-/// reaches them is accepted also after lost packets. The functions are pure, allocation-free and may run
-/// in the 1 kHz loop on any thread; they throw only where said.
+/// within them. The constants are a margin smaller than the robot's own limits, so that a command
+/// that reaches them is accepted also after lost packets. The functions are pure, allocation-free
+/// and may run in the 1 kHz loop on any thread; they throw only where said.
 
 namespace franka {
 
-constexpr double kDeltaT = 1e-3;      ///< one cycle [s]
-constexpr double kLimitEps = 1e-3;    ///< margin kept from each limit, in the limit's unit
-constexpr double kNormEps = DBL_EPSILON;  ///< vectors shorter than this have no direction
+constexpr double kDeltaT = 1e-3;               ///< one cycle [s]
+constexpr double kLimitEps = 1e-3;             ///< margin kept from each limit, in the limit's unit
+constexpr double kNormEps = DBL_EPSILON;       ///< vectors shorter than this have no direction
 constexpr double kTolNumberPacketsLost = 3.0;  ///< packets in a row that may be lost
-constexpr double kFactorCartesianRotationPoseInterface = 0.99;  ///< share of the rotation limits for poses
+constexpr double kFactorCartesianRotationPoseInterface =
+    0.99;  ///< share of the rotation limits for poses
 
 namespace rate_limiting_detail {
 constexpr double withMargin(double limit) { return limit - kLimitEps; }
@@ -110,7 +111,8 @@ double limitRate(double max_velocity, double max_acceleration, double max_jerk,
                  double commanded_position, double last_commanded_position,
                  double last_commanded_velocity, double last_commanded_acceleration);
 
-/// The velocity version for seven joints. @throws std::invalid_argument if a wanted value is not finite.
+/// The velocity version for seven joints. @throws std::invalid_argument if a wanted value is not
+/// finite.
 std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
                                 const std::array<double, 7>& max_acceleration,
                                 const std::array<double, 7>& max_jerk,
@@ -118,7 +120,8 @@ std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
                                 const std::array<double, 7>& last_commanded_velocities,
                                 const std::array<double, 7>& last_commanded_accelerations);
 
-/// The position version for seven joints. @throws std::invalid_argument if a wanted value is not finite.
+/// The position version for seven joints. @throws std::invalid_argument if a wanted value is not
+/// finite.
 std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
                                 const std::array<double, 7>& max_acceleration,
                                 const std::array<double, 7>& max_jerk,
@@ -131,23 +134,26 @@ std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
 /// @param O_dP_EE_c wanted twist in O [m/s, rad/s].
 /// @param last_O_dP_EE_c, last_O_ddP_EE_c twist and acceleration of the cycle before, in O.
 /// @throws std::invalid_argument if a wanted value is not finite.
-std::array<double, 6> limitRate(
-    double max_translational_velocity, double max_translational_acceleration,
-    double max_translational_jerk, double max_rotational_velocity,
-    double max_rotational_acceleration, double max_rotational_jerk,
-    const std::array<double, 6>& O_dP_EE_c, const std::array<double, 6>& last_O_dP_EE_c,
-    const std::array<double, 6>& last_O_ddP_EE_c);
+std::array<double, 6> limitRate(double max_translational_velocity,
+                                double max_translational_acceleration,
+                                double max_translational_jerk, double max_rotational_velocity,
+                                double max_rotational_acceleration, double max_rotational_jerk,
+                                const std::array<double, 6>& O_dP_EE_c,
+                                const std::array<double, 6>& last_O_dP_EE_c,
+                                const std::array<double, 6>& last_O_ddP_EE_c);
 
-/// Limits a pose: the twist that leads to it from the last pose, with two derivatives. For the rotation
-/// 99 % of the limits are used.
+/// Limits a pose: the twist that leads to it from the last pose, with two derivatives. For the
+/// rotation 99 % of the limits are used.
 /// @param O_T_EE_c wanted pose in O, 4x4 column-major.
 /// @param last_O_T_EE_c, last_O_dP_EE_c, last_O_ddP_EE_c values of the cycle before, in O.
 /// @throws std::invalid_argument if the wanted pose is not finite or no homogeneous transformation.
-std::array<double, 16> limitRate(
-    double max_translational_velocity, double max_translational_acceleration,
-    double max_translational_jerk, double max_rotational_velocity,
-    double max_rotational_acceleration, double max_rotational_jerk,
-    const std::array<double, 16>& O_T_EE_c, const std::array<double, 16>& last_O_T_EE_c,
-    const std::array<double, 6>& last_O_dP_EE_c, const std::array<double, 6>& last_O_ddP_EE_c);
+std::array<double, 16> limitRate(double max_translational_velocity,
+                                 double max_translational_acceleration,
+                                 double max_translational_jerk, double max_rotational_velocity,
+                                 double max_rotational_acceleration, double max_rotational_jerk,
+                                 const std::array<double, 16>& O_T_EE_c,
+                                 const std::array<double, 16>& last_O_T_EE_c,
+                                 const std::array<double, 6>& last_O_dP_EE_c,
+                                 const std::array<double, 6>& last_O_ddP_EE_c);
 
 }  // namespace franka

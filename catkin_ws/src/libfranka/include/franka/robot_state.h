@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <ostream>
-
 #include <franka/duration.h>
 #include <franka/errors.h>
+
+#include <array>
+#include <ostream>
 
 /// @file
 /// The state of the robot, received once a millisecond.
@@ -26,24 +26,24 @@ enum class RobotMode {
 
 /// One state of the robot.
 ///
-/// Frames: O base, F flange, NE nominal end effector, EE end effector, K stiffness frame. Transforms are
-/// 4x4, inertias 3x3, both column-major. A suffix `_d` marks desired, `_c` commanded values. Copying
-/// neither allocates nor throws and is safe in the 1 kHz loop.
+/// Frames: O base, F flange, NE nominal end effector, EE end effector, K stiffness frame.
+/// Transforms are 4x4, inertias 3x3, both column-major. A suffix `_d` marks desired, `_c` commanded
+/// values. Copying neither allocates nor throws and is safe in the 1 kHz loop.
 struct RobotState {
-  std::array<double, 16> O_T_EE{};    ///< measured pose of EE in O
-  std::array<double, 16> O_T_EE_d{};  ///< desired pose of EE in O
-  std::array<double, 16> F_T_EE{};    ///< EE in the flange: F_T_NE * NE_T_EE
-  std::array<double, 16> F_T_NE{};    ///< nominal end effector in the flange
-  std::array<double, 16> NE_T_EE{};   ///< EE in the nominal end effector frame
-  std::array<double, 16> EE_T_K{};    ///< K in EE
-  double m_ee{};                      ///< mass of the end effector [kg]
-  std::array<double, 9> I_ee{};       ///< its inertia about its centre of mass, axes of F [kg m^2]
-  std::array<double, 3> F_x_Cee{};    ///< its centre of mass in F [m]
-  double m_load{};                    ///< mass of the load [kg]
-  std::array<double, 9> I_load{};     ///< its inertia about its centre of mass, axes of F [kg m^2]
-  std::array<double, 3> F_x_Cload{};  ///< its centre of mass in F [m]
-  double m_total{};                   ///< mass of end effector and load [kg]
-  std::array<double, 9> I_total{};    ///< inertia of both about their centre of mass [kg m^2]
+  std::array<double, 16> O_T_EE{};     ///< measured pose of EE in O
+  std::array<double, 16> O_T_EE_d{};   ///< desired pose of EE in O
+  std::array<double, 16> F_T_EE{};     ///< EE in the flange: F_T_NE * NE_T_EE
+  std::array<double, 16> F_T_NE{};     ///< nominal end effector in the flange
+  std::array<double, 16> NE_T_EE{};    ///< EE in the nominal end effector frame
+  std::array<double, 16> EE_T_K{};     ///< K in EE
+  double m_ee{};                       ///< mass of the end effector [kg]
+  std::array<double, 9> I_ee{};        ///< its inertia about its centre of mass, axes of F [kg m^2]
+  std::array<double, 3> F_x_Cee{};     ///< its centre of mass in F [m]
+  double m_load{};                     ///< mass of the load [kg]
+  std::array<double, 9> I_load{};      ///< its inertia about its centre of mass, axes of F [kg m^2]
+  std::array<double, 3> F_x_Cload{};   ///< its centre of mass in F [m]
+  double m_total{};                    ///< mass of end effector and load [kg]
+  std::array<double, 9> I_total{};     ///< inertia of both about their centre of mass [kg m^2]
   std::array<double, 3> F_x_Ctotal{};  ///< centre of mass of both in F [m]
   std::array<double, 2> elbow{};       ///< position of joint 3 [rad], sign of joint 4 (+1 or -1)
   std::array<double, 2> elbow_d{};     ///< desired elbow
@@ -58,10 +58,11 @@ struct RobotState {
   std::array<double, 7> dq{};          ///< measured joint velocities [rad/s]
   std::array<double, 7> dq_d{};        ///< desired joint velocities [rad/s]
   std::array<double, 7> ddq_d{};       ///< desired joint accelerations [rad/s^2]
-  std::array<double, 7> joint_contact{};        ///< 1 above the lower torque threshold; clears
-  std::array<double, 6> cartesian_contact{};    ///< 1 above the lower force threshold; clears; in K
-  std::array<double, 7> joint_collision{};      ///< 1 above the upper torque threshold; latched
-  std::array<double, 6> cartesian_collision{};  ///< 1 above the upper force threshold; latched; in K
+  std::array<double, 7> joint_contact{};      ///< 1 above the lower torque threshold; clears
+  std::array<double, 6> cartesian_contact{};  ///< 1 above the lower force threshold; clears; in K
+  std::array<double, 7> joint_collision{};    ///< 1 above the upper torque threshold; latched
+  std::array<double, 6>
+      cartesian_collision{};  ///< 1 above the upper force threshold; latched; in K
   std::array<double, 7> tau_ext_hat_filtered{};  ///< external torques, low-pass filtered [Nm]
   std::array<double, 6> O_F_ext_hat_K{};  ///< wrench the robot exerts at K, axes of O [N, Nm]
   std::array<double, 6> K_F_ext_hat_K{};  ///< the same, axes of K [N, Nm]
@@ -74,7 +75,8 @@ struct RobotState {
   std::array<double, 7> dtheta{};         ///< motor velocities, seen behind the gears [rad/s]
   Errors current_errors{};                ///< errors active now
   Errors last_motion_errors{};            ///< errors that aborted the last motion
-  double control_command_success_rate{};  ///< share of the last 100 commands received; 0 without loop
+  double
+      control_command_success_rate{};  ///< share of the last 100 commands received; 0 without loop
   RobotMode robot_mode = RobotMode::kUserStopped;  ///< what the robot is doing
   Duration time{};  ///< robot clock, strictly increasing, 1 ms a state
 };

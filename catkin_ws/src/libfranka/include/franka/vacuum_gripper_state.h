@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka/duration.h>
+
 #include <cstdint>
 #include <ostream>
-
-#include <franka/duration.h>
 
 /// @file
 /// The state of the vacuum gripper (cobot pump).
@@ -22,13 +22,13 @@ enum class VacuumGripperDeviceStatus : uint8_t {
 
 /// One state of the vacuum gripper.
 struct VacuumGripperState {
-  bool in_control_range{};  ///< vacuum within the set range
-  bool part_detached{};     ///< the part was let go on command
-  bool part_present{};      ///< vacuum says a part is held
+  bool in_control_range{};                    ///< vacuum within the set range
+  bool part_detached{};                       ///< the part was let go on command
+  bool part_present{};                        ///< vacuum says a part is held
   VacuumGripperDeviceStatus device_status{};  ///< health of the pump
-  uint16_t actual_power{};  ///< power of the pump [%]
-  uint16_t vacuum{};        ///< vacuum [mbar]
-  Duration time{};          ///< clock of the gripper
+  uint16_t actual_power{};                    ///< power of the pump [%]
+  uint16_t vacuum{};                          ///< vacuum [mbar]
+  Duration time{};                            ///< clock of the gripper
 };
 
 /// Writes the state as one JSON object; `time` in [s].

@@ -27,29 +27,33 @@ constexpr std::array<double, 16> kIdentityTransform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0
 
 /// What hangs on the flange: end effector and load taken together.
 struct Payload {
-  double mass{0.0};                  ///< [kg]
-  std::array<double, 3> com{};       ///< F_x_C, centre of mass in flange frame F [m]
-  std::array<double, 9> inertia{};   ///< about the centre of mass, axes of F, 3x3 column-major [kg m^2]
+  double mass{0.0};             ///< [kg]
+  std::array<double, 3> com{};  ///< F_x_C, centre of mass in flange frame F [m]
+  std::array<double, 9>
+      inertia{};  ///< about the centre of mass, axes of F, 3x3 column-major [kg m^2]
 };
 
 /// What mass, Coriolis, gravity and Jacobian need, computed in one go.
 struct ArmDynamics {
-  std::array<double, 49> mass;           ///< 7x7 column-major [kg m^2]
-  std::array<double, 7> coriolis;        ///< C(q, dq) dq [Nm]
-  std::array<double, 7> gravity;         ///< torques that hold the arm [Nm]
-  std::array<double, 16> pose;           ///< of the asked frame in O, 4x4 column-major
-  std::array<double, 42> zero_jacobian;  ///< of the asked frame in O, 6x7 column-major, linear rows first
+  std::array<double, 49> mass;     ///< 7x7 column-major [kg m^2]
+  std::array<double, 7> coriolis;  ///< C(q, dq) dq [Nm]
+  std::array<double, 7> gravity;   ///< torques that hold the arm [Nm]
+  std::array<double, 16> pose;     ///< of the asked frame in O, 4x4 column-major
+  std::array<double, 42>
+      zero_jacobian;  ///< of the asked frame in O, 6x7 column-major, linear rows first
 };
 
 /// Kinematics and dynamics of the seven-joint chain with a payload at the flange.
 ///
-/// Parameters (link inertias, joint origins) come from a URDF; rotor inertia and friction are not in it.
-/// Every const function may be called from any thread and from the 1 kHz loop: no allocation, no lock,
-/// no exception. All poses and Jacobians are expressed in the base frame O (link0). Gravity vectors point
-/// the way things fall ([0, 0, -9.81] for a robot on a table) and are expressed in O [m/s^2].
+/// Parameters (link inertias, joint origins) come from a URDF; rotor inertia and friction are not
+/// in it. Every const function may be called from any thread and from the 1 kHz loop: no
+/// allocation, no lock, no exception. All poses and Jacobians are expressed in the base frame O
+/// (link0). Gravity vectors point the way things fall ([0, 0, -9.81] for a robot on a table) and
+/// are expressed in O [m/s^2].
 class ArmModel {
  public:
-  /// Fixed transform from parent joint to joint (column-major), and the link's inertia in its own frame.
+  /// Fixed transform from parent joint to joint (column-major), and the link's inertia in its own
+  /// frame.
   struct Link {
     std::array<double, 16> origin{kIdentityTransform};
     double mass{0.0};
@@ -57,48 +61,55 @@ class ArmModel {
     std::array<double, 9> inertia{};  ///< about com, link axes, column-major
   };
 
-  /// @param links links 1 to 7, each with the transform of its joint; joint axis is +z of the link frame.
+  /// @param links links 1 to 7, each with the transform of its joint; joint axis is +z of the link
+  /// frame.
   /// @param flange transform from link 7 to flange F, column-major.
   ArmModel(const std::array<Link, 7>& links, const std::array<double, 16>& flange);
 
-  /// Reads the chain `<prefix>link0` ... `<prefix>link8` from a URDF text. Bodies rigidly fixed to one of
-  /// the links 1 to 7 count as part of it; what hangs below link8 does not (see endEffectorFromUrdf).
+  /// Reads the chain `<prefix>link0` ... `<prefix>link8` from a URDF text. Bodies rigidly fixed to
+  /// one of the links 1 to 7 count as part of it; what hangs below link8 does not (see
+  /// endEffectorFromUrdf).
   /// @param arm_id prefix without the underscore; empty means: find the one chain there is.
   /// @throws std::invalid_argument with a sentence that names what is missing or wrong.
   static ArmModel fromUrdf(const std::string& urdf, const std::string& arm_id = "");
 
   /// Pose of a frame in O. F_T_EE and EE_T_K matter only for kEndEffector and kStiffness.
-  std::array<double, 16> pose(ArmFrame frame, const std::array<double, 7>& q,
-                              const std::array<double, 16>& F_T_EE = kIdentityTransform,
-                              const std::array<double, 16>& EE_T_K = kIdentityTransform) const noexcept;
+  std::array<double, 16> pose(
+      ArmFrame frame, const std::array<double, 7>& q,
+      const std::array<double, 16>& F_T_EE = kIdentityTransform,
+      const std::array<double, 16>& EE_T_K = kIdentityTransform) const noexcept;
   /// Jacobian of the frame's origin in O, 6x7 column-major; columns of later joints are zero.
-  std::array<double, 42> zeroJacobian(ArmFrame frame, const std::array<double, 7>& q,
-                                      const std::array<double, 16>& F_T_EE = kIdentityTransform,
-                                      const std::array<double, 16>& EE_T_K = kIdentityTransform) const
-      noexcept;
+  std::array<double, 42> zeroJacobian(
+      ArmFrame frame, const std::array<double, 7>& q,
+      const std::array<double, 16>& F_T_EE = kIdentityTransform,
+      const std::array<double, 16>& EE_T_K = kIdentityTransform) const noexcept;
   /// The same Jacobian expressed in the frame's own axes.
-  std::array<double, 42> bodyJacobian(ArmFrame frame, const std::array<double, 7>& q,
-                                      const std::array<double, 16>& F_T_EE = kIdentityTransform,
-                                      const std::array<double, 16>& EE_T_K = kIdentityTransform) const
-      noexcept;
+  std::array<double, 42> bodyJacobian(
+      ArmFrame frame, const std::array<double, 7>& q,
+      const std::array<double, 16>& F_T_EE = kIdentityTransform,
+      const std::array<double, 16>& EE_T_K = kIdentityTransform) const noexcept;
   /// Joint-space mass matrix, 7x7 column-major [kg m^2].
-  std::array<double, 49> mass(const std::array<double, 7>& q, const Payload& payload) const noexcept;
+  std::array<double, 49> mass(const std::array<double, 7>& q,
+                              const Payload& payload) const noexcept;
   /// Coriolis and centrifugal torques C(q, dq) dq [Nm].
   std::array<double, 7> coriolis(const std::array<double, 7>& q, const std::array<double, 7>& dq,
                                  const Payload& payload) const noexcept;
   /// Torques that hold the arm against gravity [Nm].
   std::array<double, 7> gravity(const std::array<double, 7>& q, const Payload& payload,
-                                const std::array<double, 3>& gravity_earth = {{0, 0, -9.81}}) const
-      noexcept;
+                                const std::array<double, 3>& gravity_earth = {
+                                    {0, 0, -9.81}}) const noexcept;
   /// Recursive Newton-Euler: M(q) ddq + C(q, dq) dq + g(q) [Nm].
-  std::array<double, 7> inverseDynamics(const std::array<double, 7>& q, const std::array<double, 7>& dq,
+  std::array<double, 7> inverseDynamics(const std::array<double, 7>& q,
+                                        const std::array<double, 7>& dq,
                                         const std::array<double, 7>& ddq, const Payload& payload,
-                                        const std::array<double, 3>& gravity_earth = {{0, 0, -9.81}}) const
-      noexcept;
-  /// Mass, Coriolis, gravity, pose and zero Jacobian of one frame, sharing what they have in common.
-  void computeDynamics(ArmFrame frame, const std::array<double, 7>& q, const std::array<double, 7>& dq,
-                       const std::array<double, 16>& F_T_EE, const std::array<double, 16>& EE_T_K,
-                       const Payload& payload, const std::array<double, 3>& gravity_earth,
+                                        const std::array<double, 3>& gravity_earth = {
+                                            {0, 0, -9.81}}) const noexcept;
+  /// Mass, Coriolis, gravity, pose and zero Jacobian of one frame, sharing what they have in
+  /// common.
+  void computeDynamics(ArmFrame frame, const std::array<double, 7>& q,
+                       const std::array<double, 7>& dq, const std::array<double, 16>& F_T_EE,
+                       const std::array<double, 16>& EE_T_K, const Payload& payload,
+                       const std::array<double, 3>& gravity_earth,
                        ArmDynamics& result) const noexcept;
 
   const std::array<Link, 7>& links() const noexcept { return links_; }
@@ -116,8 +127,8 @@ Payload combine(const Payload& end_effector, const Payload& load) noexcept;
 /// What is mounted below `<prefix>link8` (hand and fingers, movable joints at position 0: fingers
 /// closed) as one body in the flange frame (decision 7). Zero payload when nothing is mounted.
 /// @param arm_id as for ArmModel::fromUrdf.
-/// @throws std::invalid_argument with a sentence when the URDF cannot be read, the chain is not there, or
-/// the hand or a moving link of it has no inertial.
+/// @throws std::invalid_argument with a sentence when the URDF cannot be read, the chain is not
+/// there, or the hand or a moving link of it has no inertial.
 Payload endEffectorFromUrdf(const std::string& urdf, const std::string& arm_id = "");
 
 }  // namespace franka_core

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include <franka_core/robot_state.h>
+
+#include <array>
 
 namespace franka_core {
 

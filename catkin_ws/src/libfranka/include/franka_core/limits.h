@@ -8,8 +8,8 @@
 #include <cstddef>
 
 /// @file
-/// The limits of both arms, each once. Source: Franka's published tables (fci.md 4.2 and 5.5). Everything
-/// here is constant or pure, allocation-free and safe in the 1 kHz loop.
+/// The limits of both arms, each once. Source: Franka's published tables (fci.md 4.2 and 5.5).
+/// Everything here is constant or pure, allocation-free and safe in the 1 kHz loop.
 
 namespace franka_core {
 
@@ -22,52 +22,50 @@ struct DerivativeLimits {
 
 /// Everything that bounds an arm. Joint arrays are in the order of the joints.
 struct ArmLimits {
-  std::array<double, 7> q_min;  ///< lowest position [rad]
-  std::array<double, 7> q_max;  ///< highest position [rad]
-  std::array<double, 7> dq;     ///< velocity [rad/s]
-  std::array<double, 7> ddq;    ///< acceleration [rad/s^2]
-  std::array<double, 7> dddq;   ///< jerk [rad/s^3]
-  std::array<double, 7> tau;    ///< torque [Nm]
-  std::array<double, 7> dtau;   ///< torque rate [Nm/s]
-  DerivativeLimits translation;  ///< of EE; velocity is that of the rate limiter
-  DerivativeLimits rotation;     ///< of EE
-  DerivativeLimits elbow;        ///< of joint 3; velocity is that of the rate limiter
+  std::array<double, 7> q_min;             ///< lowest position [rad]
+  std::array<double, 7> q_max;             ///< highest position [rad]
+  std::array<double, 7> dq;                ///< velocity [rad/s]
+  std::array<double, 7> ddq;               ///< acceleration [rad/s^2]
+  std::array<double, 7> dddq;              ///< jerk [rad/s^3]
+  std::array<double, 7> tau;               ///< torque [Nm]
+  std::array<double, 7> dtau;              ///< torque rate [Nm/s]
+  DerivativeLimits translation;            ///< of EE; velocity is that of the rate limiter
+  DerivativeLimits rotation;               ///< of EE
+  DerivativeLimits elbow;                  ///< of joint 3; velocity is that of the rate limiter
   double documented_translation_velocity;  ///< as the robot's data sheet says [m/s]
   double documented_elbow_velocity;        ///< as the robot's data sheet says [rad/s]
   std::array<double, 7> rate_limiter_dq;   ///< velocity the client limits to: dq, or less [rad/s]
 };
 
 /// Panda, called FER since: protocols 3 to 5.
-constexpr ArmLimits kFerLimits{
-    {{-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973}},
-    {{2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973}},
-    {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}},
-    {{15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0}},
-    {{7500.0, 3750.0, 5000.0, 6250.0, 7500.0, 10000.0, 10000.0}},
-    {{87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0}},
-    {{1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0}},
-    {2.0, 13.0, 6500.0},
-    {2.5, 25.0, 12500.0},
-    {2.175, 10.0, 5000.0},
-    1.7,
-    2.175,
-    {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}}};
+constexpr ArmLimits kFerLimits{{{-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973}},
+                               {{2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973}},
+                               {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}},
+                               {{15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0}},
+                               {{7500.0, 3750.0, 5000.0, 6250.0, 7500.0, 10000.0, 10000.0}},
+                               {{87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0}},
+                               {{1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0}},
+                               {2.0, 13.0, 6500.0},
+                               {2.5, 25.0, 12500.0},
+                               {2.175, 10.0, 5000.0},
+                               1.7,
+                               2.175,
+                               {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}}};
 
 /// FR3 with system 5.9 or later: protocol 10 (decision 8).
-constexpr ArmLimits kFr3Limits{
-    {{-2.9007, -1.8361, -2.9007, -3.0770, -2.8763, 0.4398, -3.0508}},
-    {{2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508}},
-    {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}},
-    {{10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0}},
-    {{5000.0, 5000.0, 5000.0, 5000.0, 5000.0, 5000.0, 5000.0}},
-    {{87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0}},
-    {{1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0}},
-    {3.0, 9.0, 4500.0},
-    {2.5, 17.0, 8500.0},
-    {1.5, 10.0, 5000.0},
-    3.0,
-    2.62,
-    {{2.0, 1.0, 1.5, 1.25, 3.0, 1.5, 3.0}}};
+constexpr ArmLimits kFr3Limits{{{-2.9007, -1.8361, -2.9007, -3.0770, -2.8763, 0.4398, -3.0508}},
+                               {{2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508}},
+                               {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}},
+                               {{10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0}},
+                               {{5000.0, 5000.0, 5000.0, 5000.0, 5000.0, 5000.0, 5000.0}},
+                               {{87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0}},
+                               {{1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0}},
+                               {3.0, 9.0, 4500.0},
+                               {2.5, 17.0, 8500.0},
+                               {1.5, 10.0, 5000.0},
+                               3.0,
+                               2.62,
+                               {{2.0, 1.0, 1.5, 1.25, 3.0, 1.5, 3.0}}};
 
 namespace limits_detail {
 constexpr ArmLimits withPositions(ArmLimits limits, const std::array<double, 7>& q_min,
@@ -105,14 +103,16 @@ constexpr PositionVelocityLimits kFr3PositionVelocityLimits{
     {{-2.7501, -1.7918, -2.9065, -3.0481, -2.8101, 0.54092, -3.0196}},
     {{2.7501, 1.7918, 2.9065, -0.1458, 2.8101, 4.5205, 3.0196}}};
 
-/// Highest velocity of a joint (0 to 6) at position q [rad]: min(V, max(0, -o + sqrt(c (q_max - q)))).
+/// Highest velocity of a joint (0 to 6) at position q [rad]: min(V, max(0, -o + sqrt(c (q_max -
+/// q)))).
 inline double upperVelocityLimit(const PositionVelocityLimits& limits, std::size_t joint,
                                  double q) noexcept {
   const double room = std::max(0.0, limits.deceleration[joint] * (limits.q_max[joint] - q));
   return std::min(limits.velocity[joint], std::max(0.0, std::sqrt(room) - limits.offset[joint]));
 }
 
-/// Lowest velocity of a joint (0 to 6) at position q [rad]: max(-V, min(0, o - sqrt(c (q - q_min)))).
+/// Lowest velocity of a joint (0 to 6) at position q [rad]: max(-V, min(0, o - sqrt(c (q -
+/// q_min)))).
 inline double lowerVelocityLimit(const PositionVelocityLimits& limits, std::size_t joint,
                                  double q) noexcept {
   const double room = std::max(0.0, limits.deceleration[joint] * (q - limits.q_min[joint]));

@@ -38,9 +38,9 @@ enum class ControllerMode : std::uint8_t {
   kOther
 };
 
-/// The state a control unit reports once a millisecond: the wire's fields of every protocol version,
-/// in double. Frames, units and layouts are those of franka::RobotState (transforms 4x4 column-major,
-/// inertias 3x3 column-major, [m] [rad] [s] [N] [Nm] [kg]).
+/// The state a control unit reports once a millisecond: the wire's fields of every protocol
+/// version, in double. Frames, units and layouts are those of franka::RobotState (transforms 4x4
+/// column-major, inertias 3x3 column-major, [m] [rad] [s] [N] [Nm] [kg]).
 struct RobotState {
   std::uint64_t message_id{0};  ///< [ms] since the unit started; the client's clock
   std::array<double, 16> O_T_EE{}, O_T_EE_d{}, F_T_EE{}, EE_T_K{}, F_T_NE{}, NE_T_EE{};

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <franka/robot_state.h>
-
 #include <franka_core/robot_state.h>
 
 /// @file
@@ -33,9 +32,10 @@ inline franka::RobotMode toFranka(RobotMode mode) noexcept {
   return franka::RobotMode::kOther;
 }
 
-/// Copies every field that the public state has. No allocation, no exception, safe in the 1 kHz loop
-/// from any thread that owns `to`. `time` is the message id in [ms], current_errors are `errors`,
-/// last_motion_errors are `reflex_reason`; the total payload is taken as the control unit composed it.
+/// Copies every field that the public state has. No allocation, no exception, safe in the 1 kHz
+/// loop from any thread that owns `to`. `time` is the message id in [ms], current_errors are
+/// `errors`, last_motion_errors are `reflex_reason`; the total payload is taken as the control unit
+/// composed it.
 inline void toFranka(const RobotState& from, franka::RobotState& to) noexcept {
   to.O_T_EE = from.O_T_EE;
   to.O_T_EE_d = from.O_T_EE_d;

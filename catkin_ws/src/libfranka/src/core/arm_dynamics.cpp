@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything is expressed in O about the point O: bodies then add up without being moved from frame to
-// frame, and the composite-body, Newton-Euler and gravity recursions share one backward sweep.
+// Everything is expressed in O about the point O: bodies then add up without being moved from frame
+// to frame, and the composite-body, Newton-Euler and gravity recursions share one backward sweep.
 #include "arm_chain.h"
 
 namespace franka_core {
@@ -33,11 +33,12 @@ void linkBodies(const std::array<ArmModel::Link, 7>& links, const std::array<dou
   for (std::size_t i = 0; i < 7; i++) {
     bodies[i] = toBody(joints[i], links[i].mass, links[i].com, links[i].inertia);
   }
-  bodies[6] = bodies[6] + toBody(compose(joints[6], flange), payload.mass, payload.com,
-                                 payload.inertia);
+  bodies[6] =
+      bodies[6] + toBody(compose(joints[6], flange), payload.mass, payload.com, payload.inertia);
 }
 
-// Newton-Euler, outward sweep: the force each body needs on its own. `a` is the base's acceleration.
+// Newton-Euler, outward sweep: the force each body needs on its own. `a` is the base's
+// acceleration.
 void bodyForces(const Axes& axes, const Bodies& bodies, const std::array<double, 7>& dq,
                 const std::array<double, 7>& ddq, Screw a, Forces& forces) noexcept {
   Screw v = kRest;

@@ -1,11 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <urdf_parser/urdf_parser.h>
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <urdf_parser/urdf_parser.h>
 
 #include "spatial.h"
 
@@ -79,8 +79,9 @@ std::string choosePrefix(const urdf::ModelInterface& model, const std::string& a
          ". Arms found: " + listOf(prefixes) + ". Set arm_id to one of them.");
   }
   if (prefixes.empty()) {
-    fail("it has no chain of links <arm_id>_link0 to <arm_id>_link8. Give the description of a "
-         "seven-joint Franka arm.");
+    fail(
+        "it has no chain of links <arm_id>_link0 to <arm_id>_link8. Give the description of a "
+        "seven-joint Franka arm.");
   }
   if (prefixes.size() > 1) {
     fail("it describes several arms: " + listOf(prefixes) + ". Name one of them by arm_id.");
@@ -94,7 +95,9 @@ Pose toPose(const urdf::Pose& pose) {
     const urdf::Vector3 v = r * urdf::Vector3(x, y, z);
     return spatial::Vector{v.x, v.y, v.z};
   };
-  return {rotated(1, 0, 0), rotated(0, 1, 0), rotated(0, 0, 1),
+  return {rotated(1, 0, 0),
+          rotated(0, 1, 0),
+          rotated(0, 0, 1),
           {pose.position.x, pose.position.y, pose.position.z}};
 }
 
@@ -113,21 +116,24 @@ void checkFinite(const Pose& pose, const std::string& owner) {
 // Seven-joint part: the link's one joint turns about +z, fixed joints may stand before it.
 void checkArmJoint(const urdf::Joint& joint) {
   if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::CONTINUOUS) {
-    fail("joint " + quoted(joint.name) + " must be of type revolute, since it moves the arm's link " +
+    fail("joint " + quoted(joint.name) +
+         " must be of type revolute, since it moves the arm's link " +
          quoted(joint.child_link_name) + ".");
   }
   const urdf::Vector3& axis = joint.axis;
   const double length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
-  if (!(std::abs(axis.x) <= kAxisTolerance * length && std::abs(axis.y) <= kAxisTolerance * length &&
-        axis.z > 0.0)) {
-    fail("joint " + quoted(joint.name) + " must turn about +z of its own frame (axis 0 0 1), not about " +
-         std::to_string(axis.x) + " " + std::to_string(axis.y) + " " + std::to_string(axis.z) +
+  if (!(std::abs(axis.x) <= kAxisTolerance * length &&
+        std::abs(axis.y) <= kAxisTolerance * length && axis.z > 0.0)) {
+    fail("joint " + quoted(joint.name) +
+         " must turn about +z of its own frame (axis 0 0 1), not about " + std::to_string(axis.x) +
+         " " + std::to_string(axis.y) + " " + std::to_string(axis.z) +
          ". Put the direction into the joint's origin.");
   }
 }
 
 // From `ancestor` down to `link`; the joint of `link` itself may move when `moves` says so.
-Pose transformBetween(const urdf::Link& ancestor, const urdf::LinkConstSharedPtr& link, bool moves) {
+Pose transformBetween(const urdf::Link& ancestor, const urdf::LinkConstSharedPtr& link,
+                      bool moves) {
   Pose transform = kIdentity;
   for (urdf::LinkConstSharedPtr at = link; at->name != ancestor.name; at = at->getParent()) {
     if (!at->parent_joint || !at->getParent()) {
@@ -164,7 +170,8 @@ Payload ownMass(const urdf::Link& link, const Pose& at) {
          " needs a mass that is not negative and a finite inertia.");
   }
   const spatial::Symmetric i = rotateInertia(frame, inertia.data());
-  return {inertial.mass, {frame.p.x, frame.p.y, frame.p.z},
+  return {inertial.mass,
+          {frame.p.x, frame.p.y, frame.p.z},
           {i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz}};
 }
 
@@ -186,20 +193,22 @@ void addRigidBodies(const urdf::Link& link, const Pose& at, const std::string& f
   }
 }
 
-// Everything below a link, joints at position 0. The hand and what moves must have a mass; other links
-// (tool centre points, coarse collision bodies) may be without.
-void addSubtree(const urdf::Link& link, const Pose& at, const std::string& hand_name, Payload& sum) {
+// Everything below a link, joints at position 0. The hand and what moves must have a mass; other
+// links (tool centre points, coarse collision bodies) may be without.
+void addSubtree(const urdf::Link& link, const Pose& at, const std::string& hand_name,
+                Payload& sum) {
   const bool moves = link.parent_joint && link.parent_joint->type != urdf::Joint::FIXED;
   if (link.inertial) {
     sum = combine(sum, ownMass(link, at));
   } else if (moves || link.name == hand_name) {
     fail("link " + quoted(link.name) +
-         " has no inertial, so the end effector's mass is unknown. Generate the description with the "
+         " has no inertial, so the end effector's mass is unknown. Generate the description with "
+         "the "
          "xacro argument gazebo:=true, or set mass, centre of mass and inertia by parameters.");
   }
   for (const urdf::LinkSharedPtr& child : link.child_links) {
-    addSubtree(*child, at * toPose(child->parent_joint->parent_to_joint_origin_transform), hand_name,
-               sum);
+    addSubtree(*child, at * toPose(child->parent_joint->parent_to_joint_origin_transform),
+               hand_name, sum);
   }
 }
 
@@ -230,8 +239,8 @@ ArmModel ArmModel::fromUrdf(const std::string& urdf, const std::string& arm_id) 
   for (int i = 0; i < 7; i++) {
     links[i] = readLink(*model, prefix, i + 1);
   }
-  const Pose flange = transformBetween(*model->getLink(prefix + "link7"),
-                                       model->getLink(prefix + "link8"), false);
+  const Pose flange =
+      transformBetween(*model->getLink(prefix + "link7"), model->getLink(prefix + "link8"), false);
   return {links, toArray(flange)};
 }
 

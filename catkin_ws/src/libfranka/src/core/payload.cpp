@@ -32,8 +32,7 @@ Payload combine(const Payload& end_effector, const Payload& load) noexcept {
     return load.mass == 0.0 ? end_effector : load;
   }
   for (std::size_t i = 0; i < 3; i++) {
-    total.com[i] =
-        (end_effector.mass * end_effector.com[i] + load.mass * load.com[i]) / total.mass;
+    total.com[i] = (end_effector.mass * end_effector.com[i] + load.mass * load.com[i]) / total.mass;
   }
   for (const Payload* part : {&end_effector, &load}) {
     addAbout(*part, total.com, total.inertia);

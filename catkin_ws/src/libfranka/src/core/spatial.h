@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/arm_model.h>
+
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include <franka_core/arm_model.h>
-
 /// @file
-/// Vectors, frames and rigid bodies, all expressed in the base frame O; internal to ArmModel. Everything
-/// is inline, fixed-size and free of branches, so that the compiler can keep it in registers.
+/// Vectors, frames and rigid bodies, all expressed in the base frame O; internal to ArmModel.
+/// Everything is inline, fixed-size and free of branches, so that the compiler can keep it in
+/// registers.
 
 namespace franka_core {
 namespace spatial {
@@ -137,8 +138,7 @@ inline Screw jointAxis(const Pose& joint) noexcept { return {joint.z, cross(join
 
 /// Rate of change of motion b carried along by motion a.
 inline Screw crossMotion(const Screw& a, const Screw& b) noexcept {
-  return {cross(a.angular, b.angular),
-          cross(a.angular, b.linear) + cross(a.linear, b.angular)};
+  return {cross(a.angular, b.angular), cross(a.angular, b.linear) + cross(a.linear, b.angular)};
 }
 
 /// Rate of change of force f carried along by motion a.

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/control_tools.h>
-
 #include <pthread.h>
 #include <sched.h>
 

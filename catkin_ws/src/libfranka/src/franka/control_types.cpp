@@ -62,8 +62,7 @@ CartesianPose::CartesianPose(std::initializer_list<double> cartesian_pose,
 
 bool CartesianPose::hasElbow() const noexcept { return isCommanded(elbow); }
 
-CartesianVelocities::CartesianVelocities(
-    const std::array<double, 6>& cartesian_velocities) noexcept
+CartesianVelocities::CartesianVelocities(const std::array<double, 6>& cartesian_velocities) noexcept
     : O_dP_EE(cartesian_velocities) {}
 
 CartesianVelocities::CartesianVelocities(const std::array<double, 6>& cartesian_velocities,

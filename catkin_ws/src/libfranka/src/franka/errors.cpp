@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/errors.h>
+#include <franka_core/error_names.h>
 
 #include <algorithm>
 #include <sstream>
-
-#include <franka_core/error_names.h>
 
 namespace franka {
 

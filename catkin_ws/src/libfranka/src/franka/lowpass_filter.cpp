@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/lowpass_filter.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include <Eigen/Geometry>
 
 namespace franka {
 
@@ -56,8 +55,7 @@ std::array<double, 16> cartesianLowpassFilter(double sample_time, std::array<dou
           "libfranka lowpass filter: the poses to filter must be finite.");
   std::array<double, 16> filtered = y;
   Eigen::Map<Eigen::Matrix4d> matrix(filtered.data());
-  matrix.topLeftCorner<3, 3>() =
-      rotationOf(y_last).slerp(gain, rotationOf(y)).toRotationMatrix();
+  matrix.topLeftCorner<3, 3>() = rotationOf(y_last).slerp(gain, rotationOf(y)).toRotationMatrix();
   for (std::size_t i = 12; i < 15; i++) {
     filtered[i] = gain * y[i] + (1.0 - gain) * y_last[i];
   }

@@ -1,14 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/control_tools.h>
 #include <franka/rate_limiting.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include <Eigen/Geometry>
-
-#include <franka/control_tools.h>
 
 namespace franka {
 
@@ -38,8 +36,7 @@ double clampMagnitude(double value, double limit) {
 Eigen::Vector3d limitVelocity(const Bounds& bounds, const Eigen::Vector3d& velocity,
                               const Eigen::Vector3d& last_velocity,
                               const Eigen::Vector3d& last_acceleration) {
-  const Eigen::Vector3d jerk =
-      ((velocity - last_velocity) / kDeltaT - last_acceleration) / kDeltaT;
+  const Eigen::Vector3d jerk = ((velocity - last_velocity) / kDeltaT - last_acceleration) / kDeltaT;
   Eigen::Vector3d acceleration = last_acceleration;
   const double jerk_norm = jerk.norm();
   if (jerk_norm > kNormEps) {
@@ -51,8 +48,9 @@ Eigen::Vector3d limitVelocity(const Bounds& bounds, const Eigen::Vector3d& veloc
   }
   const Eigen::Vector3d direction = acceleration / acceleration_norm;
   const double along = direction.dot(last_velocity);
-  // How much speed may be gained in this direction until the sphere of allowed velocities ends. Outside
-  // of it and heading past it the root would be of a negative number: then only braking is left.
+  // How much speed may be gained in this direction until the sphere of allowed velocities ends.
+  // Outside of it and heading past it the root would be of a negative number: then only braking is
+  // left.
   const double square =
       along * along - last_velocity.squaredNorm() + bounds.velocity * bounds.velocity;
   const double distance = -along + std::sqrt(std::max(square, 0.0));
@@ -112,9 +110,9 @@ std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
   requireFinite(commanded_velocities);
   std::array<double, 7> limited{};
   for (std::size_t i = 0; i < 7; i++) {
-    limited[i] = limitRate(max_velocity[i], max_acceleration[i], max_jerk[i],
-                           commanded_velocities[i], last_commanded_velocities[i],
-                           last_commanded_accelerations[i]);
+    limited[i] =
+        limitRate(max_velocity[i], max_acceleration[i], max_jerk[i], commanded_velocities[i],
+                  last_commanded_velocities[i], last_commanded_accelerations[i]);
   }
   return limited;
 }
@@ -136,12 +134,13 @@ std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
   return limited;
 }
 
-std::array<double, 6> limitRate(
-    double max_translational_velocity, double max_translational_acceleration,
-    double max_translational_jerk, double max_rotational_velocity,
-    double max_rotational_acceleration, double max_rotational_jerk,
-    const std::array<double, 6>& O_dP_EE_c, const std::array<double, 6>& last_O_dP_EE_c,
-    const std::array<double, 6>& last_O_ddP_EE_c) {
+std::array<double, 6> limitRate(double max_translational_velocity,
+                                double max_translational_acceleration,
+                                double max_translational_jerk, double max_rotational_velocity,
+                                double max_rotational_acceleration, double max_rotational_jerk,
+                                const std::array<double, 6>& O_dP_EE_c,
+                                const std::array<double, 6>& last_O_dP_EE_c,
+                                const std::array<double, 6>& last_O_ddP_EE_c) {
   requireFinite(O_dP_EE_c);
   using Twist = Eigen::Matrix<double, 6, 1>;
   const Eigen::Map<const Twist> wanted(O_dP_EE_c.data());
@@ -158,12 +157,14 @@ std::array<double, 6> limitRate(
   return limited;
 }
 
-std::array<double, 16> limitRate(
-    double max_translational_velocity, double max_translational_acceleration,
-    double max_translational_jerk, double max_rotational_velocity,
-    double max_rotational_acceleration, double max_rotational_jerk,
-    const std::array<double, 16>& O_T_EE_c, const std::array<double, 16>& last_O_T_EE_c,
-    const std::array<double, 6>& last_O_dP_EE_c, const std::array<double, 6>& last_O_ddP_EE_c) {
+std::array<double, 16> limitRate(double max_translational_velocity,
+                                 double max_translational_acceleration,
+                                 double max_translational_jerk, double max_rotational_velocity,
+                                 double max_rotational_acceleration, double max_rotational_jerk,
+                                 const std::array<double, 16>& O_T_EE_c,
+                                 const std::array<double, 16>& last_O_T_EE_c,
+                                 const std::array<double, 6>& last_O_dP_EE_c,
+                                 const std::array<double, 6>& last_O_ddP_EE_c) {
   requireFinite(O_T_EE_c);
   if (!isHomogeneousTransformation(O_T_EE_c)) {
     throw std::invalid_argument(
@@ -180,12 +181,12 @@ std::array<double, 16> limitRate(
   Eigen::Map<Eigen::Vector3d> angular(twist.data() + 3);
   linear = (wanted.topRightCorner<3, 1>() - last.topRightCorner<3, 1>()) / kDeltaT;
   angular = step.angle() / kDeltaT * step.axis();
-  twist = limitRate(max_translational_velocity, max_translational_acceleration,
-                    max_translational_jerk,
-                    kFactorCartesianRotationPoseInterface * max_rotational_velocity,
-                    kFactorCartesianRotationPoseInterface * max_rotational_acceleration,
-                    kFactorCartesianRotationPoseInterface * max_rotational_jerk, twist,
-                    last_O_dP_EE_c, last_O_ddP_EE_c);
+  twist =
+      limitRate(max_translational_velocity, max_translational_acceleration, max_translational_jerk,
+                kFactorCartesianRotationPoseInterface * max_rotational_velocity,
+                kFactorCartesianRotationPoseInterface * max_rotational_acceleration,
+                kFactorCartesianRotationPoseInterface * max_rotational_jerk, twist, last_O_dP_EE_c,
+                last_O_ddP_EE_c);
 
   std::array<double, 16> limited = last_O_T_EE_c;
   Eigen::Map<Eigen::Matrix4d> result(limited.data());

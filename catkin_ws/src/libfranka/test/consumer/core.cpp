@@ -1,0 +1,15 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <stdexcept>
+
+#include <franka_core/arm_model.h>
+#include <franka_core/error_names.h>
+
+int main() {
+  try {
+    franka_core::ArmModel::fromUrdf("");
+  } catch (const std::invalid_argument&) {
+    return 0;
+  }
+  return 1;
+}
