@@ -10,7 +10,7 @@
 set -eu
 
 if [ $# -lt 1 ]; then
-  sed -n '5,10s/^# \{0,1\}//p' "$0" >&2
+  sed -n '5,9s/^# \{0,1\}//p' "$0" >&2
   exit 2
 fi
 here=$(cd "$(dirname "$0")" && pwd)
@@ -47,6 +47,7 @@ libraries="-lroscpp -lrosconsole -lroscpp_serialization -lrostime -lxmlrpcpp -lr
 
 launcher=""
 if command -v ccache >/dev/null; then launcher=ccache; fi
+rm -f "$build"/*.o "$build/stress_test"
 objects=""
 pending=0
 for source in "$package"/src/*.cpp "$here/stress_test.cpp"; do

@@ -72,7 +72,7 @@ class Ending:
         rospy.signal_shutdown("the spawner has ended")
 
     def call(self, service, request):
-        """The answer of a service that may take for ever. Raises Ended when told to end meanwhile."""
+        """The answer of a service that may take for ever. Raises Ended if told to end meanwhile."""
         outcome = {}
 
         def work():

@@ -1,0 +1,141 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// One cycle of the manager with 1, 10 and 50 running controllers, against as many bare virtual
+// calls. Needs a master, for the parameters of the controllers; prints the ratio of the two itself.
+#include <chrono>
+#include <cstdio>
+#include <future>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <controller_manager/controller_manager.h>
+#include <ros/ros.h>
+
+#include "dummies.h"
+
+namespace {
+
+/// Does next to nothing, so that what is measured is the way to it.
+class EmptyController
+    : public controller_interface::Controller<hardware_interface::EffortJointInterface> {
+ public:
+  void update(const ros::Time& /*time*/, const ros::Duration& /*period*/) override { ++updates_; }
+  int updates_{0};
+};
+
+class EmptyLoader : public controller_manager::ControllerLoaderInterface {
+ public:
+  EmptyLoader() : ControllerLoaderInterface("EmptyController") {}
+  controller_interface::ControllerBaseSharedPtr createInstance(const std::string&) override {
+    return std::make_shared<EmptyController>();
+  }
+  std::vector<std::string> getDeclaredClasses() override { return {"bench/Empty"}; }
+  void reload() override {}
+};
+
+/// A manager whose `count` controllers run.
+class Setup {
+ public:
+  explicit Setup(int count)
+      : nh_("update_bench_" + std::to_string(count)), manager_(&robot_, nh_) {
+    manager_.registerControllerLoader(std::make_shared<EmptyLoader>());
+    std::vector<std::string> names;
+    for (int i = 0; i < count; ++i) {
+      names.push_back("c" + std::to_string(i));
+      nh_.setParam(names.back() + "/type", "bench/Empty");
+      if (!manager_.loadController(names.back())) {
+        throw std::runtime_error("the benchmark's controllers could not be loaded");
+      }
+    }
+    auto answer = std::async(std::launch::async,
+                             [&] { return manager_.switchController(names, {}, 2); });
+    while (answer.wait_for(std::chrono::microseconds(100)) != std::future_status::ready) {
+      manager_.update(time_, period_);
+    }
+    for (const std::string& name : names) {
+      bare_.push_back(manager_.getControllerByName(name));
+    }
+  }
+
+  void update() { manager_.update(time_, period_); }
+  void callBare() {
+    for (controller_interface::ControllerBase* controller : bare_) {
+      controller->update(time_, period_);
+    }
+  }
+
+ private:
+  ros::NodeHandle nh_;
+  dummies::DummyRobot robot_;
+  controller_manager::ControllerManager manager_;
+  std::vector<controller_interface::ControllerBase*> bare_;
+  const ros::Time time_{1.0};
+  const ros::Duration period_{0.001};
+};
+
+Setup& setupOf(int count) {
+  static std::map<int, std::unique_ptr<Setup>> setups;
+  std::unique_ptr<Setup>& setup = setups[count];
+  if (!setup) {
+    setup = std::make_unique<Setup>(count);
+  }
+  return *setup;
+}
+
+void virtualCalls(benchmark::State& state) {
+  Setup& setup = setupOf(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    setup.callBare();
+    benchmark::ClobberMemory();
+  }
+}
+
+void managerUpdate(benchmark::State& state) {
+  Setup& setup = setupOf(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    setup.update();
+    benchmark::ClobberMemory();
+  }
+}
+
+BENCHMARK(virtualCalls)->Arg(1)->Arg(10)->Arg(50);
+BENCHMARK(managerUpdate)->Arg(1)->Arg(10)->Arg(50);
+
+/// [ns] of the fastest of a few batches.
+template <class Action>
+double nanoseconds(Action action) {
+  double best = 1e9;
+  for (int batch = 0; batch < 20; ++batch) {
+    constexpr int kCalls = 20000;
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < kCalls; ++i) {
+      action();
+      benchmark::ClobberMemory();
+    }
+    const std::chrono::duration<double, std::nano> elapsed =
+        std::chrono::steady_clock::now() - begin;
+    best = std::min(best, elapsed.count() / kCalls);
+  }
+  return best;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  ros::init(argc, argv, "controller_manager_update_bench");
+  ros::NodeHandle keeps_ros_alive;
+  benchmark::RunSpecifiedBenchmarks();
+  for (const int count : {1, 10, 50}) {
+    Setup& setup = setupOf(count);
+    const double bare = nanoseconds([&] { setup.callBare(); });
+    const double update = nanoseconds([&] { setup.update(); });
+    std::printf("controller_manager update, %d controllers: %.1f ns, virtual calls: %.1f ns, "
+                "ratio %.2f\n",
+                count, update, bare, update / bare);
+  }
+  return 0;
+}
