@@ -75,7 +75,7 @@ class Writer {
     writeEqualities();
     if (!target_.visuals) {
       writeExcludes();
-      writePairs();
+      writeGraspPairs();
     }
   }
 
@@ -300,8 +300,8 @@ class Writer {
     return count;
   }
 
-  /// Neighbours overlap by construction, and so do next but one neighbours of the arm (their joint
-  /// stops, not their shapes, keep them apart). Fingers meet at their stop.
+  /// Neighbours overlap by construction, and of the next but one neighbours the convex hulls of link5 and
+  /// link7 do (their joint stops, not their shapes, keep them apart). Fingers meet at their stop.
   bool mayCollide(int a, int b) const {
     const bool fingers = isFinger(robot_.urdf.links[robot_.segments[a].link]) &&
                          isFinger(robot_.urdf.links[robot_.segments[b].link]);
@@ -317,11 +317,54 @@ class Writer {
           e->SetAttribute("body1", nameOf(robot_.segments[a]).c_str());
           e->SetAttribute("body2", nameOf(robot_.segments[b]).c_str());
         }
+        if (distance(a, b) == 2) {
+          writeAttachedPairs(robot_.segments[a], robot_.segments[b]);
+          writeAttachedPairs(robot_.segments[b], robot_.segments[a]);
+        }
       }
     }
   }
 
-  void writePairs() {
+  /// What is screwed to a link stands out from it: the hand can hit the forearm, though link 7 cannot.
+  void writeAttachedPairs(const Segment& with, const Segment& other) {
+    for (const auto& [attached, attached_pose] : with.links) {
+      if (attached == with.link || isFinger(robot_.urdf.links[other.link])) {
+        continue;
+      }
+      const UrdfLink& link = robot_.urdf.links[attached];
+      for (const std::string& geom : geoms_of_[link.name]) {
+        for (const auto& [target, target_pose] : other.links) {
+          const UrdfLink& hit = robot_.urdf.links[target];
+          for (const std::string& target_geom : geoms_of_[hit.name]) {
+            writePair({geom, target_geom, std::min(frictionOf(link), frictionOf(hit)),
+                       kTorsionalFriction, kCondim, kContactSolref, kContactSolimp});
+          }
+        }
+      }
+    }
+  }
+
+  struct PairSettings {
+    std::string geom1, geom2;
+    double sliding, torsion;
+    const char *condim, *solref, *solimp;
+  };
+
+  void writePair(const PairSettings& pair) {
+    XMLElement* e = append(target_.contact, "pair");
+    e->SetAttribute("geom1", pair.geom1.c_str());
+    e->SetAttribute("geom2", pair.geom2.c_str());
+    e->SetAttribute("condim", pair.condim);
+    e->SetAttribute("friction", toText({pair.sliding, pair.sliding, pair.torsion, kRollingFriction,
+                                        kRollingFriction})
+                                    .c_str());
+    e->SetAttribute("solref", pair.solref);
+    e->SetAttribute("solimp", pair.solimp);
+    e->SetAttribute("margin", "0");
+    e->SetAttribute("gap", "0");
+  }
+
+  void writeGraspPairs() {
     for (const UrdfLink& link : robot_.urdf.links) {
       if (!isFinger(link)) {
         continue;
@@ -329,25 +372,14 @@ class Writer {
       for (const std::string& pad : geoms_of_[link.name]) {
         for (const WorldGeom& other : *target_.world) {
           if (other.graspable && other.collides) {
-            writePair(pad, frictionOf(link), other);
+            // MuJoCo would take the larger friction; a grasp is as good as the more slippery side.
+            writePair({pad, other.name, std::min(frictionOf(link), other.friction),
+                       std::min(kTorsionalFriction, other.torsion), kGraspCondim, kGraspSolref,
+                       kGraspSolimp});
           }
         }
       }
     }
-  }
-
-  /// MuJoCo would take the larger of two frictions; a grasp is as good as the more slippery side.
-  void writePair(const std::string& pad, double friction, const WorldGeom& other) {
-    const double sliding = std::min(friction, other.friction);
-    const double torsion = std::min(kTorsionalFriction, other.torsion);
-    XMLElement* e = append(target_.contact, "pair");
-    e->SetAttribute("geom1", pad.c_str());
-    e->SetAttribute("geom2", other.name.c_str());
-    e->SetAttribute("condim", kGraspCondim);
-    e->SetAttribute("friction",
-                    toText({sliding, sliding, torsion, kRollingFriction, kRollingFriction}).c_str());
-    e->SetAttribute("solref", kGraspSolref);
-    e->SetAttribute("solimp", kGraspSolimp);
   }
 
   const RobotModel& robot_;

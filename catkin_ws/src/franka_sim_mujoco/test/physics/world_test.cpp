@@ -287,6 +287,23 @@ TEST(WorldTest, pushOnTheHandIsCarriedByTheArm) {
   }
 }
 
+/// The hand folded back meets the forearm (joint 6 at its lower end), and nothing touches at home.
+TEST(WorldTest, handMeetsTheForearmAndNeighboursDoNot) {
+  World world;
+  world.addRobot(robot("panda"));
+  world.step();
+  EXPECT_TRUE(world.contacts().empty());
+  world.setJointPosition("panda_joint6", -0.6);
+  world.setJointPosition("panda_joint1", 0.5);
+  world.step();
+  bool touches = false;
+  for (const Contact& contact : world.contacts()) {
+    const std::string both = contact.body1 + " " + contact.body2;
+    touches = touches || both == "panda_hand panda_link5" || both == "panda_link5 panda_hand";
+  }
+  EXPECT_TRUE(touches);
+}
+
 TEST(WorldTest, noWeldAndNoAdhesionIsInTheModel) {
   World world(test::world("stone"));
   world.addRobot(robot("panda"));
