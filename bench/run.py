@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the benchmarks; each prints its figure as a ratio to a reference measured in the same run.
+
+`./franka bench` runs all, `./franka bench NAME...` some of: micro, tick, memory, start. Exit status 1 when
+a figure misses its goal. Needs the built workspace's environment, which `./franka bench` provides.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from franka_sim_mujoco.session import Session
+
+TOP = Path(__file__).resolve().parent.parent
+DEVEL = TOP / "catkin_ws" / "devel"
+CONTROLLER = "cartesian_impedance_example_controller"
+
+failures: list[str] = []
+
+
+def figure(text: str, value: float, unit: str, goal: float | None = None, at_least: bool = False) -> None:
+    """Prints one line, with the goal and whether it is met."""
+    line = f"  {text:<66} {value:10.3f} {unit}"
+    if goal is not None:
+        met = value >= goal if at_least else value <= goal
+        line += f"   (goal: at {'least' if at_least else 'most'} {goal:g}{'' if met else ', MISSED'})"
+        if not met:
+            failures.append(text)
+    print(line, flush=True)
+
+
+# ---- google-benchmark executables ------------------------------------------------------------------------
+
+
+@dataclass
+class Ratio:
+    """`subject` over `reference`, both names of benchmarks of one executable."""
+
+    executable: str
+    subject: str
+    reference: str
+    goal: float | None = None          # of the ratio
+    goal_ns: float | None = None       # of the subject's time
+    divide: float = 1.0                # the subject does this many of the reference's pieces of work
+
+
+RATIOS = [
+    Ratio("arm_model_bench", "ArmModel", "KDL", goal_ns=3000),
+    Ratio("model_kdl_bench", "ModelKDL", "bare KDL solvers", goal=1.3),
+    Ratio("model_kdl_bench", "ArmModel", "bare KDL solvers", goal_ns=3000),
+    Ratio("franka_sim_control_unit_bench", "torqueControlTick", "modelAlone", goal_ns=15000),
+    Ratio("franka_sim_control_unit_bench", "idleTick", "modelAlone", goal_ns=15000),
+    Ratio("update_bench", "update/1", "emptyVirtualCall"),
+    Ratio("update_bench", "update/10", "emptyVirtualCall", divide=10),
+    Ratio("update_bench", "update/50", "emptyVirtualCall", divide=50),
+]
+
+
+def executables() -> dict[str, Path]:
+    return {path.name: path for path in DEVEL.glob("lib/*/*bench") if path.is_file()}
+
+
+def micro() -> None:
+    print("Parts, by google-benchmark (ratio to the reference in the same run)")
+    found = executables()
+    for name in dict.fromkeys(ratio.executable for ratio in RATIOS):
+        if name not in found:
+            failures.append(f"{name} is not built")
+            print(f"  {name}: not built")
+            continue
+        times = google_benchmark(found[name])
+        for ratio in (ratio for ratio in RATIOS if ratio.executable == name):
+            if ratio.subject not in times or ratio.reference not in times:
+                failures.append(f"{name}: no benchmark {ratio.subject} or {ratio.reference}")
+                print(f"  {name}: has {', '.join(times)}")
+                continue
+            subject, reference = times[ratio.subject] / ratio.divide, times[ratio.reference]
+            figure(f"{name}: {ratio.subject} [ns]", subject, "ns", ratio.goal_ns)
+            figure(f"{name}: {ratio.subject} / {ratio.reference}", subject / reference, "x", ratio.goal)
+
+
+def google_benchmark(executable: Path) -> dict[str, float]:
+    """Median CPU time of each benchmark [ns]."""
+    command = [str(executable), "--benchmark_format=json", "--benchmark_repetitions=3"]
+    output = subprocess.run(command, capture_output=True, text=True, check=True, timeout=300).stdout
+    unit = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
+    return {entry["run_name"].split("/min_time")[0].split("/repeats")[0]: entry["cpu_time"] * unit[entry["time_unit"]]
+            for entry in json.loads(output)["benchmarks"] if entry.get("aggregate_name") == "median"}
+
+
+# ---- the whole simulation --------------------------------------------------------------------------------
+
+
+def simulation(folder: Path, world: str, *arguments: str) -> Session:
+    return Session("franka_sim_mujoco", "panda.launch", f"world:={world}", f"controller:={CONTROLLER}",
+                   "interactive_marker:=false", *arguments, log=folder / "launch.log")
+
+
+def wait_running(session: Session, timeout: float = 60.0) -> None:
+    """Until the controller runs, as `controller_manager/list_controllers` says."""
+    deadline = time.monotonic() + timeout
+    while time.monotonic() < deadline:
+        session.check()
+        answer = session.run("rosservice", "call", "/controller_manager/list_controllers", check=False).stdout
+        for block in answer.split("name: "):
+            if block.strip('" \n').startswith(CONTROLLER) and "running" in block:
+                return
+    raise RuntimeError(f"{CONTROLLER} did not run within {timeout} s:\n{session.tail()}")
+
+
+def call(session: Session, service: str, request: str) -> dict[str, float]:
+    """Calls a service and reads the numbers of its answer."""
+    text = session.run("rosservice", "call", service, request, timeout=300).stdout
+    values = {}
+    for line in text.splitlines():
+        key, _, value = line.partition(":")
+        try:
+            values[key.strip()] = float(value)
+        except ValueError:
+            continue
+    return values
+
+
+def node_memory(session: Session) -> float:
+    """Resident memory of the simulation's process [MB]."""
+    port = f"ROS_MASTER_URI=http://localhost:{session.port}".encode()
+    for status in Path("/proc").glob("[0-9]*/status"):
+        try:
+            command = (status.parent / "cmdline").read_bytes()
+            if b"franka_sim_mujoco_node" in command and port in (status.parent / "environ").read_bytes():
+                line = next(line for line in status.read_text().splitlines() if line.startswith("VmRSS"))
+                return float(line.split()[1]) / 1024
+        except (OSError, StopIteration):
+            continue
+    raise RuntimeError("the simulation's process was not found")
+
+
+def tick() -> None:
+    print("One tick of 1 ms: physics, control unit, hardware, controller manager, impedance controller")
+    for title, world, goal in (("arm, hand and controller", "empty.xml", 25), ("pick-and-place scene", "stone.xml", 12)):
+        with tempfile.TemporaryDirectory() as folder, \
+                simulation(Path(folder), world, "x:=-0.5", "real_time_factor:=0") as session:
+            wait_running(session)
+            best = min((call(session, "/gazebo/benchmark", "ticks: 20000") for _ in range(3)),
+                       key=lambda answer: answer["tick_us"] / answer["bare_us"])
+            for part in ("physics_us", "read_us", "update_us", "write_us"):
+                figure(f"{title}: {part}", best[part], "us")
+            figure(f"{title}: tick", best["tick_us"], "us")
+            figure(f"{title}: tick / bare mj_step", best["tick_us"] / best["bare_us"], "x", 2.0)
+            figure(f"{title}: times real time, flat out", 1000 / best["tick_us"], "x", goal, at_least=True)
+
+
+def memory() -> None:
+    print("Memory of the simulation's process")
+    with tempfile.TemporaryDirectory() as folder, \
+            simulation(Path(folder), "stone.xml", "x:=-0.5", "real_time_factor:=0") as session:
+        wait_running(session)
+        before = node_memory(session)
+        figure("resident before the first picture", before, "MB", 150)
+        time_before = call(session, "/gazebo/benchmark", "ticks: 300000")
+        del time_before
+        half = node_memory(session)
+        call(session, "/gazebo/benchmark", "ticks: 300000")
+        figure("growth over the last 5 of 10 simulated minutes", node_memory(session) - half, "MB", 1)
+
+
+def start() -> None:
+    print("Start")
+    with tempfile.TemporaryDirectory() as folder:
+        begin = time.monotonic()
+        with simulation(Path(folder), "empty.xml") as session:
+            wait_running(session)
+            figure("roslaunch to the first controller running", time.monotonic() - begin, "s", 5)
+
+
+BENCHMARKS = {"micro": micro, "tick": tick, "memory": memory, "start": start}
+
+
+def main() -> int:
+    names = sys.argv[1:] or list(BENCHMARKS)
+    unknown = [name for name in names if name not in BENCHMARKS]
+    if unknown:
+        print(f"There is no benchmark {', '.join(unknown)}. There are: {', '.join(BENCHMARKS)}.", file=sys.stderr)
+        return 2
+    for name in names:
+        BENCHMARKS[name]()
+    for text in failures:
+        print(f"MISSED: {text}")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
