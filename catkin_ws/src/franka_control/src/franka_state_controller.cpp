@@ -1,17 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_control/franka_state_controller.h>
-
-#include <algorithm>
-#include <cmath>
-#include <type_traits>
-
 #include <franka/robot_state.h>
+#include <franka_control/franka_state_controller.h>
 #include <franka_control/state_conversions.h>
 #include <hardware_interface/hardware_interface.h>
 #include <hardware_interface/robot_hw.h>
 #include <pluginlib/class_list_macros.h>
 #include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
 
 namespace franka_control {
 
@@ -51,24 +50,27 @@ bool FrankaStateController::init(hardware_interface::RobotHW* robot_hardware,
 bool FrankaStateController::readParameters(const ros::NodeHandle& controller_node_handle) {
   const std::string where = controller_node_handle.getNamespace();
   if (!controller_node_handle.getParam("arm_id", arm_id_) || arm_id_.empty()) {
-    ROS_ERROR("FrankaStateController: set the parameter %s/arm_id to the name of the arm, such as "
-              "'panda'.",
-              where.c_str());
+    ROS_ERROR(
+        "FrankaStateController: set the parameter %s/arm_id to the name of the arm, such as "
+        "'panda'.",
+        where.c_str());
     return false;
   }
   if (!controller_node_handle.getParam("joint_names", joint_names_) ||
       joint_names_.size() != kJoints) {
-    ROS_ERROR("FrankaStateController: the parameter %s/joint_names must be a list of the arm's seven "
-              "joint names; it has %zu.",
-              where.c_str(), joint_names_.size());
+    ROS_ERROR(
+        "FrankaStateController: the parameter %s/joint_names must be a list of the arm's seven "
+        "joint names; it has %zu.",
+        where.c_str(), joint_names_.size());
     return false;
   }
   publish_rate_ = 30.0;
   const bool is_given = controller_node_handle.hasParam("publish_rate");
   if (is_given && !controller_node_handle.getParam("publish_rate", publish_rate_)) {
-    ROS_ERROR("FrankaStateController: the parameter %s/publish_rate must be a number of messages per "
-              "second [Hz].",
-              where.c_str());
+    ROS_ERROR(
+        "FrankaStateController: the parameter %s/publish_rate must be a number of messages per "
+        "second [Hz].",
+        where.c_str());
     return false;
   }
   if (!std::isfinite(publish_rate_) || publish_rate_ <= 0.0) {
@@ -82,8 +84,9 @@ bool FrankaStateController::readParameters(const ros::NodeHandle& controller_nod
 bool FrankaStateController::takeHandle(hardware_interface::RobotHW* robot_hardware) {
   auto* states = robot_hardware->get<franka_hw::FrankaStateInterface>();
   if (states == nullptr) {
-    ROS_ERROR("FrankaStateController: the robot offers no franka_hw::FrankaStateInterface; start the "
-              "controller on the hardware of a Franka arm.");
+    ROS_ERROR(
+        "FrankaStateController: the robot offers no franka_hw::FrankaStateInterface; start the "
+        "controller on the hardware of a Franka arm.");
     return false;
   }
   try {

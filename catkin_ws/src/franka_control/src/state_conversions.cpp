@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_control/state_conversions.h>
 
-#include <algorithm>
-#include <cstddef>
-
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <boost/array.hpp>
+#include <cstddef>
 
 namespace franka_control {
 
@@ -144,8 +143,7 @@ void toMessage(const franka::RobotState& state, franka_msgs::FrankaState& messag
 
 geometry_msgs::Transform toTransform(const std::array<double, 16>& transform) noexcept {
   const Eigen::Map<const Eigen::Matrix4d> matrix(transform.data());
-  const Eigen::Quaterniond rotation =
-      Eigen::Quaterniond(matrix.topLeftCorner<3, 3>()).normalized();
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(matrix.topLeftCorner<3, 3>()).normalized();
   geometry_msgs::Transform message;
   message.translation.x = transform[12];
   message.translation.y = transform[13];

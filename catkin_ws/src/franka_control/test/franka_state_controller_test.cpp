@@ -1,6 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_control/franka_state_controller.h>
+#include <franka_control/state_conversions.h>
+#include <gtest/gtest.h>
+#include <hardware_interface/robot_hw.h>
+#include <pluginlib/class_loader.h>
+#include <ros/ros.h>
+#include <rt_guard/rt_guard.h>
 
 #include <chrono>
 #include <cmath>
@@ -10,13 +16,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#include <franka_control/state_conversions.h>
-#include <gtest/gtest.h>
-#include <hardware_interface/robot_hw.h>
-#include <pluginlib/class_loader.h>
-#include <ros/ros.h>
-#include <rt_guard/rt_guard.h>
 
 #include "random_state.h"
 
@@ -163,16 +162,15 @@ TEST_F(FrankaStateControllerTest, PublishesEveryTopicOfAnyArm) {
     EXPECT_EQ(robot.state.K_F_ext_hat_K[4], wrench.last().wrench.torque.y);
     EXPECT_EQ(robot.state.K_F_ext_hat_K[5], wrench.last().wrench.torque.z);
 
-    const auto expectJoints = [&](const sensor_msgs::JointState& message,
-                                  const std::array<double, 7>& position,
-                                  const std::array<double, 7>& velocity,
-                                  const std::array<double, 7>& effort) {
-      EXPECT_EQ(jointNames(arm_id), message.name);
-      EXPECT_EQ(stamp, message.header.stamp);
-      EXPECT_EQ(std::vector<double>(position.begin(), position.end()), message.position);
-      EXPECT_EQ(std::vector<double>(velocity.begin(), velocity.end()), message.velocity);
-      EXPECT_EQ(std::vector<double>(effort.begin(), effort.end()), message.effort);
-    };
+    const auto expectJoints =
+        [&](const sensor_msgs::JointState& message, const std::array<double, 7>& position,
+            const std::array<double, 7>& velocity, const std::array<double, 7>& effort) {
+          EXPECT_EQ(jointNames(arm_id), message.name);
+          EXPECT_EQ(stamp, message.header.stamp);
+          EXPECT_EQ(std::vector<double>(position.begin(), position.end()), message.position);
+          EXPECT_EQ(std::vector<double>(velocity.begin(), velocity.end()), message.velocity);
+          EXPECT_EQ(std::vector<double>(effort.begin(), effort.end()), message.effort);
+        };
     expectJoints(joints.last(), robot.state.q, robot.state.dq, robot.state.tau_J);
     expectJoints(desired.last(), robot.state.q_d, robot.state.dq_d, robot.state.tau_J_d);
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka/robot_state.h>
+
 #include <array>
 #include <cstdint>
 #include <random>
-
-#include <franka/robot_state.h>
 
 namespace franka_control {
 

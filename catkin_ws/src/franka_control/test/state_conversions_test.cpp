@@ -1,13 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_control/state_conversions.h>
+#include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cstring>
 #include <utility>
 #include <vector>
-
-#include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "random_state.h"
 
@@ -124,9 +123,12 @@ TEST(ToMessage, CarriesEveryField) {
 
 TEST(ToMessage, MapsEachRobotModeToItsNumber) {
   const std::vector<std::pair<franka::RobotMode, int>> modes{
-      {franka::RobotMode::kOther, 0},       {franka::RobotMode::kIdle, 1},
-      {franka::RobotMode::kMove, 2},        {franka::RobotMode::kGuiding, 3},
-      {franka::RobotMode::kReflex, 4},      {franka::RobotMode::kUserStopped, 5},
+      {franka::RobotMode::kOther, 0},
+      {franka::RobotMode::kIdle, 1},
+      {franka::RobotMode::kMove, 2},
+      {franka::RobotMode::kGuiding, 3},
+      {franka::RobotMode::kReflex, 4},
+      {franka::RobotMode::kUserStopped, 5},
       {franka::RobotMode::kAutomaticErrorRecovery, 6}};
   for (const auto& [mode, number] : modes) {
     franka::RobotState state;
@@ -155,8 +157,8 @@ TEST(ToTransform, TurnsAMatrixIntoAUnitQuaternion) {
 }
 
 TEST(ToTransform, NormalisesRotationsTypedWithFourDigits) {
-  const geometry_msgs::Transform message = toTransform(
-      {{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1}});
+  const geometry_msgs::Transform message =
+      toTransform({{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1}});
   const auto& q = message.rotation;
   EXPECT_NEAR(1.0, q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1e-15);
   EXPECT_NEAR(-0.3826834, q.z, 1e-5);

@@ -65,7 +65,7 @@ def rotation_to_quaternion(m):
 
 
 def pose_from_state(state):
-    """Measured pose of the end effector in O, from a franka_msgs/FrankaState; None if it has none."""
+    """Measured pose of the end effector in O, from a FrankaState; None if it has none."""
     matrix = state.O_T_EE  # 4x4 column-major
     if not all(math.isfinite(value) for value in matrix) or matrix[15] != 1.0:
         return None
@@ -105,7 +105,7 @@ class EquilibriumPoseMarker:
     def __init__(self, link_name, pose):
         self._link_name = link_name
         self._pose = pose
-        self._lock = threading.Lock()  # rviz moves the marker in one thread, a timer publishes in another
+        self._lock = threading.Lock()  # rviz moves the marker here, a timer publishes there
         self._publisher = rospy.Publisher("equilibrium_pose", PoseStamped, queue_size=10)
         self._server = InteractiveMarkerServer("equilibrium_pose_marker")
         self._insert_marker()
@@ -152,8 +152,8 @@ def wait_for_pose():
     topic = "franka_state_controller/franka_states"
     while not rospy.is_shutdown():
         try:
-            # The timeout would run on ROS time, which stands still until a simulation starts: without
-            # one the wait works at any time.
+            # A timeout would run on ROS time, which stands still until a simulation starts:
+            # without one the wait works at any time.
             pose = pose_from_state(rospy.wait_for_message(topic, FrankaState))
         except rospy.ROSInterruptException:
             return None

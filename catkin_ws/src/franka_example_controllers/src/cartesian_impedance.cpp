@@ -1,10 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_example_controllers/cartesian_impedance.h>
+#include <franka_example_controllers/pseudo_inversion.h>
 
 #include <cmath>
-
-#include <franka_example_controllers/pseudo_inversion.h>
 
 namespace franka_example_controllers {
 
@@ -26,8 +25,7 @@ double criticalDamping(double stiffness) noexcept { return 2.0 * std::sqrt(stiff
 
 }  // namespace
 
-void CartesianImpedance::start(const std::array<double, 16>& O_T_EE,
-                               const std::array<double, 7>& q,
+void CartesianImpedance::start(const std::array<double, 16>& O_T_EE, const std::array<double, 7>& q,
                                double nullspace_stiffness) noexcept {
   const Pose pose(O_T_EE.data());
   position_d_ = position_target_ = pose.topRightCorner<3, 1>();
@@ -55,18 +53,18 @@ CartesianImpedance::Vector7 CartesianImpedance::update(const Arm& arm) noexcept 
   wrench << -gains_.stiffness[0] * error.head<3>() - gains_.damping[0] * twist.head<3>(),
       -gains_.stiffness[1] * error.tail<3>() - gains_.damping[1] * twist.tail<3>();
 
-  const Vector7 tau_elbow = nullspace_stiffness_ * (q_nullspace_ - q) -
-                            criticalDamping(nullspace_stiffness_) * dq;
+  const Vector7 tau_elbow =
+      nullspace_stiffness_ * (q_nullspace_ - q) - criticalDamping(nullspace_stiffness_) * dq;
   const Eigen::Matrix<double, 7, 6> Jt = J.transpose();
   const Wrench elbow_wrench = dampedPseudoInverse(Jt) * tau_elbow;
 
-  const Vector7 tau =
-      Jt * (wrench - elbow_wrench) + tau_elbow + Joints(arm.coriolis.data());
+  const Vector7 tau = Jt * (wrench - elbow_wrench) + tau_elbow + Joints(arm.coriolis.data());
   approachTargets();
   return saturateTorqueRate(tau, Joints(arm.tau_J_d.data()));
 }
 
-Eigen::Matrix<double, 6, 1> CartesianImpedance::poseError(const std::array<double, 16>& O_T_EE) const noexcept {
+Eigen::Matrix<double, 6, 1> CartesianImpedance::poseError(
+    const std::array<double, 16>& O_T_EE) const noexcept {
   const Pose pose(O_T_EE.data());
   const Eigen::Matrix3d rotation = pose.topLeftCorner<3, 3>();
   Eigen::Quaterniond orientation(rotation);

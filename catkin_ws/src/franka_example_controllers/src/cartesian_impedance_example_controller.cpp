@@ -1,17 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_example_controllers/cartesian_impedance_example_controller.h>
-
-#include <cmath>
-
 #include <franka/model.h>
 #include <franka/robot_state.h>
+#include <franka_example_controllers/cartesian_impedance_example_controller.h>
 #include <franka_example_controllers/controller_parameters.h>
 #include <hardware_interface/hardware_interface.h>
 #include <hardware_interface/internal/demangle_symbol.h>
 #include <pluginlib/class_list_macros.h>
 #include <ros/console.h>
 #include <ros/transport_hints.h>
+
+#include <cmath>
 
 namespace franka_example_controllers {
 
@@ -26,8 +25,8 @@ auto takeHandle(hardware_interface::RobotHW* robot_hw, const std::string& resour
   auto* interface = robot_hw->get<Interface>();
   if (interface == nullptr) {
     throw hardware_interface::HardwareInterfaceException(
-        "The robot does not offer " +
-        hardware_interface::internal::demangledTypeName<Interface>() + ".");
+        "The robot does not offer " + hardware_interface::internal::demangledTypeName<Interface>() +
+        ".");
   }
   return interface->getHandle(resource);
 }
@@ -61,9 +60,9 @@ bool CartesianImpedanceExampleController::init(hardware_interface::RobotHW* robo
   return true;
 }
 
-bool CartesianImpedanceExampleController::takeHandles(
-    hardware_interface::RobotHW* robot_hw, const std::string& arm_id,
-    const std::vector<std::string>& joint_names) {
+bool CartesianImpedanceExampleController::takeHandles(hardware_interface::RobotHW* robot_hw,
+                                                      const std::string& arm_id,
+                                                      const std::vector<std::string>& joint_names) {
   try {
     model_handle_ = std::make_unique<franka_hw::FrankaModelHandle>(
         takeHandle<franka_hw::FrankaModelInterface>(robot_hw, arm_id + "_model"));
@@ -75,9 +74,10 @@ bool CartesianImpedanceExampleController::takeHandles(
           takeHandle<hardware_interface::EffortJointInterface>(robot_hw, joint_name));
     }
   } catch (const hardware_interface::HardwareInterfaceException& error) {
-    ROS_ERROR("%s: the robot lacks something of arm '%s'; check the parameters arm_id and joint_names. "
-              "%s",
-              kName, arm_id.c_str(), error.what());
+    ROS_ERROR(
+        "%s: the robot lacks something of arm '%s'; check the parameters arm_id and joint_names. "
+        "%s",
+        kName, arm_id.c_str(), error.what());
     return false;
   }
   return true;
@@ -101,9 +101,9 @@ void CartesianImpedanceExampleController::update(const ros::Time& /*time*/,
   impedance_.setCompliance(*compliance_.readFromRT());
 
   const franka::RobotState& state = state_handle_->getRobotState();
-  const CartesianImpedance::Vector7 tau = impedance_.update(
-      {state.O_T_EE, model_handle_->getZeroJacobian(franka::Frame::kEndEffector),
-       model_handle_->getCoriolis(), state.q, state.dq, state.tau_J_d});
+  const CartesianImpedance::Vector7 tau =
+      impedance_.update({state.O_T_EE, model_handle_->getZeroJacobian(franka::Frame::kEndEffector),
+                         model_handle_->getCoriolis(), state.q, state.dq, state.tau_J_d});
   for (std::size_t i = 0; i < joint_handles_.size(); ++i) {
     joint_handles_[i].setCommand(tau[static_cast<Eigen::Index>(i)]);
   }
@@ -118,14 +118,14 @@ void CartesianImpedanceExampleController::equilibriumPoseCallback(
   equilibrium.orientation =
       Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z);
   const double length = equilibrium.orientation.norm();
-  if (!equilibrium.position.allFinite() || !std::isfinite(length) ||
-      length < kShortestQuaternion) {
-    ROS_ERROR_THROTTLE(kComplaintPeriod,
-                       "%s: an equilibrium pose was ignored, since its position (%g, %g, %g) is not "
-                       "finite or its quaternion (%g, %g, %g, %g) is no rotation; send numbers, and a "
-                       "quaternion of length 1.",
-                       kName, position.x, position.y, position.z, orientation.x, orientation.y,
-                       orientation.z, orientation.w);
+  if (!equilibrium.position.allFinite() || !std::isfinite(length) || length < kShortestQuaternion) {
+    ROS_ERROR_THROTTLE(
+        kComplaintPeriod,
+        "%s: an equilibrium pose was ignored, since its position (%g, %g, %g) is not "
+        "finite or its quaternion (%g, %g, %g, %g) is no rotation; send numbers, and a "
+        "quaternion of length 1.",
+        kName, position.x, position.y, position.z, orientation.x, orientation.y, orientation.z,
+        orientation.w);
     return;
   }
   equilibrium.orientation.normalize();
@@ -135,10 +135,11 @@ void CartesianImpedanceExampleController::equilibriumPoseCallback(
 
 void CartesianImpedanceExampleController::complianceCallback(compliance_paramConfig& config) {
   if (!isFinite(config)) {
-    ROS_ERROR_THROTTLE(kComplaintPeriod,
-                       "%s: a stiffness that is not a finite number was ignored; the ones before it "
-                       "stay.",
-                       kName);
+    ROS_ERROR_THROTTLE(
+        kComplaintPeriod,
+        "%s: a stiffness that is not a finite number was ignored; the ones before it "
+        "stay.",
+        kName);
     config = accepted_compliance_;
     return;
   }

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_example_controllers/controller_parameters.h>
-
 #include <ros/console.h>
 
 namespace franka_example_controllers {
@@ -14,8 +13,8 @@ constexpr std::size_t kJoints = 7;
 
 bool readArmId(const char* controller, const ros::NodeHandle& node_handle, std::string& arm_id) {
   if (!node_handle.getParam("arm_id", arm_id) || arm_id.empty()) {
-    ROS_ERROR("%s: set the parameter %s/arm_id to the name of the arm, such as 'panda'.", controller,
-              node_handle.getNamespace().c_str());
+    ROS_ERROR("%s: set the parameter %s/arm_id to the name of the arm, such as 'panda'.",
+              controller, node_handle.getNamespace().c_str());
     return false;
   }
   return true;
@@ -25,9 +24,10 @@ bool readJointNames(const char* controller, const ros::NodeHandle& node_handle,
                     std::vector<std::string>& joint_names) {
   joint_names.clear();
   if (!node_handle.getParam("joint_names", joint_names) || joint_names.size() != kJoints) {
-    ROS_ERROR("%s: the parameter %s/joint_names must be a list of the arm's seven joint names; it has "
-              "%zu.",
-              controller, node_handle.getNamespace().c_str(), joint_names.size());
+    ROS_ERROR(
+        "%s: the parameter %s/joint_names must be a list of the arm's seven joint names; it has "
+        "%zu.",
+        controller, node_handle.getNamespace().c_str(), joint_names.size());
     return false;
   }
   return true;

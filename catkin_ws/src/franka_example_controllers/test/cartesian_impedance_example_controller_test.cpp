@@ -1,6 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <franka_example_controllers/cartesian_impedance_example_controller.h>
+#include <franka_hw/model_base.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <gtest/gtest.h>
+#include <hardware_interface/joint_state_interface.h>
+#include <pluginlib/class_loader.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
+#include <rt_guard/rt_guard.h>
 
 #include <algorithm>
 #include <array>
@@ -12,17 +22,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#include <dynamic_reconfigure/Reconfigure.h>
-#include <franka_hw/model_base.h>
-#include <geometry_msgs/PoseStamped.h>
-#include <gtest/gtest.h>
-#include <hardware_interface/joint_state_interface.h>
-#include <pluginlib/class_loader.h>
-#include <ros/callback_queue.h>
-#include <ros/ros.h>
-#include <rosgraph_msgs/Log.h>
-#include <rt_guard/rt_guard.h>
 
 namespace franka_example_controllers {
 namespace {

@@ -1,17 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The law against a second computation of the same formulas that shares nothing with it: orientation
-// errors by rotation matrices, the null space by singular values, gains by their closed form in time.
+// The law against a second computation of the same formulas that shares nothing with it:
+// orientation errors by rotation matrices, the null space by singular values, gains by their closed
+// form in time.
 
 #include <franka_example_controllers/cartesian_impedance.h>
-
-#include <cmath>
-#include <random>
-
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <rt_guard/rt_guard.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
 
 namespace franka_example_controllers {
 namespace {
@@ -75,8 +75,7 @@ Vector7 expectedTorque(const Arm& arm, const Eigen::Isometry3d& desired, const V
   wrench.tail<3>() = kr * std::sin(turn.angle() / 2.0) * turn.axis() - dr * twist.tail<3>();
   // The null space by singular values: each direction of J keeps 1 - s^2/(s^2 + 0.2^2) of it.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J.transpose(), Eigen::ComputeThinU);
-  const Vector7 elbow =
-      kn * (q_start - joints(arm.q)) - 2.0 * std::sqrt(kn) * joints(arm.dq);
+  const Vector7 elbow = kn * (q_start - joints(arm.q)) - 2.0 * std::sqrt(kn) * joints(arm.dq);
   Vector7 kept = elbow;
   for (int i = 0; i < 6; ++i) {
     const double s2 = std::pow(svd.singularValues()[i], 2);
@@ -95,8 +94,7 @@ TEST(CartesianImpedance, FollowsTheFormulasOnRandomStates) {
   Random random;
   for (int n = 0; n < 1000; ++n) {
     const Arm start = random.arm();
-    const Compliance compliance{random.number(0, 400), random.number(0, 30),
-                                random.number(0, 100)};
+    const Compliance compliance{random.number(0, 400), random.number(0, 30), random.number(0, 100)};
     CartesianImpedance impedance;
     impedance.start(start.O_T_EE, start.q, compliance.nullspace_stiffness);
     impedance.setCompliance(compliance);

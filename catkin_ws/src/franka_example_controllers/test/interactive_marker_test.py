@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The interactive marker against a simulated arm and a person dragging it, on the test's own clock."""
+"""The interactive marker with a simulated arm and a person dragging it, on the test's clock."""
 
 import math
 import sys
@@ -118,7 +118,7 @@ class InteractiveMarkerTest(unittest.TestCase):
             now += 0.2
             self.assertTrue(wait_for(lambda: self.poses))
             position = self.poses[-1].pose.position
-            for value, wanted in zip((position.x, position.y, position.z), expected):
+            for value, wanted in zip((position.x, position.y, position.z), expected, strict=True):
                 self.assertAlmostEqual(wanted, value)
 
         # The simulation starts anew: time goes back, and the marker goes on publishing.
@@ -149,7 +149,7 @@ class QuaternionTest(unittest.TestCase):
                 [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
             ]
             result = interactive_marker.rotation_to_quaternion(rows)
-            dot = sum(a * b for a, b in zip(quaternion, result))
+            dot = sum(a * b for a, b in zip(quaternion, result, strict=True))
             self.assertAlmostEqual(1.0, abs(dot), places=12)
 
 
@@ -172,4 +172,6 @@ if __name__ == "__main__":
     package = rospkg.RosPack().get_path("franka_example_controllers")
     sys.path.insert(0, os.path.join(package, "scripts"))
     rospy.init_node("interactive_marker_test", disable_rostime=True)
-    rostest.rosrun("franka_example_controllers", "interactive_marker", "interactive_marker_test.Suite")
+    rostest.rosrun(
+        "franka_example_controllers", "interactive_marker", "interactive_marker_test.Suite"
+    )

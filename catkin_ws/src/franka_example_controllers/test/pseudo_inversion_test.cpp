@@ -1,10 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_example_controllers/pseudo_inversion.h>
+#include <gtest/gtest.h>
 
 #include <cstdlib>
-
-#include <gtest/gtest.h>
 
 namespace franka_example_controllers {
 namespace {

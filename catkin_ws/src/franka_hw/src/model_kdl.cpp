@@ -1,20 +1,19 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/model_kdl.h>
+#include <urdf/model.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
-#include <stdexcept>
-#include <utility>
-
-#include <Eigen/Dense>
 #include <kdl/chain.hpp>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/tree.hpp>
 #include <kdl_parser/kdl_parser.hpp>
-#include <urdf/model.h>
+#include <stdexcept>
+#include <utility>
 
 namespace franka_hw {
 
@@ -67,7 +66,8 @@ KDL::Chain chainFromUrdf(const urdf::Model& model, const std::string& root,
   return chain;
 }
 
-/// Checks that a chain is an arm: seven revolute joints whose links have mass, then the fixed flange.
+/// Checks that a chain is an arm: seven revolute joints whose links have mass, then the fixed
+/// flange.
 void checkChain(const KDL::Chain& chain, const std::string& root, const std::string& tip) {
   if (chain.getNrOfJoints() != kJoints || chain.getNrOfSegments() <= kJoints) {
     throw refusal(root, tip,
@@ -81,8 +81,7 @@ void checkChain(const KDL::Chain& chain, const std::string& root, const std::str
     const bool moves = segment.getJoint().getType() != KDL::Joint::None;
     if (moves != (i < kJoints) || (moves && segment.getJoint().getType() != KDL::Joint::RotAxis)) {
       throw refusal(root, tip,
-                    "joint '" + segment.getJoint().getName() +
-                        "' stands where an arm has " +
+                    "joint '" + segment.getJoint().getName() + "' stands where an arm has " +
                         (i < kJoints ? "a revolute joint." : "a fixed one."));
     }
     if (moves && segment.getInertia().getMass() <= 0.0) {
@@ -94,7 +93,8 @@ void checkChain(const KDL::Chain& chain, const std::string& root, const std::str
   }
 }
 
-/// Puts the fixed end of a chain into its last moving segment, so that the chain ends in the flange.
+/// Puts the fixed end of a chain into its last moving segment, so that the chain ends in the
+/// flange.
 /// @returns the pose of the flange in the last moving link
 KDL::Frame foldFixedEnd(KDL::Chain& chain) {
   KDL::Frame link_T_flange;
@@ -113,8 +113,8 @@ KDL::Frame foldFixedEnd(KDL::Chain& chain) {
     folded.addSegment(chain.getSegment(i));
   }
   const KDL::Segment& last = chain.getSegment(kJoints - 1);
-  folded.addSegment(KDL::Segment(last.getName(), last.getJoint(),
-                                 last.getFrameToTip() * link_T_flange, inertia));
+  folded.addSegment(
+      KDL::Segment(last.getName(), last.getJoint(), last.getFrameToTip() * link_T_flange, inertia));
   chain = folded;
   return link_T_flange;
 }
@@ -123,8 +123,8 @@ KDL::Frame foldFixedEnd(KDL::Chain& chain) {
 
 /// Everything the calls write to, and the chain they read.
 ///
-/// The chain ends in the flange, and the payload is added to its last segment in place: the solvers hold
-/// a reference to the chain, so they see it without being built anew.
+/// The chain ends in the flange, and the payload is added to its last segment in place: the solvers
+/// hold a reference to the chain, so they see it without being built anew.
 struct ModelKDL::Workspace {
   Workspace(const urdf::Model& model, const std::string& root, const std::string& tip,
             double singularity_threshold)
@@ -188,7 +188,8 @@ struct ModelKDL::Workspace {
     }
   }
 
-  /// Jacobian of a point fixed to the link of a frame, after moveTo(), seen from axes turned by rotation.
+  /// Jacobian of a point fixed to the link of a frame, after moveTo(), seen from axes turned by
+  /// rotation.
   std::array<double, 42> jacobianOf(franka::Frame frame, const KDL::Vector& point,
                                     const KDL::Rotation& rotation) {
     std::array<double, 42> jacobian{};
@@ -226,7 +227,8 @@ struct ModelKDL::Workspace {
   const KDL::Frame flange_T_link7;
   const KDL::RigidBodyInertia last_inertia;  ///< of link 7 and flange without payload, in F
   std::array<double, kJoints> masses{};
-  std::array<KDL::Vector, kJoints> first_moments;  ///< mass times centre of mass, in the link's frame
+  std::array<KDL::Vector, kJoints>
+      first_moments;  ///< mass times centre of mass, in the link's frame
 
   KDL::ChainDynParam dynamics;
   KDL::JntArray q{kJoints};
@@ -312,8 +314,8 @@ std::array<double, 7> ModelKDL::coriolis(const std::array<double, 7>& q,
 std::array<double, 7> ModelKDL::gravity(const std::array<double, 7>& q, double total_mass,
                                         const std::array<double, 3>& F_x_Ctotal,
                                         const std::array<double, 3>& gravity_earth) const {
-  // KDL's solver fixes the gravity vector when it is built. Statics answer for any vector: each joint
-  // carries the moment, about its axis, of all that hangs outboard of it.
+  // KDL's solver fixes the gravity vector when it is built. Statics answer for any vector: each
+  // joint carries the moment, about its axis, of all that hangs outboard of it.
   Workspace& work = *workspace_;
   work.moveTo(q);
   const KDL::Vector g = toVector(gravity_earth);
@@ -322,8 +324,7 @@ std::array<double, 7> ModelKDL::gravity(const std::array<double, 7>& q, double t
   std::array<double, 7> torques;
   for (std::size_t i = kJoints; i-- > 0;) {
     mass += work.masses[i];
-    first_moment +=
-        work.frames[i].M * work.first_moments[i] + work.masses[i] * work.frames[i].p;
+    first_moment += work.frames[i].M * work.first_moments[i] + work.masses[i] * work.frames[i].p;
     torques[i] = -KDL::dot(work.axes[i], (first_moment - mass * work.origins[i]) * g);
   }
   return torques;

@@ -1,12 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/resource_helpers.h>
+#include <ros/console.h>
 
 #include <algorithm>
 #include <array>
 #include <utility>
-
-#include <ros/console.h>
 
 namespace franka_hw {
 
@@ -73,9 +72,10 @@ bool getArmClaimedMap(ResourceWithClaimsMap& resource_map, ArmClaimedMap& arm_cl
   for (const auto& [resource, claims] : resource_map) {
     std::string arm_id;
     if (!findArmIdInResourceId(resource, &arm_id)) {
-      ROS_ERROR("The resource '%s' belongs to no arm: its name must read <arm_id>_joint<N> or "
-                "<arm_id>_robot.",
-                resource.c_str());
+      ROS_ERROR(
+          "The resource '%s' belongs to no arm: its name must read <arm_id>_joint<N> or "
+          "<arm_id>_robot.",
+          resource.c_str());
       return false;
     }
     ResourceClaims& arm_claims = arm_claim_map[arm_id];
@@ -122,9 +122,10 @@ bool hasConflictingMultiClaim(const ResourceWithClaimsMap& resource_map) {
       return claim.at(kInterfaceIndex) == kEffortInterface;
     });
     if (claims.size() > 2 || torque_claims != 1) {
-      ROS_ERROR("The resource '%s' is claimed %zu times; only one motion and one torque controller "
-                "can share it.",
-                resource.c_str(), claims.size());
+      ROS_ERROR(
+          "The resource '%s' is claimed %zu times; only one motion and one torque controller "
+          "can share it.",
+          resource.c_str(), claims.size());
       return true;
     }
   }
@@ -137,9 +138,10 @@ bool hasConflictingJointAndCartesianClaim(const ArmClaimedMap& arm_claim_map,
   const bool cartesian = claims.cartesian_pose_claims + claims.cartesian_velocity_claims > 0;
   const bool joint = claims.joint_position_claims + claims.joint_velocity_claims > 0;
   if (cartesian && joint) {
-    ROS_ERROR("Arm '%s' is asked to follow joint and Cartesian commands at once; start one or the "
-              "other.",
-              arm_id.c_str());
+    ROS_ERROR(
+        "Arm '%s' is asked to follow joint and Cartesian commands at once; start one or the "
+        "other.",
+        arm_id.c_str());
   }
   return cartesian && joint;
 }
@@ -149,9 +151,10 @@ bool partiallyClaimsArmJoints(const ArmClaimedMap& arm_claim_map, const std::str
   for (uint8_t count :
        {claims.joint_position_claims, claims.joint_velocity_claims, claims.joint_torque_claims}) {
     if (count > 0 && count != kJointsOfAnArm) {
-      ROS_ERROR("Controllers claim %d joints of arm '%s' through one interface; a controller must "
-                "claim all seven.",
-                static_cast<int>(count), arm_id.c_str());
+      ROS_ERROR(
+          "Controllers claim %d joints of arm '%s' through one interface; a controller must "
+          "claim all seven.",
+          static_cast<int>(count), arm_id.c_str());
       return true;
     }
   }

@@ -21,8 +21,8 @@ ros::Duration periodOf(double rate) {
                                 std::to_string(rate) + ".");
   }
   ros::Duration period;
-  period.fromNSec(std::max<std::int64_t>(
-      1, std::llround(std::min(1.0 / rate, kLongestPeriod) * 1e9)));
+  period.fromNSec(
+      std::max<std::int64_t>(1, std::llround(std::min(1.0 / rate, kLongestPeriod) * 1e9)));
   return period;
 }
 

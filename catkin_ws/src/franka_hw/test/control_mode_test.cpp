@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/control_mode.h>
+#include <gtest/gtest.h>
 
 #include <sstream>
 #include <string>
-
-#include <gtest/gtest.h>
 
 namespace franka_hw {
 namespace {
@@ -45,10 +44,10 @@ TEST(ControlMode, PrintsNamesInFixedOrder) {
   EXPECT_EQ("joint_velocity", printed(ControlMode::JointVelocity));
   EXPECT_EQ("cartesian_velocity", printed(ControlMode::CartesianVelocity));
   EXPECT_EQ("cartesian_pose", printed(ControlMode::CartesianPose));
-  EXPECT_EQ("joint_torque, joint_position, joint_velocity, cartesian_velocity, cartesian_pose",
-            printed(ControlMode::CartesianPose | ControlMode::CartesianVelocity |
-                    ControlMode::JointVelocity | ControlMode::JointPosition |
-                    ControlMode::JointTorque));
+  EXPECT_EQ(
+      "joint_torque, joint_position, joint_velocity, cartesian_velocity, cartesian_pose",
+      printed(ControlMode::CartesianPose | ControlMode::CartesianVelocity |
+              ControlMode::JointVelocity | ControlMode::JointPosition | ControlMode::JointTorque));
 }
 
 }  // namespace

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/franka_cartesian_command_interface.h>
 #include <franka_hw/franka_state_interface.h>
+#include <gtest/gtest.h>
+#include <hardware_interface/internal/demangle_symbol.h>
+#include <hardware_interface/robot_hw.h>
 
 #include <set>
 #include <string>
 #include <type_traits>
-
-#include <gtest/gtest.h>
-#include <hardware_interface/internal/demangle_symbol.h>
-#include <hardware_interface/robot_hw.h>
 
 namespace franka_hw {
 namespace {

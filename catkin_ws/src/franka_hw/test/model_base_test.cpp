@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/franka_model_interface.h>
 #include <franka_hw/model_base.h>
+#include <gtest/gtest.h>
 
 #include <type_traits>
-
-#include <gtest/gtest.h>
 
 namespace franka_hw {
 namespace {

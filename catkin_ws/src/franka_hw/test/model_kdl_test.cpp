@@ -1,23 +1,22 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/arm_model.h>
 #include <franka_hw/model_kdl.h>
+#include <gtest/gtest.h>
+#include <rt_guard/rt_guard.h>
+#include <urdf/model.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <fstream>
+#include <kdl/chaindynparam.hpp>
+#include <kdl/tree.hpp>
+#include <kdl_parser/kdl_parser.hpp>
 #include <memory>
 #include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-
-#include <Eigen/Dense>
-#include <franka_core/arm_model.h>
-#include <gtest/gtest.h>
-#include <kdl/chaindynparam.hpp>
-#include <kdl/tree.hpp>
-#include <kdl_parser/kdl_parser.hpp>
-#include <rt_guard/rt_guard.h>
-#include <urdf/model.h>
 
 namespace franka_hw {
 namespace {
@@ -210,8 +209,8 @@ TEST_P(ModelKDLTest, AgreesWithKdlSolversOfAnAugmentedChain) {
 }
 
 TEST_P(ModelKDLTest, HoldsTheStretchedArm) {
-  // Upright and stretched, joint 2 carries each link's mass times how far out (x) its centre stands:
-  // links 2 to 7, the frames of link 4 and 7 standing out by 0.0825 m and 0.088 m.
+  // Upright and stretched, joint 2 carries each link's mass times how far out (x) its centre
+  // stands: links 2 to 7, the frames of link 4 and 7 standing out by 0.0825 m and 0.088 m.
   const double moment = 0.646926 * -0.003141 + 3.228604 * 0.027518 + 3.587895 * (0.0825 - 0.05317) +
                         1.225946 * -0.011953 + 1.666555 * 0.060149 + 0.735522 * (0.088 + 0.010517);
   const Array7 gravity = model.gravity({}, 0.0, {}, {{0.0, 0.0, kHang}});
@@ -222,7 +221,8 @@ TEST_P(ModelKDLTest, HoldsTheStretchedArm) {
 }
 
 TEST_P(ModelKDLTest, ReadsTurnedInertialFrames) {
-  // The same inertias written in turned frames are other inertias; both readers must see the same ones.
+  // The same inertias written in turned frames are other inertias; both readers must see the same
+  // ones.
   const std::string turned = replaced(urdf_text, "<origin rpy=\"0 0 0\" xyz=\"0.027518",
                                       "<origin rpy=\"0.3 -0.2 1.1\" xyz=\"0.027518");
   const ModelKDL turned_model(parsed(turned), robot + "_link0", robot + "_link8");
@@ -285,8 +285,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, ModelKDLTest, testing::Values("panda", "fr3"),
                          [](const auto& info) { return std::string(info.param); });
 
 /// What a refused robot description is answered with.
-std::string refusal(const std::string& urdf_text, const std::string& root,
-                    const std::string& tip) {
+std::string refusal(const std::string& urdf_text, const std::string& root, const std::string& tip) {
   try {
     const ModelKDL model(parsed(urdf_text), root, tip);
   } catch (const std::invalid_argument& error) {
@@ -301,18 +300,17 @@ TEST(ModelKDLRefusal, NamesTheLinkThatIsMissing) {
       "ModelKDL: the chain from 'fr3_link0' to 'fr3_link8' cannot be used: the robot description "
       "has no link 'fr3_link0'; check that its arm_id is the one this model is asked for.",
       refusal(text, "fr3_link0", "fr3_link8"));
-  EXPECT_NE(std::string::npos,
-            refusal(text, "panda_link0", "tool").find("has no link 'tool'"));
+  EXPECT_NE(std::string::npos, refusal(text, "panda_link0", "tool").find("has no link 'tool'"));
 }
 
 TEST(ModelKDLRefusal, NamesAChainThatIsNoArm) {
   const std::string text = readUrdf("panda");
-  EXPECT_NE(std::string::npos, refusal(text, "panda_link0", "panda_link7")
-                                   .find("7 moving and 0 fixed joints"));
-  EXPECT_NE(std::string::npos, refusal(text, "panda_link2", "panda_link8")
-                                   .find("5 moving and 1 fixed joints"));
-  EXPECT_NE(std::string::npos, refusal(text, "panda_link0", "panda_leftfinger")
-                                   .find("8 moving and 2 fixed joints"));
+  EXPECT_NE(std::string::npos,
+            refusal(text, "panda_link0", "panda_link7").find("7 moving and 0 fixed joints"));
+  EXPECT_NE(std::string::npos,
+            refusal(text, "panda_link2", "panda_link8").find("5 moving and 1 fixed joints"));
+  EXPECT_NE(std::string::npos,
+            refusal(text, "panda_link0", "panda_leftfinger").find("8 moving and 2 fixed joints"));
   EXPECT_NE(std::string::npos,
             refusal(text, "panda_leftfinger", "panda_rightfinger").find("cannot be used"));
 }

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/resource_helpers.h>
+#include <gtest/gtest.h>
 
 #include <initializer_list>
 #include <list>
@@ -8,8 +9,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 namespace franka_hw {
 namespace {
@@ -137,11 +136,10 @@ TEST(GetArmClaimedMap, CountsPerArmAndInterface) {
 
 TEST(ClaimRules, AllowNothingAndReadOnlyControllers) {
   expectVerdict({false, false, ControlMode::None}, judge({}), "no controller");
-  expectVerdict(
-      {false, false, ControlMode::None},
-      judge({controller("reader", {{"franka_hw::FrankaStateInterface", {}},
-                                   {"hardware_interface::JointStateInterface", {}}})}),
-      "reader");
+  expectVerdict({false, false, ControlMode::None},
+                judge({controller("reader", {{"franka_hw::FrankaStateInterface", {}},
+                                             {"hardware_interface::JointStateInterface", {}}})}),
+                "reader");
 }
 
 TEST(ClaimRules, AllowEachInterfaceAloneAndWithTorques) {
@@ -163,10 +161,9 @@ TEST(ClaimRules, AllowEachInterfaceAloneAndWithTorques) {
 TEST(ClaimRules, RefuseOneInterfaceTwice) {
   for (const char* interface : {kJP, kJV, kJT, kCP, kCV}) {
     expectVerdict({true, true, ControlMode::None}, judgeOne({interface, interface}), interface);
-    expectVerdict(
-        {true, true, ControlMode::None},
-        judge({controller("a", {whole(interface)}), controller("b", {whole(interface)})}),
-        interface);
+    expectVerdict({true, true, ControlMode::None},
+                  judge({controller("a", {whole(interface)}), controller("b", {whole(interface)})}),
+                  interface);
   }
 }
 
@@ -193,16 +190,15 @@ TEST(ClaimRules, RefuseAnythingButSevenJoints) {
   const Verdict refused{true, true, ControlMode::None};
   for (const char* interface : {kJP, kJV, kJT}) {
     for (int last : {1, 6, 8}) {
-      const Verdict verdict =
-          judge({controller("some", {{interface, joints("panda", 1, last)}})});
+      const Verdict verdict = judge({controller("some", {{interface, joints("panda", 1, last)}})});
       EXPECT_TRUE(verdict.franka_hw_refuses) << interface << last;
       EXPECT_TRUE(verdict.combinable_hw_refuses) << interface << last;
     }
   }
-  expectVerdict(refused,
-                judge({controller("split", {{kJP, joints("panda", 1, 3)},
-                                            {kJV, joints("panda", 4, 7)}})}),
-                "positions on three joints, velocities on four");
+  expectVerdict(
+      refused,
+      judge({controller("split", {{kJP, joints("panda", 1, 3)}, {kJV, joints("panda", 4, 7)}})}),
+      "positions on three joints, velocities on four");
 }
 
 TEST(ClaimRules, RefuseUnknownInterfacesAndNames) {

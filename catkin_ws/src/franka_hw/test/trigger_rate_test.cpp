@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/trigger_rate.h>
+#include <gtest/gtest.h>
 
 #include <limits>
 #include <stdexcept>
-
-#include <gtest/gtest.h>
 
 namespace franka_hw {
 namespace {

@@ -2,12 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <controller_interface/multi_interface_controller.h>
 #include <franka_hw/franka_state_interface.h>
 #include <franka_hw/trigger_rate.h>
@@ -19,22 +13,29 @@
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace franka_control {
 
 /// Publishes the state of one arm; commands nothing, so it may run beside any other controller.
 ///
-/// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven) and `publish_rate` [Hz]
-/// (30). Topics there: `franka_states` (the complete state), `joint_states` (q, dq, tau_J),
-/// `joint_states_desired` (q_d, dq_d, tau_J_d) and `F_ext` (K_F_ext_hat_K, in `<arm_id>_K`); beside them
+/// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven) and `publish_rate`
+/// [Hz] (30). Topics there: `franka_states` (the complete state), `joint_states` (q, dq, tau_J),
+/// `joint_states_desired` (q_d, dq_d, tau_J_d) and `F_ext` (K_F_ext_hat_K, in `<arm_id>_K`); beside
+/// them
 /// `/tf` from `<arm_id>_link8` over `_NE` and `_EE` to `_K`. Stamps are the time update() is given.
 ///
-/// update() runs in the 1 kHz loop: it neither allocates nor locks nor waits. What a publisher has not
-/// taken when the next message is due is dropped.
+/// update() runs in the 1 kHz loop: it neither allocates nor locks nor waits. What a publisher has
+/// not taken when the next message is due is dropped.
 class FrankaStateController
     : public controller_interface::MultiInterfaceController<franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the robot
-  /// has no state handle `<arm_id>_robot`.
+  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the
+  /// robot has no state handle `<arm_id>_robot`.
   bool init(hardware_interface::RobotHW* robot_hardware, ros::NodeHandle& root_node_handle,
             ros::NodeHandle& controller_node_handle) override;
 

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 
 namespace franka_example_controllers {
 
@@ -18,9 +17,10 @@ struct Compliance {
 
 /// A Cartesian impedance with a null-space impedance for one seven-joint arm.
 ///
-/// The end effector is drawn to an equilibrium pose by springs and critical dampers (2 sqrt(K)), the
-/// elbow to its start configuration in the null space. Stiffness, damping and equilibrium approach what
-/// they are set to by 0.5 % per update, so that nothing jumps. Gravity is left to the robot.
+/// The end effector is drawn to an equilibrium pose by springs and critical dampers (2 sqrt(K)),
+/// the elbow to its start configuration in the null space. Stiffness, damping and equilibrium
+/// approach what they are set to by 0.5 % per update, so that nothing jumps. Gravity is left to the
+/// robot.
 ///
 /// One thread, 1 kHz: no allocation, no lock, no exception. Frame O, units [m] [rad] [N] [Nm].
 class CartesianImpedance {
@@ -37,8 +37,8 @@ class CartesianImpedance {
     std::array<double, 7> tau_J_d;  ///< torque commanded in the last cycle, without gravity
   };
 
-  /// Begins at a pose and a configuration, which become the equilibrium. Springs and dampers of the end
-  /// effector grow from zero; the null-space stiffness is as set at once.
+  /// Begins at a pose and a configuration, which become the equilibrium. Springs and dampers of the
+  /// end effector grow from zero; the null-space stiffness is as set at once.
   void start(const std::array<double, 16>& O_T_EE, const std::array<double, 7>& q,
              double nullspace_stiffness) noexcept;
 

@@ -2,12 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <Eigen/Geometry>
 #include <controller_interface/multi_interface_controller.h>
 #include <dynamic_reconfigure/server.h>
 #include <franka_example_controllers/cartesian_impedance.h>
@@ -21,24 +15,30 @@
 #include <ros/node_handle.h>
 #include <ros/time.h>
 
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace franka_example_controllers {
 
 /// Draws the end effector to an equilibrium pose as springs and dampers would.
 ///
 /// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven). Topic there:
-/// `equilibrium_pose` (geometry_msgs/PoseStamped, in O; the frame id is not looked at). Stiffness is set
-/// by dynamic_reconfigure at `dynamic_reconfigure_compliance_param_node` in that namespace.
+/// `equilibrium_pose` (geometry_msgs/PoseStamped, in O; the frame id is not looked at). Stiffness
+/// is set by dynamic_reconfigure at `dynamic_reconfigure_compliance_param_node` in that namespace.
 ///
-/// starting() and update() run in the 1 kHz loop without allocation or lock; poses and stiffness reach
-/// it from other threads through real-time buffers. Each start begins at the pose the arm is in:
-/// equilibrium poses sent before it are forgotten.
+/// starting() and update() run in the 1 kHz loop without allocation or lock; poses and stiffness
+/// reach it from other threads through real-time buffers. Each start begins at the pose the arm is
+/// in: equilibrium poses sent before it are forgotten.
 class CartesianImpedanceExampleController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaModelInterface, hardware_interface::EffortJointInterface,
           franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the robot
-  /// lacks a handle.
+  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the
+  /// robot lacks a handle.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;

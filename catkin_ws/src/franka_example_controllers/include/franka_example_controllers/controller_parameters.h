@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <ros/node_handle.h>
+
 #include <string>
 #include <vector>
-
-#include <ros/node_handle.h>
 
 namespace franka_example_controllers {
 

@@ -27,20 +27,18 @@ inline void pseudoInverse(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& invers
   inverse = svd.matrixV() * inverted.asDiagonal() * svd.matrixU().transpose();
 }
 
-/// Damped pseudo-inverse of a matrix of fixed size: M^T (M M^T + damping^2 I)^-1, or the same from the
-/// other side, whichever has less to solve. Real-time safe: no allocation.
+/// Damped pseudo-inverse of a matrix of fixed size: M^T (M M^T + damping^2 I)^-1, or the same from
+/// the other side, whichever has less to solve. Real-time safe: no allocation.
 template <int Rows, int Columns>
 Eigen::Matrix<double, Columns, Rows> dampedPseudoInverse(
     const Eigen::Matrix<double, Rows, Columns>& matrix, double damping = kPseudoInverseDamping) {
   constexpr int kSmaller = Rows < Columns ? Rows : Columns;
   using Square = Eigen::Matrix<double, kSmaller, kSmaller>;
   if constexpr (Rows >= Columns) {
-    const Square gram =
-        matrix.transpose() * matrix + damping * damping * Square::Identity();
+    const Square gram = matrix.transpose() * matrix + damping * damping * Square::Identity();
     return gram.ldlt().solve(matrix.transpose());
   } else {
-    const Square gram =
-        matrix * matrix.transpose() + damping * damping * Square::Identity();
+    const Square gram = matrix * matrix.transpose() + damping * damping * Square::Identity();
     return gram.ldlt().solve(matrix).transpose();
   }
 }

@@ -45,8 +45,8 @@ constexpr ControlMode& operator|=(ControlMode& left, ControlMode right) {
   return left = left | right;
 }
 
-/// Prints `<none>` or the set bits' names, separated by a comma and a space, in the order joint_torque,
-/// joint_position, joint_velocity, cartesian_velocity, cartesian_pose.
+/// Prints `<none>` or the set bits' names, separated by a comma and a space, in the order
+/// joint_torque, joint_position, joint_velocity, cartesian_velocity, cartesian_pose.
 std::ostream& operator<<(std::ostream& stream, ControlMode mode);
 
 }  // namespace franka_hw

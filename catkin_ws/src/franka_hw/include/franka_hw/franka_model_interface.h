@@ -2,21 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <string>
-
 #include <franka/model.h>
 #include <franka/robot_state.h>
 #include <franka_hw/model_base.h>
 #include <hardware_interface/internal/hardware_resource_manager.h>
 
+#include <array>
+#include <string>
+
 namespace franka_hw {
 
 /// Kinematics and dynamics of one arm for controllers.
 ///
-/// Functions without q evaluate the model at the state the hardware last read; the others at what they
-/// are given. Layouts, frames and units are those of ModelBase. Real-time safe where the model is
-/// (ModelKDL and franka::Model are); to be used in the thread that calls the controllers.
+/// Functions without q evaluate the model at the state the hardware last read; the others at what
+/// they are given. Layouts, frames and units are those of ModelBase. Real-time safe where the model
+/// is (ModelKDL and franka::Model are); to be used in the thread that calls the controllers.
 class FrankaModelHandle {
  public:
   FrankaModelHandle() = delete;
@@ -50,9 +50,10 @@ class FrankaModelHandle {
                                        {0., 0., -9.81}}) const {
     return model_->gravity(*robot_state_, gravity_earth);
   }
-  std::array<double, 7> getGravity(
-      const std::array<double, 7>& q, double total_mass, const std::array<double, 3>& F_x_Ctotal,
-      const std::array<double, 3>& gravity_earth = {{0., 0., -9.81}}) const {
+  std::array<double, 7> getGravity(const std::array<double, 7>& q, double total_mass,
+                                   const std::array<double, 3>& F_x_Ctotal,
+                                   const std::array<double, 3>& gravity_earth = {
+                                       {0., 0., -9.81}}) const {
     return model_->gravity(q, total_mass, F_x_Ctotal, gravity_earth);
   }
 

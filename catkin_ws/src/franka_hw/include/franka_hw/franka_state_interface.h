@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include <franka/robot_state.h>
 #include <hardware_interface/internal/hardware_resource_manager.h>
+
+#include <string>
 
 namespace franka_hw {
 
 /// Read access to the complete state of one arm.
 ///
-/// The handle refers to the state its hardware owns, which read() refreshes once a cycle; it must not
-/// outlive it. Real-time safe; to be used in the thread that calls the controllers.
+/// The handle refers to the state its hardware owns, which read() refreshes once a cycle; it must
+/// not outlive it. Real-time safe; to be used in the thread that calls the controllers.
 class FrankaStateHandle {
  public:
   FrankaStateHandle() = delete;

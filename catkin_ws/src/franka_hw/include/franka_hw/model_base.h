@@ -2,19 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include <franka/model.h>
 #include <franka/robot_state.h>
+
+#include <array>
 
 namespace franka_hw {
 
 /// Kinematics and dynamics of an arm, whoever computes them.
 ///
-/// Layouts: transforms 4x4, Jacobians 6x7 (linear rows first), the mass matrix 7x7 and inertias 3x3, all
-/// column-major. Units [m] [rad] [s] [kg] [Nm]. Poses and zero Jacobians are expressed in the base frame
-/// O, body Jacobians in the axes of the asked frame. F_x_Ctotal is the centre of mass of end effector and
-/// load together in the flange frame F, total_inertia their inertia about that point in the axes of F.
+/// Layouts: transforms 4x4, Jacobians 6x7 (linear rows first), the mass matrix 7x7 and inertias
+/// 3x3, all column-major. Units [m] [rad] [s] [kg] [Nm]. Poses and zero Jacobians are expressed in
+/// the base frame O, body Jacobians in the axes of the asked frame. F_x_Ctotal is the centre of
+/// mass of end effector and load together in the flange frame F, total_inertia their inertia about
+/// that point in the axes of F.
 class ModelBase {
  public:
   virtual ~ModelBase() noexcept = default;
