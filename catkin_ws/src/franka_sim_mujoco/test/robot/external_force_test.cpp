@@ -43,8 +43,9 @@ TEST_F(ArmTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
   std::printf("free motion: %.1f %% of the speed limit, wrench error %.5f N, %.6f Nm\n",
               100 * fastest, force, moment);
   EXPECT_GT(fastest, 0.88);
-  EXPECT_LT(force, 0.1);
-  EXPECT_LT(moment, 0.02);
+  // Asked for: 0.1 N and 0.02 Nm. This tight, a model evaluated at the wrong instant shows.
+  EXPECT_LT(force, 0.002);
+  EXPECT_LT(moment, 0.0005);
 }
 
 TEST_F(ArmTest, PushesAreReadInBaseAndStiffnessFrameWithTheSignOfTheRobotsOwnForce) {

@@ -144,8 +144,9 @@ TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
   std::printf("%s in free motion at %.1f %% of the speed limits: wrench error %.4f N, %.5f Nm\n",
               GetParam(), 100 * slowest, force, moment);
   EXPECT_GT(slowest, 0.88);
-  EXPECT_LT(force, 0.1);
-  EXPECT_LT(moment, 0.02);
+  // Asked for: 0.1 N and 0.02 Nm. This tight, a model evaluated at the wrong instant shows.
+  EXPECT_LT(force, 0.005);
+  EXPECT_LT(moment, 0.0005);
 }
 
 TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
