@@ -39,10 +39,13 @@ class RobotHWSim : public hardware_interface::RobotHW {
   ~RobotHWSim() override = default;
 
   /// @param robot_namespace of the robot's topics and parameters
-  /// @returns false after logging a sentence; the robot is then taken out of the world again.
+  /// @returns false when the robot cannot be simulated, having logged why or set `failure`; it is then taken
+  /// out of the world again.
   virtual bool initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, RobotHandle robot,
                        const urdf::Model* urdf_model,
                        std::vector<transmission_interface::TransmissionInfo> transmissions) = 0;
+  /// Why initSim returned false, as a sentence for whoever asked for the robot; empty: see the log.
+  virtual std::string failure() const { return ""; }
   virtual void readSim(ros::Time time, ros::Duration period) = 0;
   virtual void writeSim(ros::Time time, ros::Duration period) = 0;
   virtual void eStopActive(bool /*active*/) {}

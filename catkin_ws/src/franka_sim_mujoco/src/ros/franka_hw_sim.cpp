@@ -68,8 +68,7 @@ bool FrankaHWSim::initSim(const std::string& robot_namespace, ros::NodeHandle mo
     start(model_nh, robot, *urdf_model, transmissions);
     return true;
   } catch (const std::exception& error) {
-    ROS_ERROR_NAMED(kLog, "The simulated robot '%s' does not start: %s", robot.name.c_str(),
-                    error.what());
+    failure_ = error.what();
     return false;
   }
 }

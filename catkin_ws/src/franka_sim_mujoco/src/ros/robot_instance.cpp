@@ -74,8 +74,9 @@ void RobotInstance::startHardware(const RobotPlan& plan, World& world, HardwareL
   const ros::NodeHandle node(plan.robot_namespace);
   RobotHandle robot{&world, name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks)};
   if (!hardware_->initSim(plan.robot_namespace, node, std::move(robot), &plan.urdf, plan.transmissions)) {
-    throw std::runtime_error("The hardware '" + type + "' of '" + name_ +
-                             "' did not start; the log of the simulation says why.");
+    const std::string reason = hardware_->failure();
+    throw std::runtime_error("The hardware of '" + name_ + "' (" + type + ") does not start: " +
+                             (reason.empty() ? "the log of the simulation says why." : reason));
   }
   manager_ = std::make_unique<controller_manager::ControllerManager>(hardware_.get(), node);
 }

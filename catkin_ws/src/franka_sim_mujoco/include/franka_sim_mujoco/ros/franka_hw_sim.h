@@ -36,6 +36,7 @@ class FrankaHWSim : public RobotHWSim {
   bool initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, RobotHandle robot,
                const urdf::Model* urdf_model,
                std::vector<transmission_interface::TransmissionInfo> transmissions) override;
+  std::string failure() const override { return failure_; }
   void readSim(ros::Time time, ros::Duration period) override;
   void writeSim(ros::Time time, ros::Duration period) override;
   void worldWasReset() override;
@@ -70,6 +71,7 @@ class FrankaHWSim : public RobotHWSim {
   void publishInitialized(bool initialized);
   void report();
 
+  std::string failure_;
   std::string arm_id_;
   double singularity_threshold_{-1.0};
   std::array<Joint, kJoints> joints_;
