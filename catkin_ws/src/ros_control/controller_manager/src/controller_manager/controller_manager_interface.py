@@ -1,0 +1,118 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Calls the services of the controller manager in this namespace and prints how it went.
+
+All functions return whether it went well, and raise rospy.ROSException without a manager.
+"""
+
+import rospy
+from controller_manager_msgs.srv import (
+    ListControllers,
+    ListControllerTypes,
+    LoadController,
+    ReloadControllerLibraries,
+    SwitchController,
+    SwitchControllerRequest,
+    UnloadController,
+)
+
+LONGEST_WAIT = 10.0  # [s] for the manager to appear
+
+
+def _call(name, kind, *arguments, **fields):
+    name = "controller_manager/" + name
+    rospy.wait_for_service(name, LONGEST_WAIT)
+    return rospy.ServiceProxy(name, kind)(*arguments, **fields)
+
+
+def list_controller_types():
+    """Prints the types that could be loaded."""
+    for name in _call("list_controller_types", ListControllerTypes).types:
+        print(name)
+    return True
+
+
+def _controllers():
+    return _call("list_controllers", ListControllers).controller
+
+
+def reload_libraries(force_kill, restore=False):
+    """Loads the plugin libraries anew; with `restore`, the present controllers after it too."""
+    print(f"Restore: {restore}")
+    before = _controllers() if restore else []
+    if not _call("reload_controller_libraries", ReloadControllerLibraries, force_kill).ok:
+        print("Failed to reload libraries. Do you still have controllers loaded?")
+        return False
+    print("Successfully reloaded libraries")
+    if restore:
+        if not all([load_controller(controller.name) for controller in before]):
+            return False
+        running = [controller.name for controller in before if controller.state == "running"]
+        if running and not start_controllers(running):
+            return False
+        print("Controllers restored to original state")
+    return True
+
+
+def list_controllers():
+    """Prints the loaded controllers."""
+    controllers = _controllers()
+    if not controllers:
+        print("No controllers are loaded in mechanism control")
+    for controller in controllers:
+        interfaces = "+".join(one.hardware_interface for one in controller.claimed_resources)
+        print(f"'{controller.name}' - '{interfaces}' ( {controller.state} )")
+    return True
+
+
+def load_controller(name):
+    if _call("load_controller", LoadController, name).ok:
+        print(f"Loaded '{name}'")
+        return True
+    print(f"Error when loading '{name}'")
+    return False
+
+
+def unload_controller(name):
+    if _call("unload_controller", UnloadController, name).ok:
+        print(f"Unloaded '{name}' successfully")
+        return True
+    print(f"Error when unloading '{name}'")
+    return False
+
+
+def start_controller(name):
+    return start_controllers([name])
+
+
+def start_controllers(names):
+    return start_stop_controllers(start_controllers=names)
+
+
+def stop_controller(name):
+    return stop_controllers([name])
+
+
+def stop_controllers(names):
+    return start_stop_controllers(stop_controllers=names)
+
+
+def start_stop_controllers(start_controllers=(), stop_controllers=()):
+    """Starts and stops in one cycle; nothing happens when part of it is impossible."""
+    start = list(start_controllers)
+    stop = list(stop_controllers)
+    answer = _call(
+        "switch_controller",
+        SwitchController,
+        start_controllers=start,
+        stop_controllers=stop,
+        strictness=SwitchControllerRequest.STRICT,
+    )
+    if not answer.ok:
+        print(f"Error when starting {start} and stopping {stop}")
+        return False
+    if start:
+        print(f"Started {start} successfully")
+    if stop:
+        print(f"Stopped {stop} successfully")
+    return True

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The scripts controller_manager, unspawner and controller_group, and the Python helpers."""
+
+import sys
+import unittest
+
+import rospy
+import rostest
+from controller_manager_msgs import utils
+from scripts_common import Manager, Running, wait_until
+
+EFFORT = "hardware_interface::EffortJointInterface"
+
+
+def run(name, *arguments):
+    with Running(name, *arguments) as process:
+        return process.finish()
+
+
+class ToolsTest(unittest.TestCase):
+    def setUp(self):
+        self.manager = Manager()
+        self.manager.run_loop(True)
+
+    def tearDown(self):
+        run("controller_manager", "reload-libraries")
+        self.assertEqual({}, self.manager.states())
+
+    def check(self, expected_status, expected_texts, *arguments, name="controller_manager"):
+        status, output = run(name, *arguments)
+        for text in expected_texts:
+            self.assertIn(text, output)
+        self.assertEqual(expected_status, status, output)
+        self.assertNotIn("Traceback", output)
+
+    def test_controller_manager(self):
+        self.check(0, ["No controllers are loaded in mechanism control"], "list")
+        self.check(0, ["dummy/Good"], "lt")
+        self.check(0, ["Loaded 'a'"], "load", "a")
+        self.check(1, ["Error when loading 'a'"], "load", "a")
+        self.check(0, ["Started ['a'] successfully"], "start", "a")
+        self.check(1, ["Error when starting ['a'] and stopping []"], "start", "a")
+        self.check(0, [f"'a' - '{EFFORT}' ( running )"], "lc")
+        self.check(1, ["Error when unloading 'a'"], "unload", "a")
+        self.check(0, ["Stopped ['a'] successfully"], "stop", "a")
+        self.check(0, ["Unloaded 'a' successfully"], "unload", "a")
+        self.check(0, ["Loaded 'a'", "Loaded 'c'", "Started ['a', 'c']"], "spawn", "a", "c")
+        self.check(0, ["Stopped ['a']", "Unloaded 'a' successfully"], "kl", "a")
+        self.check(
+            0,
+            [
+                "Restore: True",
+                "Successfully reloaded libraries",
+                "Controllers restored to original state",
+            ],
+            "reload-libraries",
+            "--restore",
+        )
+        self.assertEqual({"c": "running"}, self.manager.states())
+
+    def test_usage(self):
+        self.check(0, ["usage: controller_manager"])
+        self.check(1, ["usage: controller_manager"], "dance")
+        self.check(1, ["usage: controller_manager"], "load")
+        self.check(1, ["usage: unspawner"], name="unspawner")
+        self.check(1, ["usage: unspawner"], "-h", name="unspawner")
+        self.check(0, ["usage: controller_group"], name="controller_group")
+        self.check(1, ["usage: controller_group"], "spawn", name="controller_group")
+
+    def test_unspawner(self):
+        run("controller_manager", "spawn", "a", "c")
+        with Running("unspawner", "a") as unspawner:
+            wait_until(lambda: self.manager.states()["a"] == "stopped", "never stopped")
+            self.assertEqual("running", self.manager.states()["c"])
+            run("controller_manager", "start", "a")
+            wait_until(lambda: self.manager.states()["a"] == "stopped", "not kept stopped")
+            status, _ = unspawner.interrupt()
+        self.assertEqual(0, status)
+        self.assertEqual({"a": "running", "c": "running"}, self.manager.states())
+
+    def test_controller_group(self):
+        name = "controller_group"
+        self.check(
+            0,
+            ["Number of groups: 2\n  left\n      a\n  right\n      b\n      c\n"],
+            "list",
+            name=name,
+        )
+        self.check(0, ["Loaded 'a'", "Started ['a'] successfully"], "spawn", "left", name=name)
+        self.check(0, ["Started ['b', 'c']", "Stopped ['a']"], "switch", "right", name=name)
+        self.assertEqual({"a": "stopped", "b": "running", "c": "running"}, self.manager.states())
+        self.check(1, ["There is no controller defined in group up"], "switch", "up", name=name)
+
+    def test_finding_managers(self):
+        self.assertEqual(
+            ["/controller_manager", "/other/controller_manager"], utils.get_controller_managers()
+        )
+        self.assertEqual(["/other/controller_manager"], utils.get_controller_managers("/other"))
+        self.assertTrue(utils.is_controller_manager("/controller_manager"))
+        self.assertFalse(utils.is_controller_manager("/"))
+        lister = utils.ControllerManagerLister("/other")
+        self.assertEqual(["/other/controller_manager"], lister())
+        self.assertEqual(["a", "b", "c"], utils.get_rosparam_controller_names())
+        self.assertEqual(["a"], utils.get_rosparam_controller_names("/other"))
+
+    def test_filtering_controllers(self):
+        run("controller_manager", "spawn", "a", "c")
+        controllers = utils.ControllerLister()()
+
+        def names(chosen):
+            return [one.name for one in chosen]
+
+        self.assertEqual(["a", "c"], names(controllers))
+        self.assertEqual(["a"], names(utils.filter_by_name(controllers, "a")))
+        self.assertEqual([], names(utils.filter_by_type(controllers, "Good")))
+        self.assertEqual(["a", "c"], names(utils.filter_by_type(controllers, "Good", True)))
+        self.assertEqual(["a", "c"], names(utils.filter_by_state(controllers, "running")))
+        self.assertEqual(
+            ["a", "c"], names(utils.filter_by_hardware_interface(controllers, EFFORT))
+        )
+        self.assertEqual(["a"], names(utils.filter_by_resources(controllers, ["j0", "j3"])))
+        self.assertEqual([], names(utils.filter_by_resources(controllers, ["j0", "j1"])))
+        self.assertEqual(
+            ["a", "c"], names(utils.filter_by_resources(controllers, ["j0", "j1"], EFFORT, True))
+        )
+        self.assertEqual([], names(utils.filter_by_resources(controllers, ["j0"], "other")))
+        self.assertEqual([], utils.ControllerLister("/nowhere")())
+
+
+if __name__ == "__main__":
+    rospy.init_node("tools_test")
+    rostest.rosrun("controller_manager", "tools_test", ToolsTest, sys.argv)

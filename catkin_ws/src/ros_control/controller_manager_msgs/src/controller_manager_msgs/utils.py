@@ -1,0 +1,145 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Finds controller managers and lists, and picks from, their controllers."""
+
+import rosgraph
+import rospy
+import rosservice
+from controller_manager_msgs.srv import ListControllers
+
+#: The services that make a controller manager, by name, with their types.
+cm_services = {
+    "list_controllers": "controller_manager_msgs/ListControllers",
+    "list_controller_types": "controller_manager_msgs/ListControllerTypes",
+    "load_controller": "controller_manager_msgs/LoadController",
+    "unload_controller": "controller_manager_msgs/UnloadController",
+    "switch_controller": "controller_manager_msgs/SwitchController",
+    "reload_controller_libraries": "controller_manager_msgs/ReloadControllerLibraries",
+}
+
+
+def _join(namespace, name):
+    return rosgraph.names.ns_join(namespace, name)
+
+
+def _is_service(name, kind):
+    try:
+        return rosservice.get_service_type(name) == kind
+    except rosservice.ROSServiceIOException:
+        return False
+
+
+def is_controller_manager(namespace):
+    """Whether all services of a controller manager are offered in this namespace."""
+    return bool(namespace) and all(
+        _is_service(_join(namespace, name), kind) for name, kind in cm_services.items()
+    )
+
+
+def get_controller_managers(namespace="/", initial_guess=None):
+    """Namespaces of the controller managers at or below a namespace, sorted.
+
+    `initial_guess` names managers known from before, which are asked first.
+    """
+    try:
+        services = rosservice.get_service_list()
+    except rosservice.ROSServiceIOException:
+        return []
+    root = namespace.rstrip("/") + "/"
+    candidates = set(initial_guess or [])
+    for service in services:
+        owner, _, name = service.rpartition("/")
+        if name == "list_controllers":
+            candidates.add(owner or "/")
+    inside = (one for one in candidates if (one.rstrip("/") + "/").startswith(root))
+    return sorted(one for one in inside if is_controller_manager(one))
+
+
+class ControllerManagerLister:
+    """Called, it returns the controller managers at or below a namespace, sorted."""
+
+    def __init__(self, namespace="/"):
+        self._namespace = namespace
+        self._managers = []
+
+    def __call__(self):
+        self._managers = get_controller_managers(self._namespace, self._managers)
+        return self._managers
+
+
+class ControllerLister:
+    """Called, it returns the controllers of one manager; an empty list when that fails."""
+
+    def __init__(self, namespace="/controller_manager"):
+        self._name = _join(namespace, "list_controllers")
+        self._service = self._connect()
+
+    def _connect(self):
+        return rospy.ServiceProxy(self._name, ListControllers, persistent=True)
+
+    def __call__(self):
+        # The manager may have been started anew since the last call: connect once more then.
+        for _ in range(2):
+            try:
+                return self._service().controller
+            except (rospy.ServiceException, rospy.ROSException, OSError):
+                self._service.close()
+                self._service = self._connect()
+        return []
+
+
+def _matches(value, pattern, match_substring):
+    return pattern in value if match_substring else pattern == value
+
+
+def filter_by_name(ctrl_list, ctrl_name, match_substring=False):
+    """Controllers of this name."""
+    return [one for one in ctrl_list if _matches(one.name, ctrl_name, match_substring)]
+
+
+def filter_by_type(ctrl_list, ctrl_type, match_substring=False):
+    """Controllers of this type."""
+    return [one for one in ctrl_list if _matches(one.type, ctrl_type, match_substring)]
+
+
+def filter_by_state(ctrl_list, ctrl_state, match_substring=False):
+    """Controllers in this state."""
+    return [one for one in ctrl_list if _matches(one.state, ctrl_state, match_substring)]
+
+
+def filter_by_hardware_interface(ctrl_list, hardware_interface, match_substring=False):
+    """Controllers that use this hardware interface."""
+    return [
+        one
+        for one in ctrl_list
+        if any(
+            _matches(claimed.hardware_interface, hardware_interface, match_substring)
+            for claimed in one.claimed_resources
+        )
+    ]
+
+
+def filter_by_resources(ctrl_list, resources, hardware_interface=None, match_any=False):
+    """Controllers that claim all, or any, of the resources, on one interface if it is given."""
+    wanted = set(resources)
+    result = []
+    for one in ctrl_list:
+        claimed = set()
+        for entry in one.claimed_resources:
+            if hardware_interface in (None, entry.hardware_interface):
+                claimed.update(entry.resources)
+        if (wanted & claimed) if match_any else wanted <= claimed:
+            result.append(one)
+    return result
+
+
+def get_rosparam_controller_names(namespace="/"):
+    """Names below a namespace that the parameter server describes a type for, sorted."""
+    root = namespace.rstrip("/") + "/"
+    names = set()
+    for parameter in rospy.get_param_names():
+        if parameter.startswith(root):
+            parts = parameter[len(root) :].split("/")
+            if len(parts) == 2 and parts[1] == "type":
+                names.add(parts[0])
+    return sorted(names)
