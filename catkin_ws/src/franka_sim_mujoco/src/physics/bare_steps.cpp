@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/physics/bare_steps.h>
+#include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <chrono>
-
-#include <mujoco/mujoco.h>
 
 #include "physics/world_impl.h"
 
@@ -13,7 +12,8 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-/// Under held torques an arm drifts away from where its controller keeps it: begin anew this often [ticks].
+/// Under held torques an arm drifts away from where its controller keeps it: begin anew this often
+/// [ticks].
 constexpr std::uint32_t kRound = 200;
 
 }  // namespace

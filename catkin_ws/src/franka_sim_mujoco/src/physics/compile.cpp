@@ -10,7 +10,8 @@ namespace {
 
 constexpr const char* kFileName = "merged.xml";
 
-/// MuJoCo's own handler prints and writes MUJOCO_LOG.TXT into the current folder, from inside the loop.
+/// MuJoCo's own handler prints and writes MUJOCO_LOG.TXT into the current folder, from inside the
+/// loop.
 void ignoreWarning(const char* /*message*/) {}
 
 }  // namespace

@@ -24,8 +24,8 @@ constexpr const char* kCondim = "3";
 constexpr const char* kGraspCondim = "4";
 constexpr double kTorsionalFriction = 0.005;  ///< MuJoCo's default [m]
 constexpr double kRollingFriction = 0.0001;   ///< MuJoCo's default [m]
-/// Rubber of the fingers and any other link, where the URDF names none (the fingers' value is that of
-/// the robot description, the other Gazebo's default).
+/// Rubber of the fingers and any other link, where the URDF names none (the fingers' value is that
+/// of the robot description, the other Gazebo's default).
 constexpr double kFingerFriction = 1.13;
 constexpr double kLinkFriction = 1.0;
 

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/gl_context.h"
 
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/osmesa.h>
 #include <dlfcn.h>
 
 #include <cstdlib>
 #include <stdexcept>
 #include <vector>
-
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <GL/osmesa.h>
 
 namespace franka_sim_mujoco::physics {
 namespace {
@@ -95,9 +94,16 @@ class EglContext final : public GlContext {
 class OsMesaContext final : public GlContext {
  public:
   OsMesaContext() : library_(load("libOSMesa.so.8")), buffer_(4 * kSize * kSize) {
-    const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA,       OSMESA_DEPTH_BITS,
-                              24,            OSMESA_STENCIL_BITS, 8,
-                              OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0, 0};
+    const int attributes[] = {OSMESA_FORMAT,
+                              OSMESA_RGBA,
+                              OSMESA_DEPTH_BITS,
+                              24,
+                              OSMESA_STENCIL_BITS,
+                              8,
+                              OSMESA_PROFILE,
+                              OSMESA_COMPAT_PROFILE,
+                              0,
+                              0};
     context_ = find<decltype(&OSMesaCreateContextAttribs)>(library_, "OSMesaCreateContextAttribs")(
         attributes, nullptr);
     if (context_ == nullptr) {

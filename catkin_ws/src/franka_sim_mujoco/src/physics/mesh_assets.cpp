@@ -74,7 +74,8 @@ std::string convertedFolder(const std::string& path) {
   return path.substr(0, rest) + "mujoco/" + path.substr(rest, path.rfind('.') - rest) + "/";
 }
 
-/// Value after `key` and a colon, up to one of `stops`; quotes and brackets before it do not matter.
+/// Value after `key` and a colon, up to one of `stops`; quotes and brackets before it do not
+/// matter.
 std::string valueAfter(const std::string& line, const std::string& key, const char* stops) {
   const std::size_t at = line.find(key);
   const std::size_t colon = at == std::string::npos ? at : line.find(':', at);
@@ -135,8 +136,8 @@ std::string collisionFile(const std::string& uri, const ResourceResolver& resolv
   }
   const std::string problem = meshProblem(path);
   if (!problem.empty()) {
-    throw std::runtime_error(where + ": the collision mesh " + path + " cannot be used: " +
-                             problem + ".");
+    throw std::runtime_error(where + ": the collision mesh " + path +
+                             " cannot be used: " + problem + ".");
   }
   return path;
 }

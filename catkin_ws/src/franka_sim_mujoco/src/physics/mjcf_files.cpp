@@ -109,8 +109,8 @@ void makeFilesAbsolute(XMLElement* root, const std::string& folder) {
        assets = assets->NextSiblingElement("asset")) {
     for (auto* e = assets->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       const std::string base = std::string(e->Name()) == "texture" ? textures : meshes;
-      for (const char* attribute : {"file", "fileright", "fileup", "fileleft", "filedown",
-                                    "filefront", "fileback"}) {
+      for (const char* attribute :
+           {"file", "fileright", "fileup", "fileleft", "filedown", "filefront", "fileback"}) {
         const std::string path = optional(*e, attribute);
         if (!path.empty()) {
           e->SetAttribute(attribute, inFolder(base.empty() ? folder : base, path).c_str());

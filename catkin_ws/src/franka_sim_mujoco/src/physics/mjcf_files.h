@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include <tinyxml2.h>
+
+#include <string>
 
 namespace franka_sim_mujoco::physics {
 
@@ -13,12 +13,13 @@ std::string folderOf(const std::string& file);
 
 /// Loads an MJCF file and puts the content of the files it includes in the place of <include>.
 /// @param title names the file in errors.
-/// @throws std::runtime_error with a sentence: unreadable, malformed, included twice or in a circle.
+/// @throws std::runtime_error with a sentence: unreadable, malformed, included twice or in a
+/// circle.
 void loadExpanded(const std::string& file, const std::string& title,
                   tinyxml2::XMLDocument* document);
 
-/// Makes the file names of meshes, textures, height fields and skins absolute (meshdir and texturedir are
-/// used up), so that the text can be compiled from anywhere.
+/// Makes the file names of meshes, textures, height fields and skins absolute (meshdir and
+/// texturedir are used up), so that the text can be compiled from anywhere.
 void makeFilesAbsolute(tinyxml2::XMLElement* root, const std::string& folder);
 
 }  // namespace franka_sim_mujoco::physics

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/mjcf_robot.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
-
-#include <Eigen/Eigenvalues>
 
 #include "physics/contact_settings.h"
 #include "physics/mesh_assets.h"
@@ -19,8 +18,8 @@ namespace {
 using tinyxml2::XMLElement;
 constexpr std::array<double, 4> kDefaultColour{0.85, 0.87, 0.9, 1};
 
-/// A cylinder with a ball of its radius on both ends is what a URDF can say for a capsule. MuJoCo has
-/// capsules, and collides them many times faster than cylinders.
+/// A cylinder with a ball of its radius on both ends is what a URDF can say for a capsule. MuJoCo
+/// has capsules, and collides them many times faster than cylinders.
 std::vector<std::pair<UrdfGeometry, bool>> findCapsules(const std::vector<UrdfGeometry>& shapes) {
   std::vector<std::pair<UrdfGeometry, bool>> result;
   std::set<std::size_t> used;
@@ -145,7 +144,8 @@ class Writer {
     for (const auto& [shape, is_capsule] : findCapsules(link.collisions)) {
       XMLElement* geom = writeGeom(shape, is_capsule, pose, body);
       if (shape.shape == UrdfGeometry::Shape::kMesh) {
-        const std::string where = "Robot '" + robot_.description.name + "', link '" + link.name + "'";
+        const std::string where =
+            "Robot '" + robot_.description.name + "', link '" + link.name + "'";
         setMesh(geom, collisionFile(shape.mesh, robot_.description.resolve, where), shape.scale);
       }
       const std::string name = link.name + "/collision_" + std::to_string(count++);
@@ -234,8 +234,7 @@ class Writer {
     const std::string key = file + " " + toText(scale);
     auto known = meshes_.find(key);
     if (known == meshes_.end()) {
-      const std::string name =
-          robot_.description.name + "/mesh_" + std::to_string(meshes_.size());
+      const std::string name = robot_.description.name + "/mesh_" + std::to_string(meshes_.size());
       XMLElement* mesh = append(target_.assets, "mesh");
       mesh->SetAttribute("name", name.c_str());
       mesh->SetAttribute("file", file.c_str());
@@ -300,8 +299,9 @@ class Writer {
     return count;
   }
 
-  /// Neighbours overlap by construction, and of the next but one neighbours the convex hulls of link5 and
-  /// link7 do (their joint stops, not their shapes, keep them apart). Fingers meet at their stop.
+  /// Neighbours overlap by construction, and of the next but one neighbours the convex hulls of
+  /// link5 and link7 do (their joint stops, not their shapes, keep them apart). Fingers meet at
+  /// their stop.
   bool mayCollide(int a, int b) const {
     const bool fingers = isFinger(robot_.urdf.links[robot_.segments[a].link]) &&
                          isFinger(robot_.urdf.links[robot_.segments[b].link]);
@@ -325,7 +325,8 @@ class Writer {
     }
   }
 
-  /// What is screwed to a link stands out from it: the hand can hit the forearm, though link 7 cannot.
+  /// What is screwed to a link stands out from it: the hand can hit the forearm, though link 7
+  /// cannot.
   void writeAttachedPairs(const Segment& with, const Segment& other) {
     for (const auto& [attached, attached_pose] : with.links) {
       if (attached == with.link || isFinger(robot_.urdf.links[other.link])) {
@@ -394,12 +395,8 @@ void writeRobot(const RobotModel& robot, const MjcfTarget& target) {
   Writer(robot, target).write();
 }
 
-std::string brakeName(const std::string& joint) {
-  return joint + "/brake";
-}
+std::string brakeName(const std::string& joint) { return joint + "/brake"; }
 
-std::string linkOfGeom(const std::string& geom) {
-  return geom.substr(0, geom.rfind('/'));
-}
+std::string linkOfGeom(const std::string& geom) { return geom.substr(0, geom.rfind('/')); }
 
 }  // namespace franka_sim_mujoco::physics

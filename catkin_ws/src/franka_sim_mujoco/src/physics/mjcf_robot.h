@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tinyxml2.h>
+
 #include <string>
 #include <vector>
-
-#include <tinyxml2.h>
 
 #include "physics/robot_model.h"
 
@@ -26,14 +26,15 @@ struct MjcfTarget {
   tinyxml2::XMLElement* worldbody;
   tinyxml2::XMLElement* contact;
   tinyxml2::XMLElement* equality;
-  bool visuals;               ///< shapes to look at instead of shapes to collide with
-  double angle_unit{1};       ///< [rad] of the document's angle unit
+  bool visuals;          ///< shapes to look at instead of shapes to collide with
+  double angle_unit{1};  ///< [rad] of the document's angle unit
   const std::vector<WorldGeom>* world;
 };
 
-/// Writes a robot into an MJCF document: bodies, joints, inertias, shapes, joint brakes (equalities that
-/// are inactive at first), coupled joints, what must not collide, and the contact pairs of a grasp.
-/// Every attribute that matters is written out, so that defaults of the world file do not reach it.
+/// Writes a robot into an MJCF document: bodies, joints, inertias, shapes, joint brakes (equalities
+/// that are inactive at first), coupled joints, what must not collide, and the contact pairs of a
+/// grasp. Every attribute that matters is written out, so that defaults of the world file do not
+/// reach it.
 /// @throws std::runtime_error with a sentence when a collision mesh cannot be used.
 void writeRobot(const RobotModel& robot, const MjcfTarget& target);
 

@@ -35,8 +35,8 @@ constexpr const char* kEmptyWorld = R"(<mujoco model="empty">
   </worldbody>
 </mujoco>)";
 
-/// The last element of that name below the root (robots come after everything of the world file); made
-/// when there is none.
+/// The last element of that name below the root (robots come after everything of the world file);
+/// made when there is none.
 XMLElement* section(XMLElement* root, const char* name) {
   XMLElement* found = root->LastChildElement(name);
   return found != nullptr ? found : append(root, name);
@@ -178,8 +178,8 @@ void MjcfWorld::inspect() {
   }
 }
 
-/// Of two surfaces the more slippery one decides, as in Gazebo; MuJoCo would take the rougher one. It
-/// takes the one of higher priority first, so the priority is the rank in slipperiness.
+/// Of two surfaces the more slippery one decides, as in Gazebo; MuJoCo would take the rougher one.
+/// It takes the one of higher priority first, so the priority is the rank in slipperiness.
 void MjcfWorld::rankFrictions(XMLElement* root) const {
   std::map<std::string, double> frictions;
   for (const WorldGeom& geom : geoms_) {
@@ -204,9 +204,12 @@ std::string MjcfWorld::merge(const std::vector<const RobotModel*>& robots, bool 
   tinyxml2::XMLDocument merged;
   document_.DeepCopy(&merged);
   XMLElement* root = merged.RootElement();
-  const MjcfTarget target{section(root, "asset"),    section(root, "worldbody"),
-                          section(root, "contact"),  section(root, "equality"),
-                          visuals,                   angle_unit_,
+  const MjcfTarget target{section(root, "asset"),
+                          section(root, "worldbody"),
+                          section(root, "contact"),
+                          section(root, "equality"),
+                          visuals,
+                          angle_unit_,
                           &geoms_};
   for (const RobotModel* robot : robots) {
     writeRobot(*robot, target);

@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tinyxml2.h>
+
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <tinyxml2.h>
 
 #include "physics/mjcf_robot.h"
 #include "physics/robot_model.h"
 
 namespace franka_sim_mujoco::physics {
 
-/// An MJCF world file, made ready for robots to be merged in: includes expanded, file names absolute,
-/// the physics settings of this simulator set, geoms named, and compiled once as a check.
+/// An MJCF world file, made ready for robots to be merged in: includes expanded, file names
+/// absolute, the physics settings of this simulator set, geoms named, and compiled once as a check.
 class MjcfWorld {
  public:
   /// @param file path of the MJCF; empty: ground, light and sky.

@@ -24,7 +24,8 @@ void MotorSide::addSubstep(const mjModel& model, const mjData& data) noexcept {
   for (int dof = 0; dof < model.nv; ++dof) {
     sum_[dof] += data.qfrc_applied[dof] - model.dof_damping[dof] * data.qvel[dof];
   }
-  // Rows stand in the order equality, dry friction, the rest; those wanted act on one dof with factor 1.
+  // Rows stand in the order equality, dry friction, the rest; those wanted act on one dof with
+  // factor 1.
   for (int row = 0; row < data.ne + data.nf; ++row) {
     const int id = data.efc_id[row];
     if (data.efc_type[row] == mjCNSTR_FRICTION_DOF) {
@@ -38,8 +39,8 @@ void MotorSide::addSubstep(const mjModel& model, const mjData& data) noexcept {
 void MotorSide::finishTick(const mjModel& model, const mjData& data, int substeps,
                            double period) noexcept {
   for (int dof = 0; dof < model.nv; ++dof) {
-    torque_[dof] = sum_[dof] / substeps -
-                   model.dof_armature[dof] * (data.qvel[dof] - velocity_[dof]) / period;
+    torque_[dof] =
+        sum_[dof] / substeps - model.dof_armature[dof] * (data.qvel[dof] - velocity_[dof]) / period;
   }
 }
 

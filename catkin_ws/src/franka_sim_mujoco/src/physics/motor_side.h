@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include <mujoco/mujoco.h>
+
+#include <vector>
 
 namespace franka_sim_mujoco::physics {
 
@@ -14,8 +14,8 @@ namespace franka_sim_mujoco::physics {
 /// Owned by the thread that steps; after `prepare` nothing allocates.
 class MotorSide {
  public:
-  /// Sizes everything for a model. @param brake_dofs for every equality the degree of freedom it brakes,
-  /// or -1 for other equalities.
+  /// Sizes everything for a model. @param brake_dofs for every equality the degree of freedom it
+  /// brakes, or -1 for other equalities.
   void prepare(const mjModel& model, std::vector<int> brake_dofs);
   /// Before the first substep of a tick.
   void startTick(const mjModel& model, const mjData& data) noexcept;

@@ -9,9 +9,7 @@ namespace franka_sim_mujoco::physics {
 namespace {
 
 /// A number that is none would make MuJoCo reset the whole world; no torque is the lesser evil.
-double finite(double value) noexcept {
-  return std::isfinite(value) ? value : 0.0;
-}
+double finite(double value) noexcept { return std::isfinite(value) ? value : 0.0; }
 
 }  // namespace
 

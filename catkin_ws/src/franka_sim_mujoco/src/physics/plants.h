@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/robot/plant.h>
+#include <mujoco/mujoco.h>
+
 #include <array>
 #include <string>
 
-#include <mujoco/mujoco.h>
-
-#include <franka_sim_mujoco/robot/plant.h>
 #include "physics/motor_side.h"
 
 namespace franka_sim_mujoco::physics {

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/physics/renderer.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include <Eigen/Core>
 
 #include "physics/compile.h"
 #include "physics/gl_context.h"
@@ -102,14 +101,13 @@ struct Renderer::Impl {
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 
-std::string Renderer::backend() const {
-  return impl_->gl->name();
-}
+std::string Renderer::backend() const { return impl_->gl->name(); }
 
 Picture Renderer::render(const Scene& scene, const Camera& camera, int width, int height) {
   if (width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture) {
     throw std::runtime_error("A picture of " + std::to_string(width) + " x " +
-                             std::to_string(height) + " pixels cannot be drawn; each side can have 1 to " +
+                             std::to_string(height) +
+                             " pixels cannot be drawn; each side can have 1 to " +
                              std::to_string(kLargestPicture) + ".");
   }
   if (!(camera.field_of_view > 1 && camera.field_of_view < 170)) {

@@ -11,8 +11,9 @@
 namespace franka_sim_mujoco::physics {
 namespace {
 
-/// Apparent mass of a finger when the description gives none: motor and gear of the hand are far heavier
-/// than the 15 g finger (our choice; it keeps a finger's force loop at 1 kHz well damped) [kg].
+/// Apparent mass of a finger when the description gives none: motor and gear of the hand are far
+/// heavier than the 15 g finger (our choice; it keeps a finger's force loop at 1 kHz well damped)
+/// [kg].
 constexpr double kFingerArmature = 0.1;
 /// MuJoCo refuses moving bodies lighter than this [kg], [kg m^2].
 constexpr double kSmallest = 1e-12;
@@ -108,8 +109,8 @@ class Builder {
   }
 
   void checkMass(const Segment& segment) const {
-    if (segment.joint >= 0 && (segment.inertial.mass < kSmallest ||
-                               segment.inertial.inertia.trace() < 3 * kSmallest)) {
+    if (segment.joint >= 0 &&
+        (segment.inertial.mass < kSmallest || segment.inertial.inertia.trace() < 3 * kSmallest)) {
       fail(robot_->description, "link '" + urdf_.links[segment.link].name +
                                     "' moves but has no mass and inertia; make its URDF with the "
                                     "xacro argument gazebo:=true.");
@@ -128,9 +129,9 @@ void checkNames(const RobotModel& robot, const std::map<std::string, double>& va
                                   "', which is not a moving joint of its URDF.");
     }
     if (!std::isfinite(value) || (!negative_allowed && value < 0)) {
-      fail(robot.description,
-           std::string(what) + " of joint '" + joint + "' is " + toText({value}) + "; it must be " +
-               (negative_allowed ? "finite." : "finite and not negative."));
+      fail(robot.description, std::string(what) + " of joint '" + joint + "' is " +
+                                  toText({value}) + "; it must be " +
+                                  (negative_allowed ? "finite." : "finite and not negative."));
     }
   }
 }

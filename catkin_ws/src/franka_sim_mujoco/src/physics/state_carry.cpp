@@ -37,8 +37,7 @@ void carryJoint(const mjModel& from, const mjData& source, int j, const mjModel&
   if (k < 0 || to.jnt_type[k] != type) {
     return;
   }
-  std::copy_n(source.qpos + from.jnt_qposadr[j], positions(type),
-              target->qpos + to.jnt_qposadr[k]);
+  std::copy_n(source.qpos + from.jnt_qposadr[j], positions(type), target->qpos + to.jnt_qposadr[k]);
   const int from_dof = from.jnt_dofadr[j];
   const int to_dof = to.jnt_dofadr[k];
   std::copy_n(source.qvel + from_dof, velocities(type), target->qvel + to_dof);

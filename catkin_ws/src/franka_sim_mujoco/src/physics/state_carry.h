@@ -6,8 +6,9 @@
 
 namespace franka_sim_mujoco::physics {
 
-/// Copies positions, velocities, warm starts and applied forces of all joints, motion-capture bodies and
-/// actuators that both models have, by name (joints without a name: by the name of their body).
+/// Copies positions, velocities, warm starts and applied forces of all joints, motion-capture
+/// bodies and actuators that both models have, by name (joints without a name: by the name of their
+/// body).
 void carryState(const mjModel& from, const mjData& from_data, const mjModel& to, mjData* to_data);
 
 }  // namespace franka_sim_mujoco::physics

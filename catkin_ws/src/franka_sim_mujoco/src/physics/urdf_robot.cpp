@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/urdf_robot.h"
 
+#include <Eigen/Eigenvalues>
 #include <map>
 #include <stdexcept>
-
-#include <Eigen/Eigenvalues>
 
 #include "physics/xml_util.h"
 
@@ -21,8 +20,7 @@ using Materials = std::map<std::string, std::array<double, 4>>;
 
 Eigen::Vector3d vector3(const XMLElement& element, const char* attribute,
                         const std::array<double, 3>& fallback, const std::string& where) {
-  const auto values =
-      numbers(element, attribute, {fallback[0], fallback[1], fallback[2]}, where);
+  const auto values = numbers(element, attribute, {fallback[0], fallback[1], fallback[2]}, where);
   return {values[0], values[1], values[2]};
 }
 
@@ -47,8 +45,8 @@ Eigen::Isometry3d readOrigin(const XMLElement& parent, const std::string& where)
 double positive(const XMLElement& element, const char* attribute, const std::string& where) {
   const double value = number(element, attribute, where);
   if (value <= 0) {
-    fail(where, std::string("'") + attribute + "' of <" + element.Name() +
-                    "> must be greater than zero.");
+    fail(where,
+         std::string("'") + attribute + "' of <" + element.Name() + "> must be greater than zero.");
   }
   return value;
 }
@@ -287,8 +285,7 @@ void findRoot(UrdfRobot* robot, const std::string& where) {
     }
     robot->root = static_cast<int>(i);
   }
-  if (robot->root < 0 ||
-      countBelow(*robot, robot->root) != static_cast<int>(robot->links.size())) {
+  if (robot->root < 0 || countBelow(*robot, robot->root) != static_cast<int>(robot->links.size())) {
     fail(where, "its joints form a loop; a robot is a tree.");
   }
 }

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 namespace franka_sim_mujoco::physics {
 
@@ -23,8 +22,8 @@ struct UrdfGeometry {
 };
 
 struct UrdfInertial {
-  double mass{0};                                 ///< [kg]
-  Eigen::Vector3d com{Eigen::Vector3d::Zero()};   ///< link frame [m]
+  double mass{0};                                    ///< [kg]
+  Eigen::Vector3d com{Eigen::Vector3d::Zero()};      ///< link frame [m]
   Eigen::Matrix3d inertia{Eigen::Matrix3d::Zero()};  ///< about com, link axes [kg m^2]
 };
 
@@ -63,8 +62,8 @@ struct UrdfRobot {
 
 /// Reads a URDF text.
 /// @throws std::runtime_error with a sentence that names the robot, the element and what is wrong:
-/// XML errors, duplicate names, unknown links, two roots or parents, loops, unsupported joint types,
-/// numbers that are none, limits in the wrong order, inertias that are not positive.
+/// XML errors, duplicate names, unknown links, two roots or parents, loops, unsupported joint
+/// types, numbers that are none, limits in the wrong order, inertias that are not positive.
 UrdfRobot readUrdf(const std::string& text, const std::string& robot_name);
 
 }  // namespace franka_sim_mujoco::physics

@@ -15,9 +15,7 @@ Eigen::Vector3d vector(const std::array<double, 3>& values) {
   return Eigen::Map<const Eigen::Vector3d>(values.data());
 }
 
-std::array<double, 3> array(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
+std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 void checkFinite(const std::array<double, 3>& values, const char* what) {
   if (!vector(values).allFinite()) {
@@ -122,21 +120,13 @@ bool World::hasHand(const std::string& robot, const std::string& arm_id) const {
   return model.moves(arm_id + "_finger_joint1") && model.moves(arm_id + "_finger_joint2");
 }
 
-void World::step() noexcept {
-  impl_->step();
-}
+void World::step() noexcept { impl_->step(); }
 
-std::uint64_t World::ticks() const noexcept {
-  return impl_->ticks;
-}
+std::uint64_t World::ticks() const noexcept { return impl_->ticks; }
 
-double World::time() const noexcept {
-  return static_cast<double>(impl_->ticks) * kTick;
-}
+double World::time() const noexcept { return static_cast<double>(impl_->ticks) * kTick; }
 
-void World::reset() {
-  impl_->reset();
-}
+void World::reset() { impl_->reset(); }
 
 std::array<double, 3> World::gravity() const {
   const double* g = impl_->model->opt.gravity;
@@ -227,16 +217,15 @@ std::vector<Contact> World::contacts() const {
     mj_contactForce(impl_->model.get(), impl_->data.get(), c, local);
     // Rows of `frame` are the contact's axes; the first points from geom 1 to geom 2.
     mju_rotVecMatT(force, local, contact.frame);
-    result.push_back({impl_->geom_links[contact.geom1], impl_->geom_links[contact.geom2],
+    result.push_back({impl_->geom_links[contact.geom1],
+                      impl_->geom_links[contact.geom2],
                       {contact.pos[0], contact.pos[1], contact.pos[2]},
                       {force[0], force[1], force[2]}});
   }
   return result;
 }
 
-std::uint64_t World::stateHash() const noexcept {
-  return impl_->hash();
-}
+std::uint64_t World::stateHash() const noexcept { return impl_->hash(); }
 
 std::string World::mjcf(bool visuals) const {
   std::vector<const physics::RobotModel*> robots;

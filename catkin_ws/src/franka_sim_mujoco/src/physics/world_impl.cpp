@@ -56,7 +56,8 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates) 
     list.push_back(robot.get());
   }
   const std::string title =
-      list.empty() ? world.title() : world.title() + " with robot '" + list.back()->description.name + "'";
+      list.empty() ? world.title()
+                   : world.title() + " with robot '" + list.back()->description.name + "'";
   physics::ModelPtr new_model = physics::compile(world.merge(list, false), title);
   physics::DataPtr new_data = physics::makeData(*new_model);
   mj_resetData(new_model.get(), new_data.get());
@@ -92,8 +93,8 @@ void World::Impl::index() {
   }
   for (const auto& robot : robots) {
     for (const physics::Segment& segment : robot->segments) {
-      const int body = mj_name2id(model.get(), mjOBJ_BODY,
-                                  robot->urdf.links[segment.link].name.c_str());
+      const int body =
+          mj_name2id(model.get(), mjOBJ_BODY, robot->urdf.links[segment.link].name.c_str());
       for (const auto& [link, pose] : segment.links) {
         frames[robot->urdf.links[link].name] = {body, pose};
       }
@@ -175,7 +176,8 @@ int World::Impl::freeJoint(const std::string& body) const {
   const Frame found = frame(body);
   const int joint = model->body_jntnum[found.body] > 0 ? model->body_jntadr[found.body] : -1;
   if (joint < 0 || model->jnt_type[joint] != mjJNT_FREE) {
-    throw std::runtime_error("Body '" + body + "' is not free to move; it cannot be put elsewhere.");
+    throw std::runtime_error("Body '" + body +
+                             "' is not free to move; it cannot be put elsewhere.");
   }
   return joint;
 }

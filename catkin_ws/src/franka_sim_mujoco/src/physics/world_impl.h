@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/physics/world.h>
+
+#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include <franka_sim_mujoco/physics/world.h>
 #include "physics/compile.h"
 #include "physics/mjcf_world.h"
 #include "physics/motor_side.h"
@@ -21,7 +21,7 @@ namespace franka_sim_mujoco {
 struct Push {
   std::string body_name;  ///< to find the body again in a new model
   int body;
-  Eigen::Vector3d point;  ///< MuJoCo body frame [m]
+  Eigen::Vector3d point;          ///< MuJoCo body frame [m]
   Eigen::Vector3d force, torque;  ///< world axes [N] [Nm]
   std::uint64_t ticks_left;
 };
@@ -52,9 +52,10 @@ struct World::Impl {
   std::uint64_t ticks{0};
   bool kinematics_fresh{false};
   std::vector<double> kept_qpos;  ///< room for a copy, so that looking allocates nothing
-  std::string visual_mjcf;  ///< for pictures; written when first asked for
+  std::string visual_mjcf;        ///< for pictures; written when first asked for
 
-  /// The merged model of the given robots with the present state carried over by name. Strong guarantee.
+  /// The merged model of the given robots with the present state carried over by name. Strong
+  /// guarantee.
   void rebuild(std::vector<std::unique_ptr<physics::RobotModel>>* candidates);
   void step() noexcept;
   void reset();

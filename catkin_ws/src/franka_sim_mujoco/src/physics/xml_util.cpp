@@ -26,9 +26,7 @@ std::string toText(std::initializer_list<double> values) {
   return toText(values.begin(), values.size());
 }
 
-std::string toText(const Eigen::Vector3d& vector) {
-  return toText(vector.data(), 3);
-}
+std::string toText(const Eigen::Vector3d& vector) { return toText(vector.data(), 3); }
 
 std::string toText(const Eigen::Quaterniond& quaternion) {
   return toText({quaternion.w(), quaternion.x(), quaternion.y(), quaternion.z()});

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <initializer_list>
-#include <string>
-#include <vector>
-
 #include <tinyxml2.h>
 
 #include <Eigen/Geometry>
+#include <initializer_list>
+#include <string>
+#include <vector>
 
 namespace franka_sim_mujoco::physics {
 

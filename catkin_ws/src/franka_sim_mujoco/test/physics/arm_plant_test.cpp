@@ -46,8 +46,8 @@ TEST_P(ArmPlantTest, torqueAtRestIsGravity) {
   }
 }
 
-/// In motion tau_J = M_link a + c + g at a point between the ticks (decision 3): the rotors' share is
-/// not in it. Independent answer: ArmModel.
+/// In motion tau_J = M_link a + c + g at a point between the ticks (decision 3): the rotors' share
+/// is not in it. Independent answer: ArmModel.
 TEST_P(ArmPlantTest, torqueInMotionIsThatOfTheLinksAlone) {
   put(robot(id()));
   double worst = 0, rotor = 0;

@@ -1,9 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // A stone between two fingers, held by friction alone.
-#include <cmath>
-
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "test_support.h"
 
@@ -46,8 +45,8 @@ class GraspTest : public ::testing::TestWithParam<const char*> {
   }
 
   Eigen::Vector3d stoneInHand() {
-    return (toEigen(world_.bodyPose(id() + "_hand")).inverse() *
-            toEigen(world_.bodyPose("stone"))).translation();
+    return (toEigen(world_.bodyPose(id() + "_hand")).inverse() * toEigen(world_.bodyPose("stone")))
+        .translation();
   }
 
   /// Sum of the forces on the stone from one finger, world axes [N].

@@ -46,7 +46,8 @@ TEST_F(MjcfWorldTest, saysWhatIsWrong) {
   refuses("", {"not well-formed"});
   refuses("<mujoco><worldbody>", {"not well-formed"});
   refuses("<sdf version='1.6'/>", {"<sdf>", "<mujoco>"});
-  refuses("<mujoco><worldbody><geom type='cube'/></worldbody></mujoco>", {"MuJoCo refuses", "cube"});
+  refuses("<mujoco><worldbody><geom type='cube'/></worldbody></mujoco>",
+          {"MuJoCo refuses", "cube"});
   refuses("<mujoco><compiler settotalmass='3'/></mujoco>", {"settotalmass", "robots"});
   refuses("<mujoco><include file='gone.xml'/></mujoco>", {"gone.xml", "opened"});
   refuses("<mujoco><include file='bad.xml'/></mujoco>", {"bad.xml", "twice"});
@@ -146,7 +147,8 @@ TEST_F(MjcfWorldTest, aGraspIsPreparedForEveryFreeBody) {
 TEST_F(MjcfWorldTest, missingCollisionMeshIsNamed) {
   World world;
   RobotDescription description = robot("panda");
-  const std::string box = "<collision><geometry><mesh filename=\"package://x/a.stl\"/></geometry></collision>";
+  const std::string box =
+      "<collision><geometry><mesh filename=\"package://x/a.stl\"/></geometry></collision>";
   const std::string link = "<link name=\"panda_link5\">";
   ASSERT_NE(std::string::npos, description.urdf.find(link));
   description.urdf = replaceAll(description.urdf, link, link + box);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One tick of World against the bare mj_step calls of the same model, side by side in one run.
 #include <benchmark/benchmark.h>
+#include <franka_sim_mujoco/physics/world.h>
+#include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <array>
@@ -10,10 +12,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-
-#include <mujoco/mujoco.h>
-
-#include <franka_sim_mujoco/physics/world.h>
 
 namespace {
 
@@ -46,8 +44,8 @@ RobotDescription panda() {
 }
 
 std::unique_ptr<World> makeWorld(bool stone) {
-  auto world = std::make_unique<World>(
-      std::string(FRANKA_SIM_WORLDS) + (stone ? "/stone.xml" : "/empty.xml"));
+  auto world = std::make_unique<World>(std::string(FRANKA_SIM_WORLDS) +
+                                       (stone ? "/stone.xml" : "/empty.xml"));
   world->addRobot(panda());
   return world;
 }

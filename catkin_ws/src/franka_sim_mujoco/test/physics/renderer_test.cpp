@@ -53,7 +53,8 @@ TEST_F(RendererTest, usesTheBackendThatWasAskedFor) {
   }
 }
 
-/// From above: x of the world points up in the picture, y to the left; blue tray right, red tray left.
+/// From above: x of the world points up in the picture, y to the left; blue tray right, red tray
+/// left.
 TEST_F(RendererTest, showsTheTraysWhereTheyStand) {
   const Picture picture = renderer_->render(captureScene(*world_), above(), 320, 240);
   ASSERT_EQ(3u * 320 * 240, picture.rgb.size());

@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/arm_model.h>
+#include <franka_sim_mujoco/physics/world.h>
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
-
-#include <gtest/gtest.h>
-
-#include <franka_core/arm_model.h>
-#include <franka_sim_mujoco/physics/world.h>
 
 namespace franka_sim_mujoco::test {
 
@@ -58,9 +57,7 @@ inline RobotDescription robot(const std::string& kind, const std::string& arm_id
   return description;
 }
 
-inline RobotDescription robot(const std::string& kind) {
-  return robot(kind, kind);
-}
+inline RobotDescription robot(const std::string& kind) { return robot(kind, kind); }
 
 /// The hand with closed fingers as payload at the flange, from the numbers of the description.
 inline franka_core::Payload handPayload() {
@@ -75,7 +72,8 @@ inline franka_core::Payload handPayload() {
   franka_core::Payload hand = body(0.73, {-0.01, 0, 0.03}, {0.001, 0.0025, 0.0017});
   hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
   hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
-  // The hand is turned by -45 degrees about the flange's z: R diag-like I R^T, done by hand in the plane.
+  // The hand is turned by -45 degrees about the flange's z: R diag-like I R^T, done by hand in the
+  // plane.
   constexpr double kC = 0.70710678118654752440;
   franka_core::Payload turned = hand;
   turned.com = {kC * hand.com[0] + kC * hand.com[1], -kC * hand.com[0] + kC * hand.com[1],

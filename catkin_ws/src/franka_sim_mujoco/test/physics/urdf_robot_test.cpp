@@ -11,7 +11,8 @@ namespace franka_sim_mujoco::test {
 namespace {
 
 constexpr const char* kInertial =
-    "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+    "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+    "iyz='0'/></inertial>";
 
 /// base -j-> arm, with what the test wants in between.
 std::string twoLinks(const std::string& joint, const std::string& arm = kInertial) {
@@ -76,10 +77,12 @@ TEST(UrdfRobotTest, saysWhatIsWrong) {
           {"'nan'", "finite"});
   refuses(twoLinks(hinge("<mimic joint='k'/><limit lower='-1' upper='1'/>")), {"mimics 'k'"});
   refuses(twoLinks(hinge("<mimic joint='j'/><limit lower='-1' upper='1'/>")), {"mimics 'j'"});
-  refuses(twoLinks(hinge(), "<inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>"),
+  refuses(twoLinks(hinge(),
+                   "<inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>"),
           {"link 'arm'", "negative"});
-  refuses(twoLinks(hinge(), "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='3'/></inertial>"),
-          {"link 'arm'", "principal moments"});
+  refuses(
+      twoLinks(hinge(), "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='3'/></inertial>"),
+      {"link 'arm'", "principal moments"});
   refuses(twoLinks(hinge(), "<inertial><mass value='1'/></inertial>"), {"<inertia>"});
   refuses(twoLinks(hinge(), "<collision/>"), {"link 'arm'", "no geometry"});
   refuses(twoLinks(hinge(), "<collision><geometry><cone/></geometry></collision>"), {"<cone>"});
@@ -94,7 +97,8 @@ TEST(UrdfRobotTest, refusesLoopsAndTwoParents) {
       "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
       "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>";
   refuses(loop, {"loop"});
-  refuses(twoLinks(hinge() + "<joint name='k' type='fixed'><parent link='base'/><child link='arm'/></joint>"),
+  refuses(twoLinks(hinge() +
+                   "<joint name='k' type='fixed'><parent link='base'/><child link='arm'/></joint>"),
           {"'arm'", "two joints", "'j'", "'k'"});
 }
 

@@ -8,9 +8,9 @@ namespace franka_sim_mujoco {
 
 class World;
 
-/// What the bare mj_step calls of a tick take [us], with the same model and substeps, from the present state
-/// with the present torques held: the reference of the simulation's benchmark. Works on copies of the state;
-/// the world is left as it is. Allocates.
+/// What the bare mj_step calls of a tick take [us], with the same model and substeps, from the
+/// present state with the present torques held: the reference of the simulation's benchmark. Works
+/// on copies of the state; the world is left as it is. Allocates.
 double bareTickMicroseconds(World& world, std::uint32_t ticks);
 
 }  // namespace franka_sim_mujoco

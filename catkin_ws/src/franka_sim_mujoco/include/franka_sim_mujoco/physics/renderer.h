@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/physics/world.h>
+
 #include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <franka_sim_mujoco/physics/world.h>
 
 namespace franka_sim_mujoco {
 
@@ -32,11 +32,12 @@ struct Picture {
   std::vector<std::uint8_t> rgb;  ///< rows from top to bottom, 3 bytes a pixel
 };
 
-/// Takes what `Renderer` needs from a world (the stepping thread calls it, between ticks; it allocates).
+/// Takes what `Renderer` needs from a world (the stepping thread calls it, between ticks; it
+/// allocates).
 Scene captureScene(World& world);
 
-/// Draws scenes without a display: EGL surfaceless or OSMesa, whichever the machine has (decision 38:
-/// shadow map at most 1024, no multisampling). One thread owns a renderer.
+/// Draws scenes without a display: EGL surfaceless or OSMesa, whichever the machine has (decision
+/// 38: shadow map at most 1024, no multisampling). One thread owns a renderer.
 class Renderer {
  public:
   /// @throws std::runtime_error with a sentence when no way of drawing is found.
@@ -44,7 +45,8 @@ class Renderer {
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
-  /// @throws std::runtime_error with a sentence when the size, the camera or the scene cannot be drawn.
+  /// @throws std::runtime_error with a sentence when the size, the camera or the scene cannot be
+  /// drawn.
   Picture render(const Scene& scene, const Camera& camera, int width, int height);
   /// "EGL" or "OSMesa".
   std::string backend() const;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/robot/plant.h>
+
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -9,8 +11,6 @@
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <franka_sim_mujoco/robot/plant.h>
 
 namespace franka_sim_mujoco {
 
@@ -20,7 +20,8 @@ struct Pose {
   std::array<double, 4> orientation{{1, 0, 0, 0}};
 };
 
-/// Turns `package://name/path` (or `file://`, or a plain path) into a file name; empty when unknown.
+/// Turns `package://name/path` (or `file://`, or a plain path) into a file name; empty when
+/// unknown.
 using ResourceResolver = std::function<std::string(const std::string& uri)>;
 
 /// A robot to put into the world: its simulatable URDF (xacro argument gazebo:=true).
@@ -85,9 +86,11 @@ class World {
 
   std::array<double, 3> gravity() const;
   Pose bodyPose(const std::string& body) const;
-  void setBodyPose(const std::string& body, const Pose& pose);  ///< free bodies only; velocity becomes 0
+  void setBodyPose(const std::string& body,
+                   const Pose& pose);  ///< free bodies only; velocity becomes 0
   JointMeasurement joint(const std::string& joint) const;
-  void setJointPosition(const std::string& joint, double position);  ///< teleport; velocity becomes 0
+  void setJointPosition(const std::string& joint,
+                        double position);  ///< teleport; velocity becomes 0
   /// A force and torque on a body at its origin or at `point` (world), for `ticks` ticks from now.
   void push(const std::string& body, const std::array<double, 3>& force,
             const std::array<double, 3>& torque, std::uint64_t ticks);
@@ -97,8 +100,8 @@ class World {
   /// Bytes that identify the whole dynamic state: equal hash, equal future (decision 22).
   std::uint64_t stateHash() const noexcept;
 
-  /// The merged model as MJCF text, for a look and for reference benchmarks. `visuals` adds the visual
-  /// meshes, which the stepped model leaves out.
+  /// The merged model as MJCF text, for a look and for reference benchmarks. `visuals` adds the
+  /// visual meshes, which the stepped model leaves out.
   std::string mjcf(bool visuals) const;
 
   struct Impl;
