@@ -40,7 +40,7 @@ sim_test(physics_test
   LIBRARIES franka_sim_physics ${MUJOCO_LIBRARY} PkgConfig::TINYXML2 Franka::Core)
 
 sim_test(ros_parts_test SOURCES test/ros/parts_test.cpp
-  LIBRARIES franka_sim_ros franka_hw_sim franka_gripper_sim)
+  LIBRARIES franka_sim_ros)
 
 find_package(rostest REQUIRED)
 foreach(name simulation parameters)

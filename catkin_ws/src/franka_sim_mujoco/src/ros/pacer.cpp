@@ -13,12 +13,20 @@ constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
 constexpr std::int64_t kForgivenDelay = 50000000;  // [ns] (our choice)
 constexpr double kTickNanoseconds = 1e6;
 
+std::int64_t nanoseconds(clockid_t clock) noexcept {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
+}
+
 }  // namespace
 
 std::int64_t monotonicNanoseconds() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
+  return nanoseconds(CLOCK_MONOTONIC);
+}
+
+std::int64_t threadNanoseconds() noexcept {
+  return nanoseconds(CLOCK_THREAD_CPUTIME_ID);
 }
 
 bool Pacer::setFactor(double factor) noexcept {

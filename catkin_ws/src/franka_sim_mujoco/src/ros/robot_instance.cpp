@@ -28,9 +28,9 @@ std::string availableName(HardwareLoader& loader, const std::string& type) {
 /// Adds the time since its making to a sum, when there is one.
 class Stopwatch {
  public:
-  explicit Stopwatch(bool runs) noexcept : last_(runs ? monotonicNanoseconds() : 0) {}
+  explicit Stopwatch(bool runs) noexcept : last_(runs ? threadNanoseconds() : 0) {}
   void lap(std::int64_t& sum) noexcept {
-    const std::int64_t now = monotonicNanoseconds();
+    const std::int64_t now = threadNanoseconds();
     sum += now - last_;
     last_ = now;
   }

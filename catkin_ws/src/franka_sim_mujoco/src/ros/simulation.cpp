@@ -216,12 +216,12 @@ Simulation::Benchmark Simulation::benchmark(std::uint32_t ticks) {
   Benchmark result;
   requests_.run([&] {
     TickTimes times;
-    const std::int64_t start = monotonicNanoseconds();
+    const std::int64_t start = threadNanoseconds();
     for (std::uint32_t i = 0; i < ticks; ++i) {
       tick(&times);
     }
     const double scale = 1e-3 / ticks;
-    result.tick = scale * static_cast<double>(monotonicNanoseconds() - start);
+    result.tick = scale * static_cast<double>(threadNanoseconds() - start);
     result.read = scale * static_cast<double>(times.read);
     result.update = scale * static_cast<double>(times.update);
     result.write = scale * static_cast<double>(times.write);

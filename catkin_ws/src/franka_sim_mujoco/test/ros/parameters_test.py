@@ -129,6 +129,7 @@ class ParametersTest(unittest.TestCase):
                                         "-gazebo_namespace", "/nobody")
         self.assertEqual(status, 1, text)
         self.assertIn("/nobody/spawn_robot", text)
+        rospy.set_param("/script/arm_id", "panda")
         status, text = self.run_spawner("-param", "panda_description", "-model", "panda", "-robot_namespace",
                                         "/script", "-J", "panda_joint2", "-0.5")
         self.assertEqual(status, 0, text)

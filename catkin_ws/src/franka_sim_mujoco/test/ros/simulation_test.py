@@ -51,9 +51,7 @@ def state_when(condition):
 
 def action(name, kind):
     client = actionlib.SimpleActionClient(name, kind)
-    end = time.monotonic() + WAIT
-    while not client.action_client.last_status_msg and time.monotonic() < end:
-        time.sleep(0.02)
+    client.wait_for_server()  # bounded by the time limit of the test
     return client
 
 

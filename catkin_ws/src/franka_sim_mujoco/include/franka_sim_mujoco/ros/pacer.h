@@ -32,4 +32,7 @@ class Pacer {
 /// The monotonic clock [ns].
 std::int64_t monotonicNanoseconds() noexcept;
 
+/// What the calling thread has computed so far [ns]: for benchmarks, which other programs shall not disturb.
+std::int64_t threadNanoseconds() noexcept;
+
 }  // namespace franka_sim_mujoco

@@ -63,7 +63,8 @@ class Simulation {
   /// Runs work on the world in the stepping thread, between ticks.
   void withWorld(const std::function<void(World&)>& work);
 
-  /// What each part of a tick takes, in microseconds, over `ticks` ticks without waiting.
+  /// What each part of a tick takes of the stepping thread's computing time [us], over `ticks` ticks without
+  /// waiting. Physics includes the publishing of /clock.
   struct Benchmark {
     double tick{0}, physics{0}, read{0}, update{0}, write{0}, bare{0};
   };
