@@ -10,7 +10,7 @@ function(sim_test name)
   if(TARGET ${PROJECT_NAME}_${name})
     target_include_directories(${PROJECT_NAME}_${name} PRIVATE
       ${FRANKA_TEST_INCLUDE_DIR} src ${MUJOCO_INCLUDE_DIR})
-    target_link_libraries(${PROJECT_NAME}_${name} ${ARG_LIBRARIES} ${CMAKE_DL_LIBS} Threads::Threads)
+    target_link_libraries(${PROJECT_NAME}_${name} ${ARG_LIBRARIES} gtest_main ${CMAKE_DL_LIBS} Threads::Threads)
     target_compile_definitions(${PROJECT_NAME}_${name} PRIVATE
       FRANKA_SIM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/physics/data"
       FRANKA_SIM_WORLDS="${CMAKE_CURRENT_SOURCE_DIR}/worlds")
