@@ -52,8 +52,7 @@ void checkSimTime() {
   }
 }
 
-int run() {
-  ros::NodeHandle node;
+void run(ros::NodeHandle& node) {
   ros::NodeHandle private_node("~");
   checkSimTime();
   sim::Simulation simulation(readOptions(private_node), node);
@@ -69,15 +68,20 @@ int run() {
   pictures.reset();
   services.reset();
   spinner.stop();
-  return EXIT_SUCCESS;
+  if (simulation.failed()) {
+    throw std::runtime_error("The simulation ended by itself; the lines above say why.");
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "gazebo");
+  // Outlives the catch: the log falls silent when the last node handle goes.
+  ros::NodeHandle node;
   try {
-    return run();
+    run(node);
+    return EXIT_SUCCESS;
   } catch (const std::exception& error) {
     ROS_FATAL_NAMED(kLog, "%s", error.what());
     return EXIT_FAILURE;

@@ -70,6 +70,7 @@ void Simulation::loop() {
     }
   } catch (const std::exception& error) {
     ROS_FATAL_NAMED(kLog, "The simulation ends because a tick failed: %s", error.what());
+    failed_ = true;
     ros::requestShutdown();
   }
   requests_.close();

@@ -135,6 +135,18 @@ class ParametersTest(unittest.TestCase):
         self.assertEqual(status, 0, text)
         self.assertTrue(self.delete("panda").success)
 
+    def test_the_node_ends_with_a_status_and_a_sentence(self):
+        for wrong, expected in (("_world:=/nowhere/moon.sdf", "moon"), ("_real_time_factor:=-1", "real time factor"),
+                                ("_real_time_factor:=fast", "real_time_factor"), ("_paused:=3", "paused")):
+            if rospy.has_param("/other"):
+                rospy.delete_param("/other")
+            done = subprocess.run(["rosrun", "franka_sim_mujoco", "franka_sim_mujoco_node", "__name:=other", wrong],
+                                  capture_output=True, text=True, timeout=WAIT)
+            text = done.stdout + done.stderr
+            self.assertEqual(done.returncode, 1, text)
+            self.assertEqual(text.count("FATAL"), 1, text)
+            self.assertIn(expected, text)
+
 
 if __name__ == "__main__":
     rostest.rosrun("franka_sim_mujoco", "parameters", ParametersTest, sys.argv)

@@ -48,6 +48,8 @@ class Simulation {
   void start();
   /// Ends the stepping thread; requests are refused from now on.
   void stop();
+  /// Whether a tick failed, which ended the simulation.
+  bool failed() const noexcept { return failed_; }
 
   void setPaused(bool paused);
   void setRealTimeFactor(double factor);
@@ -89,7 +91,7 @@ class Simulation {
   std::uint64_t tick_count_{0};
   std::uint32_t steps_left_{0};
   std::optional<std::promise<SimulationState>> stepped_;
-  std::atomic<bool> stop_{false};
+  std::atomic<bool> stop_{false}, failed_{false};
   std::thread thread_;
 };
 
