@@ -56,7 +56,7 @@ CartesianImpedance::Vector7 CartesianImpedance::update(const Arm& arm) noexcept 
   const Vector7 tau_elbow =
       nullspace_stiffness_ * (q_nullspace_ - q) - criticalDamping(nullspace_stiffness_) * dq;
   const Eigen::Matrix<double, 7, 6> Jt = J.transpose();
-  const Wrench elbow_wrench = dampedPseudoInverse(Jt) * tau_elbow;
+  const Wrench elbow_wrench = dampedPseudoInverse(Jt, kNullSpaceDamping) * tau_elbow;
 
   const Vector7 tau = Jt * (wrench - elbow_wrench) + tau_elbow + Joints(arm.coriolis.data());
   approachTargets();

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
-from tf.transformations import quaternion_from_matrix, quaternion_matrix
+from tf.transformations import quaternion_from_matrix, quaternion_matrix, rotation_matrix
 
 
 def matrix_of(pose: Pose) -> np.ndarray:
@@ -34,6 +34,23 @@ def downwards(x: float, y: float, z: float, yaw: float = 0.0) -> np.ndarray:
 def yaw_of(transform: np.ndarray) -> float:
     """Rotation of the x axis about the vertical [rad]."""
     return math.atan2(transform[1, 0], transform[0, 0])
+
+
+def rotation_vector(rotation: np.ndarray) -> np.ndarray:
+    """Axis times angle [rad] of a 3x3 rotation below half a turn."""
+    transform = np.eye(4)
+    transform[:3, :3] = rotation
+    x, y, z, w = quaternion_from_matrix(transform)
+    sine = math.sqrt(x * x + y * y + z * z)
+    if sine < 1e-12:
+        return np.zeros(3)
+    return 2.0 * math.atan2(math.copysign(sine, w), abs(w)) / sine * np.array([x, y, z])
+
+
+def rotation_of(vector: np.ndarray) -> np.ndarray:
+    """4x4 rotation of a rotation vector [rad]."""
+    angle = float(np.linalg.norm(vector))
+    return rotation_matrix(angle, vector) if angle > 1e-12 else np.eye(4)
 
 
 def wrap(angle: float, period: float) -> float:

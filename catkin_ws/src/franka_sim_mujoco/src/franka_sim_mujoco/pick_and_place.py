@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import actionlib
 import numpy as np
 import rospy
+from actionlib import CommState
 from actionlib_msgs.msg import GoalStatus
 from dynamic_reconfigure.client import Client as ReconfigureClient
 from franka_gripper.msg import (GraspAction, GraspEpsilon, GraspGoal, HomingAction, HomingGoal,
@@ -24,7 +25,8 @@ from franka_msgs.srv import SetLoad
 from geometry_msgs.msg import Point, Pose, PoseStamped
 from sensor_msgs.msg import Image
 
-from franka_sim_mujoco.geometry import (downwards, matrix_of, minimum_jerk, pose_of, wrap, yaw_of)
+from franka_sim_mujoco.geometry import (downwards, matrix_of, minimum_jerk, pose_of, rotation_of,
+                                        rotation_vector, wrap, yaw_of)
 from franka_sim_mujoco.srv import GetBodyPose, GetContacts, RenderPicture, SetBodyPose
 
 # The scene (franka_ros.md 9.6): sizes [m], mass [kg].
@@ -55,11 +57,16 @@ class Arm:
     """The arm under the Cartesian impedance controller, as its topics show it."""
 
     CONTROLLER = "cartesian_impedance_example_controller"
+    CORRECTION_RATE = 1.5      # of the equilibrium pose towards the wanted one [1/s]
+    LARGEST_CORRECTION = np.array([0.15] * 3 + [0.6] * 3)  # [m] and [rad]
+    TURN_TOLERANCE = 0.03      # [rad]
 
     def __init__(self, arm_id: str):
         self.arm_id = arm_id
         self._state: FrankaState | None = None
         self._target: np.ndarray | None = None
+        self._correction = np.zeros(6)  # of the equilibrium pose: [m], rotation vector [rad]
+        self._last_lead = 0.0
         self._publisher = rospy.Publisher(f"{self.CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1)
         rospy.Subscriber("franka_state_controller/franka_states", FrankaState, self._store, queue_size=1)
         self._set_load = rospy.ServiceProxy("franka_control/set_load", SetLoad)
@@ -116,11 +123,31 @@ class Arm:
             self._lead(downwards(*position, yaw_of(start) + s * turn))
             time.sleep(0.004)
         self._target = target
-        self._lead(target)
-        wait_until(lambda: self._arrived(target, tolerance), what)
+        try:
+            wait_until(lambda: self._arrived(target, tolerance), what)
+        except TaskError as error:
+            away = (self.pose[:3, 3] - target[:3, 3]) * 1e3
+            turn = rotation_vector(self.pose[:3, :3] @ target[:3, :3].T)
+            raise TaskError(f"{error} The end effector stands {away[0]:.1f}, {away[1]:.1f}, {away[2]:.1f} mm and "
+                            f"{turn[0]:.3f}, {turn[1]:.3f}, {turn[2]:.3f} rad off its target, the fastest joint "
+                            f"moves at {max(abs(v) for v in self.state.dq):.3f} rad/s.") from error
 
     def _lead(self, target: np.ndarray) -> None:
-        message = PoseStamped(pose=pose_of(target))
+        """Publishes the equilibrium pose that brings the end effector to `target`.
+
+        Impedance is compliant: load and null-space torques leave the arm some way off the equilibrium pose.
+        As a person at the interactive marker does, the pose is shifted until the measured one is right.
+        """
+        now = rospy.get_time()
+        step = min(max(now - self._last_lead, 0.0), 0.1)
+        self._last_lead = now
+        error = np.concatenate([target[:3, 3] - self.pose[:3, 3],
+                                rotation_vector(target[:3, :3] @ self.pose[:3, :3].T)])
+        self._correction += self.CORRECTION_RATE * step * error
+        self._correction = np.clip(self._correction, -self.LARGEST_CORRECTION, self.LARGEST_CORRECTION)
+        equilibrium = rotation_of(self._correction[3:]) @ target
+        equilibrium[:3, 3] = target[:3, 3] + self._correction[:3]
+        message = PoseStamped(pose=pose_of(equilibrium))
         message.header.stamp = rospy.Time.now()
         message.header.frame_id = f"{self.arm_id}_link0"
         self._publisher.publish(message)
@@ -128,8 +155,11 @@ class Arm:
     def _arrived(self, target: np.ndarray, tolerance: float) -> bool:
         if self.state.robot_mode != FrankaState.ROBOT_MODE_MOVE:
             raise TaskError(f"The robot left Move (mode {self.state.robot_mode}); was the user stop pressed?")
+        self._lead(target)
+        time.sleep(0.004)
         away = float(np.linalg.norm(self.pose[:3, 3] - target[:3, 3]))
-        return away < tolerance and max(abs(v) for v in self.state.dq) < 0.03
+        turned = float(np.linalg.norm(rotation_vector(target[:3, :3] @ self.pose[:3, :3].T)))
+        return away < tolerance and turned < self.TURN_TOLERANCE and max(abs(v) for v in self.state.dq) < 0.03
 
 
 class Gripper:
@@ -138,7 +168,9 @@ class Gripper:
     ACTIONS = {"homing": HomingAction, "move": MoveAction, "grasp": GraspAction, "stop": StopAction}
 
     def __init__(self):
-        self._clients = {name: actionlib.SimpleActionClient(f"franka_gripper/{name}", kind)
+        # Goal handles are polled: the simple client loses goals that end before its send_goal() returns,
+        # as they do when the simulation runs flat out.
+        self._clients = {name: actionlib.ActionClient(f"franka_gripper/{name}", kind)
                          for name, kind in self.ACTIONS.items()}
 
     def wait_ready(self) -> None:
@@ -147,13 +179,11 @@ class Gripper:
                        simulated=60)
 
     def _run(self, name: str, goal, simulated: float = 20.0) -> None:
-        client = self._clients[name]
-        client.send_goal(goal)
-        wait_until(lambda: client.get_state() not in (GoalStatus.PENDING, GoalStatus.ACTIVE),
-                   f"the gripper's {name}", simulated=simulated)
-        result = client.get_result()
-        if client.get_state() != GoalStatus.SUCCEEDED or not result.success:
-            text = (result.error if result else "") or client.get_goal_status_text()
+        handle = self._clients[name].send_goal(goal)
+        wait_until(lambda: handle.get_comm_state() == CommState.DONE, f"the gripper's {name}", simulated=simulated)
+        result = handle.get_result()
+        if handle.get_terminal_state() != GoalStatus.SUCCEEDED or not result.success:
+            text = (result.error if result else "") or handle.get_goal_status_text()
             raise TaskError(f"The gripper's {name} failed: {text or 'no reason given'}")
 
     def homing(self) -> None:
@@ -231,13 +261,13 @@ class PickAndPlace:
 
     def __init__(self, arm: Arm, gripper: Gripper, scene: Scene, report: Callable[[str], None]):
         self.arm, self.gripper, self.scene, self.report = arm, gripper, scene, report
+        arm.wait_ready()
+        gripper.wait_ready()
         self._base_inverse = np.linalg.inv(scene.pose(f"{arm.arm_id}_link0"))
         self._fingers = [f"{arm.arm_id}_{side}finger" for side in ("left", "right")]
 
     def prepare(self) -> None:
-        self.arm.wait_ready()
-        self.gripper.wait_ready()
-        self.arm.configure(nullspace_stiffness=10.0)
+        self.arm.configure(nullspace_stiffness=10.0, translational_stiffness=400.0, rotational_stiffness=30.0)
         self.report("homing the gripper")
         self.gripper.homing()
         self.gripper.move(0.08)
@@ -296,9 +326,9 @@ class PickAndPlace:
         highest = math.hypot(*STONE_SIZE) / 2
         # The tray's frame is at its bottom; the stone rests on its upper face.
         height = offset[2, 3] - TRAY_SIZE[2]
-        inside = (abs(offset[0, 3]) < TRAY_SIZE[0] / 2 and abs(offset[1, 3]) < TRAY_SIZE[1] / 2
-                  and lowest < height < highest)
-        return Placement(tuple(stone[:3, 3]), math.hypot(offset[0, 3], offset[1, 3]), inside)
+        inside = bool(abs(offset[0, 3]) < TRAY_SIZE[0] / 2 and abs(offset[1, 3]) < TRAY_SIZE[1] / 2
+                      and lowest < height < highest)
+        return Placement(tuple(stone[:3, 3].tolist()), math.hypot(offset[0, 3], offset[1, 3]), inside)
 
     def _in_base(self, world: np.ndarray) -> np.ndarray:
         return self._base_inverse @ world
