@@ -1,27 +1,29 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/ros/arm_parameters.h>
+#include <franka_sim_mujoco/ros/param_reader.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include <franka_sim_mujoco/ros/param_reader.h>
-
 namespace franka_sim_mujoco {
 
 namespace {
 
-/// Flange to the hand's nominal end effector (manual: turned by -45 deg about z, 10.34 cm along it).
+/// Flange to the hand's nominal end effector (manual: turned by -45 deg about z, 10.34 cm along
+/// it).
 constexpr std::array<double, 16> kHandF_T_NE{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0,      0,
                                              0,      0,       1, 0, 0,      0,      0.1034, 1};
 
-/// The four printed digits of the hand's rotation are not a rotation within the unit's tolerance: the
-/// columns are brought to length one, which gives back cos(45 deg) and leaves exact matrices as they are.
+/// The four printed digits of the hand's rotation are not a rotation within the unit's tolerance:
+/// the columns are brought to length one, which gives back cos(45 deg) and leaves exact matrices as
+/// they are.
 std::array<double, 16> withUnitColumns(std::array<double, 16> transform) {
   for (std::size_t column = 0; column < 3; ++column) {
     double* entry = transform.data() + 4 * column;
-    const double length = std::sqrt(entry[0] * entry[0] + entry[1] * entry[1] + entry[2] * entry[2]);
+    const double length =
+        std::sqrt(entry[0] * entry[0] + entry[1] * entry[1] + entry[2] * entry[2]);
     // Only rounding is repaired; what is no rotation is left for the check to refuse.
     if (std::abs(length - 1.0) < 1e-3) {
       for (std::size_t row = 0; row < 3; ++row) {
@@ -85,8 +87,8 @@ void readThresholds(const ros::NodeHandle& node, const std::string& phase,
   readArray(node, "collision_config/upper_force_thresholds_" + phase, thresholds.upper_force);
   const std::string fault = checkThresholds(thresholds);
   if (!fault.empty()) {
-    throw std::invalid_argument("The parameters " + node.resolveName("collision_config") + "/*_" + phase +
-                                " are wrong: " + fault);
+    throw std::invalid_argument("The parameters " + node.resolveName("collision_config") + "/*_" +
+                                phase + " are wrong: " + fault);
   }
 }
 

@@ -1,22 +1,20 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/ros/arm_services.h>
-
-#include <algorithm>
-#include <stdexcept>
-#include <utility>
-
 #include <controller_manager_msgs/ListControllers.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <franka_msgs/SetEEFrame.h>
 #include <franka_msgs/SetForceTorqueCollisionBehavior.h>
 #include <franka_msgs/SetKFrame.h>
 #include <franka_msgs/SetLoad.h>
+#include <franka_sim_mujoco/ros/arm_parameters.h>
+#include <franka_sim_mujoco/ros/arm_services.h>
 #include <ros/console.h>
 #include <ros/service.h>
 #include <std_srvs/SetBool.h>
 
-#include <franka_sim_mujoco/ros/arm_parameters.h>
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 namespace franka_sim_mujoco {
 
@@ -25,7 +23,8 @@ namespace {
 constexpr char kLog[] = "franka_hw_sim";
 constexpr double kSwitchTimeout = 3.0;  ///< [s]
 constexpr char kNotATransform[] =
-    " is not a column-major 4x4 transform: its bottom row (entries 4, 8, 12 and 16) must be 0 0 0 1 and its "
+    " is not a column-major 4x4 transform: its bottom row (entries 4, 8, 12 and 16) must be 0 0 0 "
+    "1 and its "
     "first three columns at right angles and of length one.";
 
 /// The messages hold boost arrays.
@@ -59,16 +58,16 @@ ArmServices::ArmServices(const ros::NodeHandle& node, const std::string& arm_id,
     const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
                                     toArray<9>(request.load_inertia)};
     check(arm_.unit().setLoad(load),
-          "The load must be finite, its mass not negative, and its inertia a symmetric matrix that is not "
+          "The load must be finite, its mass not negative, and its inertia a symmetric matrix that "
+          "is not "
           "negative.");
   });
   offer<franka_msgs::SetForceTorqueCollisionBehavior>(
       "set_force_torque_collision_behavior", [this](const auto& request) {
-        const CollisionThresholds thresholds{
-            toArray<7>(request.lower_torque_thresholds_nominal),
-            toArray<7>(request.upper_torque_thresholds_nominal),
-            toArray<6>(request.lower_force_thresholds_nominal),
-            toArray<6>(request.upper_force_thresholds_nominal)};
+        const CollisionThresholds thresholds{toArray<7>(request.lower_torque_thresholds_nominal),
+                                             toArray<7>(request.upper_torque_thresholds_nominal),
+                                             toArray<6>(request.lower_force_thresholds_nominal),
+                                             toArray<6>(request.upper_force_thresholds_nominal)};
         const std::string fault = checkThresholds(thresholds);
         if (!fault.empty()) {
           throw std::runtime_error(fault);
@@ -92,18 +91,18 @@ void ArmServices::offer(const std::string& name,
                         std::function<void(const typename Service::Request&)> handler) {
   using Request = typename Service::Request;
   using Response = typename Service::Response;
-  const boost::function<bool(Request&, Response&)> callback = [this, name, handler](Request& request,
-                                                                                   Response& response) {
-    try {
-      between_ticks_([&] { handler(request); });
-      response.success = true;
-    } catch (const std::exception& error) {
-      ROS_ERROR_NAMED(kLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), error.what());
-      response.success = false;
-      response.error = error.what();
-    }
-    return true;
-  };
+  const boost::function<bool(Request&, Response&)> callback =
+      [this, name, handler](Request& request, Response& response) {
+        try {
+          between_ticks_([&] { handler(request); });
+          response.success = true;
+        } catch (const std::exception& error) {
+          ROS_ERROR_NAMED(kLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), error.what());
+          response.success = false;
+          response.error = error.what();
+        }
+        return true;
+      };
   servers_.push_back(control_node_.advertiseService<Request, Response>(name, callback));
 }
 
@@ -115,9 +114,10 @@ void ArmServices::offerUserStop() {
     try {
       between_ticks_([&] { arm_.setUserStop(request.data); });
       response.success = true;
-      ROS_WARN_NAMED(kLog, request.data ? "%s: user stop pressed: commands of controllers have no effect"
-                                        : "%s: user stop released: call franka_control/error_recovery to "
-                                          "connect the controllers again",
+      ROS_WARN_NAMED(kLog,
+                     request.data ? "%s: user stop pressed: commands of controllers have no effect"
+                                  : "%s: user stop released: call franka_control/error_recovery to "
+                                    "connect the controllers again",
                      arm_id_.c_str());
     } catch (const std::exception& error) {
       response.success = false;
@@ -158,7 +158,8 @@ void ArmServices::recoverUnit() {
   between_ticks_([this] {
     if (arm_.userStopped()) {
       throw std::runtime_error(
-          "The user stop is pressed: release it (service franka_control/set_user_stop) before recovering.");
+          "The user stop is pressed: release it (service franka_control/set_user_stop) before "
+          "recovering.");
     }
     check(arm_.recover(), "");
   });
@@ -169,7 +170,8 @@ std::vector<std::string> ArmServices::runningArmControllers() {
   controller_manager_msgs::ListControllers list;
   // Not waitForService: it sleeps in simulated time, for ever while the simulation is paused.
   if (!ros::service::exists(service, false) || !ros::service::call(service, list)) {
-    throw std::runtime_error("The controllers cannot be restarted: " + service + " does not answer.");
+    throw std::runtime_error("The controllers cannot be restarted: " + service +
+                             " does not answer.");
   }
   std::vector<std::string> names;
   for (const auto& controller : list.response.controller) {
@@ -199,8 +201,9 @@ void ArmServices::restartArmControllers() {
   restart.request.start_asap = true;
   restart.request.timeout = kSwitchTimeout;
   if (!ros::service::call(service, restart) || !restart.response.ok) {
-    throw std::runtime_error("The arm has recovered but its controllers could not be restarted by " +
-                             service + ". Is the simulation paused? Restart them by hand.");
+    throw std::runtime_error(
+        "The arm has recovered but its controllers could not be restarted by " + service +
+        ". Is the simulation paused? Restart them by hand.");
   }
 }
 

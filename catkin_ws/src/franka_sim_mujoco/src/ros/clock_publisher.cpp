@@ -1,16 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/ros/clock_publisher.h>
+#include <franka_sim_mujoco/ros/pacer.h>
 
 #include <algorithm>
-
-#include <franka_sim_mujoco/ros/pacer.h>
 
 namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr std::int64_t kShortestInterval = 1000000;    // [ns]
+constexpr std::int64_t kShortestInterval = 1000000;      // [ns]
 constexpr std::int64_t kStandStillInterval = 100000000;  // [ns]
 
 }  // namespace

@@ -15,8 +15,8 @@ bool isArmJoint(const std::string& resource, const std::string& arm_id) noexcept
   static constexpr char kJoint[] = "_joint";
   const std::size_t prefix = arm_id.size() + sizeof(kJoint) - 1;
   return resource.size() == prefix + 1 && resource.compare(0, arm_id.size(), arm_id) == 0 &&
-         resource.compare(arm_id.size(), sizeof(kJoint) - 1, kJoint) == 0 && resource[prefix] >= '1' &&
-         resource[prefix] <= '7';
+         resource.compare(arm_id.size(), sizeof(kJoint) - 1, kJoint) == 0 &&
+         resource[prefix] >= '1' && resource[prefix] <= '7';
 }
 
 bool isFinger(const std::string& resource, const std::string& arm_id) {
@@ -35,8 +35,8 @@ std::string join(const std::set<std::string>& names) {
 
 std::string whyRefused(const hardware_interface::ControllerInfo& controller,
                        const std::string& arm_id) {
-  const std::string who = "The controller '" + controller.name + "' cannot run on the simulated arm '" +
-                          arm_id + "': ";
+  const std::string who =
+      "The controller '" + controller.name + "' cannot run on the simulated arm '" + arm_id + "': ";
   for (const auto& claim : controller.claimed_resources) {
     if (claim.resources.empty()) {
       continue;
@@ -52,8 +52,9 @@ std::string whyRefused(const hardware_interface::ControllerInfo& controller,
              std::all_of(claim.resources.begin(), claim.resources.end(), predicate);
     };
     if (!all(is_arm, 7) && !all(is_finger, 2)) {
-      return who + "it claims " + join(claim.resources) + ", but a controller must claim either all of " +
-             arm_id + "_joint1 to 7 or both of " + arm_id + "_finger_joint1 and 2.";
+      return who + "it claims " + join(claim.resources) +
+             ", but a controller must claim either all of " + arm_id + "_joint1 to 7 or both of " +
+             arm_id + "_finger_joint1 and 2.";
     }
   }
   return "";

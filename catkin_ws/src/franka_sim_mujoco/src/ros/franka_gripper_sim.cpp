@@ -1,14 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/ros/franka_gripper_sim.h>
-
-#include <cmath>
-#include <stdexcept>
-
-#include <pluginlib/class_list_macros.hpp>
+#include <franka_sim_mujoco/ros/param_reader.h>
 #include <ros/console.h>
 
-#include <franka_sim_mujoco/ros/param_reader.h>
+#include <cmath>
+#include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
 
 namespace franka_sim_mujoco {
 
@@ -83,8 +81,8 @@ bool FrankaGripperSim::init(hardware_interface::EffortJointInterface* hw, ros::N
     unit_.emplace(parameters);
     fingers_ = {hw->getHandle(arm_id + "_finger_joint1"), hw->getHandle(arm_id + "_finger_joint2")};
     publish_rate_.emplace(kPublishRate, ros::Time(0));
-    joint_states_ =
-        std::make_unique<realtime_tools::RealtimePublisher<sensor_msgs::JointState>>(node, "joint_states", 1);
+    joint_states_ = std::make_unique<realtime_tools::RealtimePublisher<sensor_msgs::JointState>>(
+        node, "joint_states", 1);
     joint_states_->lock();
     sensor_msgs::JointState& message = joint_states_->msg_;
     message.name = {fingers_[0].getName(), fingers_[1].getName()};
@@ -92,8 +90,8 @@ bool FrankaGripperSim::init(hardware_interface::EffortJointInterface* hw, ros::N
     message.velocity.resize(2);
     message.effort.resize(2);
     joint_states_->unlock();
-    actions_ = std::make_unique<GripperActions>(node, readActionParameters(node, parameters.max_width),
-                                                mailbox_, view_);
+    actions_ = std::make_unique<GripperActions>(
+        node, readActionParameters(node, parameters.max_width), mailbox_, view_);
     return true;
   } catch (const std::exception& error) {
     // HardwareInterfaceException for the fingers' handles is one of them.

@@ -1,20 +1,18 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/ros/franka_hw_sim.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <stdexcept>
-#include <utility>
-
-#include <pluginlib/class_list_macros.hpp>
-#include <ros/console.h>
-
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/controller_check.h>
+#include <franka_sim_mujoco/ros/franka_hw_sim.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <pluginlib/class_list_macros.hpp>
+#include <set>
+#include <stdexcept>
+#include <utility>
 
 namespace franka_sim_mujoco {
 
@@ -35,8 +33,8 @@ double readFilter(const ros::NodeHandle& node) {
   const double alpha =
       readNumber(node, "tau_ext_lowpass_filter").value_or(kDefaultTauExtLowpassFilter);
   if (alpha < 0.0 || alpha > 1.0) {
-    throw std::invalid_argument("The parameter " + node.resolveName("tau_ext_lowpass_filter") + " is " +
-                                std::to_string(alpha) +
+    throw std::invalid_argument("The parameter " + node.resolveName("tau_ext_lowpass_filter") +
+                                " is " + std::to_string(alpha) +
                                 "; it must lie between 0 (nothing passes) and 1 (no filter).");
   }
   return alpha;
@@ -47,9 +45,10 @@ std::array<double, 3> gravityInBase(World& world, const std::string& base) {
   const std::array<double, 3> g = world.gravity();
   const std::array<double, 4> q = world.bodyPose(base).orientation;
   const double w = q[0], x = q[1], y = q[2], z = q[3];
-  return {(1 - 2 * (y * y + z * z)) * g[0] + 2 * (x * y + w * z) * g[1] + 2 * (x * z - w * y) * g[2],
-          2 * (x * y - w * z) * g[0] + (1 - 2 * (x * x + z * z)) * g[1] + 2 * (y * z + w * x) * g[2],
-          2 * (x * z + w * y) * g[0] + 2 * (y * z - w * x) * g[1] + (1 - 2 * (x * x + y * y)) * g[2]};
+  return {
+      (1 - 2 * (y * y + z * z)) * g[0] + 2 * (x * y + w * z) * g[1] + 2 * (x * z - w * y) * g[2],
+      2 * (x * y - w * z) * g[0] + (1 - 2 * (x * x + z * z)) * g[1] + 2 * (y * z + w * x) * g[2],
+      2 * (x * z + w * y) * g[0] + 2 * (y * z - w * x) * g[1] + (1 - 2 * (x * x + y * y)) * g[2]};
 }
 
 }  // namespace
@@ -74,7 +73,8 @@ bool FrankaHWSim::initSim(const std::string& robot_namespace, ros::NodeHandle mo
 }
 
 void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
-                        const urdf::Model& model, const std::vector<TransmissionInfo>& transmissions) {
+                        const urdf::Model& model,
+                        const std::vector<TransmissionInfo>& transmissions) {
   World& world = *robot.world;
   const bool has_hand = world.hasHand(robot.name, arm_id_);
   nameJoints(model, has_hand);
@@ -98,8 +98,8 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
 
   const bool restart_controllers =
       readBool(node, "restart_controllers_after_recovery").value_or(true);
-  services_ = std::make_unique<ArmServices>(node, arm_id_, *arm_, robot.between_ticks,
-                                            restart_controllers);
+  services_ =
+      std::make_unique<ArmServices>(node, arm_id_, *arm_, robot.between_ticks, restart_controllers);
   initialized_ = std::make_unique<realtime_tools::RealtimePublisher<std_msgs::Bool>>(
       node, "initialized", 1, true);
   publishInitialized(false);
@@ -136,24 +136,28 @@ void FrankaHWSim::addTransmission(const TransmissionInfo& transmission, const ur
   } else if (transmission.type_ == "franka_hw/FrankaModelInterface") {
     addModel(transmission, model);
   } else {
-    ROS_WARN_NAMED(kLog, "%s: the transmission '%s' has the type '%s', which is not simulated: ignored.",
+    ROS_WARN_NAMED(kLog,
+                   "%s: the transmission '%s' has the type '%s', which is not simulated: ignored.",
                    arm_id_.c_str(), transmission.name_.c_str(), transmission.type_.c_str());
   }
 }
 
 void FrankaHWSim::addJoint(const TransmissionInfo& transmission, const urdf::Model& model) {
   if (transmission.joints_.size() != 1) {
-    throw std::invalid_argument("the transmission '" + transmission.name_ + "' must have one joint but has " +
+    throw std::invalid_argument("the transmission '" + transmission.name_ +
+                                "' must have one joint but has " +
                                 std::to_string(transmission.joints_.size()) + ".");
   }
   const auto& info = transmission.joints_.front();
   Joint* joint = findJoint(info.name_);
   if (joint == nullptr) {
     if (!model.getJoint(info.name_)) {
-      throw std::invalid_argument("the transmission '" + transmission.name_ + "' names the joint '" +
-                                  info.name_ + "', which the URDF does not have.");
+      throw std::invalid_argument("the transmission '" + transmission.name_ +
+                                  "' names the joint '" + info.name_ +
+                                  "', which the URDF does not have.");
     }
-    ROS_WARN_NAMED(kLog, "%s: the joint '%s' of the transmission '%s' is none of this arm's: ignored.",
+    ROS_WARN_NAMED(kLog,
+                   "%s: the joint '%s' of the transmission '%s' is none of this arm's: ignored.",
                    arm_id_.c_str(), info.name_.c_str(), transmission.name_.c_str());
     return;
   }
@@ -175,23 +179,27 @@ void FrankaHWSim::addState(const TransmissionInfo& transmission, const urdf::Mod
   std::set<std::string> names;
   for (const auto& joint : transmission.joints_) {
     if (!model.getJoint(joint.name_)) {
-      throw std::invalid_argument("the transmission '" + transmission.name_ + "' names the joint '" +
-                                  joint.name_ + "', which the URDF does not have.");
+      throw std::invalid_argument("the transmission '" + transmission.name_ +
+                                  "' names the joint '" + joint.name_ +
+                                  "', which the URDF does not have.");
     }
     names.insert(joint.name_);
   }
   if (transmission.joints_.size() != kArmJoints || names.size() != kArmJoints) {
-    throw std::invalid_argument("the transmission '" + transmission.name_ +
-                                "' (franka_hw/FrankaStateInterface) must have the arm's 7 joints but has " +
-                                std::to_string(transmission.joints_.size()) + ".");
+    throw std::invalid_argument(
+        "the transmission '" + transmission.name_ +
+        "' (franka_hw/FrankaStateInterface) must have the arm's 7 joints but has " +
+        std::to_string(transmission.joints_.size()) + ".");
   }
   franka_states_.registerHandle(franka_hw::FrankaStateHandle(arm_id_ + "_robot", arm_->state()));
 }
 
 void FrankaHWSim::addModel(const TransmissionInfo& transmission, const urdf::Model& model) {
-  const std::string who = "the transmission '" + transmission.name_ + "' (franka_hw/FrankaModelInterface) ";
+  const std::string who =
+      "the transmission '" + transmission.name_ + "' (franka_hw/FrankaModelInterface) ";
   if (transmission.joints_.size() != 2) {
-    throw std::invalid_argument(who + "must have two joints, with the roles root and tip, but has " +
+    throw std::invalid_argument(who +
+                                "must have two joints, with the roles root and tip, but has " +
                                 std::to_string(transmission.joints_.size()) + ".");
   }
   const auto jointOfRole = [&](const std::string& role) {
@@ -217,13 +225,15 @@ void FrankaHWSim::addModel(const TransmissionInfo& transmission, const urdf::Mod
 void FrankaHWSim::checkComplete() const {
   for (std::size_t i = 0; i < kArmJoints; ++i) {
     if (!joints_[i].has_effort) {
-      throw std::invalid_argument("its URDF declares no transmission with an EffortJointInterface for '" +
-                                  joints_[i].name + "'. Was it made with the xacro argument gazebo:=true?");
+      throw std::invalid_argument(
+          "its URDF declares no transmission with an EffortJointInterface for '" + joints_[i].name +
+          "'. Was it made with the xacro argument gazebo:=true?");
     }
   }
   if (franka_states_.getNames().size() != 1 || !model_) {
     throw std::invalid_argument(
-        "its URDF must declare one transmission of the type franka_hw/FrankaStateInterface and one of the "
+        "its URDF must declare one transmission of the type franka_hw/FrankaStateInterface and one "
+        "of the "
         "type franka_hw/FrankaModelInterface. Was it made with the xacro argument gazebo:=true?");
   }
 }
@@ -290,8 +300,9 @@ void FrankaHWSim::worldWasReset() {
   }
 }
 
-bool FrankaHWSim::prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
-                                const std::list<hardware_interface::ControllerInfo>& /*stop_list*/) {
+bool FrankaHWSim::prepareSwitch(
+    const std::list<hardware_interface::ControllerInfo>& start_list,
+    const std::list<hardware_interface::ControllerInfo>& /*stop_list*/) {
   for (const auto& controller : start_list) {
     const std::string reason = whyRefused(controller, arm_id_);
     if (!reason.empty()) {
@@ -300,10 +311,11 @@ bool FrankaHWSim::prepareSwitch(const std::list<hardware_interface::ControllerIn
     }
   }
   if (arm_->userStopped() && anyCommandsArm(start_list, arm_id_)) {
-    ROS_WARN_NAMED(kLog,
-                   "%s: the user stop is pressed: the controller starts but has no effect before the stop is "
-                   "released and franka_control/error_recovery called.",
-                   arm_id_.c_str());
+    ROS_WARN_NAMED(
+        kLog,
+        "%s: the user stop is pressed: the controller starts but has no effect before the stop is "
+        "released and franka_control/error_recovery called.",
+        arm_id_.c_str());
   }
   return true;
 }
@@ -340,14 +352,16 @@ void FrankaHWSim::publishInitialized(bool initialized) {
 void FrankaHWSim::report() {
   const std::uint64_t refused = arm_->refusedCommands();
   if (refused != reported_commands_) {
-    ROS_WARN_NAMED(kLog,
-                   "%s: %llu torque commands were not finite numbers and have been ignored: the running "
-                   "controller computes NaN or infinity.",
-                   arm_id_.c_str(), static_cast<unsigned long long>(refused - reported_commands_));
+    ROS_WARN_NAMED(
+        kLog,
+        "%s: %llu torque commands were not finite numbers and have been ignored: the running "
+        "controller computes NaN or infinity.",
+        arm_id_.c_str(), static_cast<unsigned long long>(refused - reported_commands_));
     reported_commands_ = refused;
   }
   if (model_->takeSingularityWarning()) {
-    ROS_WARN_NAMED(kLog, "%s: the arm is close to a singularity (singularity_warning_threshold %g).",
+    ROS_WARN_NAMED(kLog,
+                   "%s: the arm is close to a singularity (singularity_warning_threshold %g).",
                    arm_id_.c_str(), singularity_threshold_);
   }
 }

@@ -5,10 +5,11 @@
 /// The simulation as a ROS node. Parameters: ~world, ~real_time_factor, ~paused (see Simulation and
 /// findWorldFile); services: see SimServices and PictureService. It needs use_sim_time.
 
-#include <cstdlib>
-#include <exception>
-#include <optional>
-
+#include <franka_sim_mujoco/ros/param_reader.h>
+#include <franka_sim_mujoco/ros/picture_service.h>
+#include <franka_sim_mujoco/ros/sim_services.h>
+#include <franka_sim_mujoco/ros/simulation.h>
+#include <franka_sim_mujoco/ros/world_file.h>
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -16,11 +17,9 @@
 #include <ros/package.h>
 #include <ros/spinner.h>
 
-#include <franka_sim_mujoco/ros/param_reader.h>
-#include <franka_sim_mujoco/ros/picture_service.h>
-#include <franka_sim_mujoco/ros/sim_services.h>
-#include <franka_sim_mujoco/ros/simulation.h>
-#include <franka_sim_mujoco/ros/world_file.h>
+#include <cstdlib>
+#include <exception>
+#include <optional>
 
 namespace {
 
@@ -33,7 +32,8 @@ constexpr std::uint32_t kThreads = 4;
 sim::SimulationOptions readOptions(const ros::NodeHandle& node) {
   sim::SimulationOptions options;
   const std::string world = sim::readString(node, "world").value_or("");
-  options.world_file = sim::findWorldFile(world, {ros::package::getPath("franka_sim_mujoco") + "/worlds"});
+  options.world_file =
+      sim::findWorldFile(world, {ros::package::getPath("franka_sim_mujoco") + "/worlds"});
   if (!options.world_file.empty() && options.world_file != world) {
     ROS_INFO_NAMED(kLog, "World '%s': taking %s", world.c_str(), options.world_file.c_str());
   }
@@ -47,8 +47,10 @@ void checkSimTime() {
   ros::param::param("/use_sim_time", use_sim_time, false);
   if (!use_sim_time) {
     throw std::runtime_error(
-        "The parameter /use_sim_time is not true, so no node would follow the simulation's clock. Set it "
-        "before the nodes start: <param name=\"/use_sim_time\" value=\"true\"/> in the launch file.");
+        "The parameter /use_sim_time is not true, so no node would follow the simulation's clock. "
+        "Set it "
+        "before the nodes start: <param name=\"/use_sim_time\" value=\"true\"/> in the launch "
+        "file.");
   }
 }
 

@@ -1,13 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/ros/gripper_actions.h>
+#include <ros/init.h>
 
 #include <chrono>
 #include <cmath>
 #include <sstream>
 #include <thread>
-
-#include <ros/init.h>
 
 namespace franka_sim_mujoco {
 
@@ -23,20 +22,13 @@ constexpr char kNotRunning[] =
 constexpr char kInterrupted[] = "The command was interrupted by another command of the gripper.";
 constexpr char kCancelled[] = "The command was cancelled; the fingers stay where they are.";
 constexpr char kReplaced[] = "The command was replaced by a new goal.";
-constexpr char kRefused[] = "The gripper refused the command: its numbers are outside their ranges.";
+constexpr char kRefused[] =
+    "The gripper refused the command: its numbers are outside their ranges.";
 
-void explain(franka_gripper::StopResult& result, const std::string& text) {
-  result.error = text;
-}
-void explain(franka_gripper::HomingResult& result, const std::string& text) {
-  result.error = text;
-}
-void explain(franka_gripper::MoveResult& result, const std::string& text) {
-  result.error = text;
-}
-void explain(franka_gripper::GraspResult& result, const std::string& text) {
-  result.error = text;
-}
+void explain(franka_gripper::StopResult& result, const std::string& text) { result.error = text; }
+void explain(franka_gripper::HomingResult& result, const std::string& text) { result.error = text; }
+void explain(franka_gripper::MoveResult& result, const std::string& text) { result.error = text; }
+void explain(franka_gripper::GraspResult& result, const std::string& text) { result.error = text; }
 void explain(control_msgs::GripperCommandResult& /*result*/, const std::string& /*text*/) {}
 
 std::shared_ptr<GripperCommand> makeCommand(GripperCommand::Kind kind) {
@@ -60,8 +52,9 @@ std::string millimetres(double metres) {
 
 }  // namespace
 
-GripperActions::GripperActions(const ros::NodeHandle& node, const GripperActionParameters& parameters,
-                               GripperMailbox& mailbox, const GripperView& view)
+GripperActions::GripperActions(const ros::NodeHandle& node,
+                               const GripperActionParameters& parameters, GripperMailbox& mailbox,
+                               const GripperView& view)
     : parameters_(parameters),
       mailbox_(mailbox),
       view_(view),
@@ -94,17 +87,18 @@ GripperActions::~GripperActions() {
 template <typename Action>
 GripperActions::Fate GripperActions::await(Server<Action>& server,
                                            const GripperCommand& command) const {
-  // Wall time on purpose: under a paused simulation ROS time stands still, and a shutdown must get through.
-  while (!command.isSettled() && !server.isPreemptRequested() && view_.controller_runs && !ending_ &&
-         ros::ok()) {
+  // Wall time on purpose: under a paused simulation ROS time stands still, and a shutdown must get
+  // through.
+  while (!command.isSettled() && !server.isPreemptRequested() && view_.controller_runs &&
+         !ending_ && ros::ok()) {
     std::this_thread::sleep_for(kPoll);
   }
   return command.fate.load(std::memory_order_acquire);
 }
 
 template <typename Action, typename Result>
-bool GripperActions::carryOut(Server<Action>& server, const std::shared_ptr<GripperCommand>& command,
-                              Result& result) {
+bool GripperActions::carryOut(Server<Action>& server,
+                              const std::shared_ptr<GripperCommand>& command, Result& result) {
   if (!view_.controller_runs) {
     abort(server, result, kNotRunning);
     return false;
@@ -168,7 +162,8 @@ void GripperActions::homing() {
     homing_server_.setSucceeded(result);
   } else {
     abort(homing_server_, result,
-          "Homing did not reach the fingers' ends: something is between or beside them. They stand at " +
+          "Homing did not reach the fingers' ends: something is between or beside them. They stand "
+          "at " +
               millimetres(view_.width) + ".");
   }
 }
@@ -222,8 +217,8 @@ void GripperActions::grasp(const franka_gripper::GraspGoal& goal) {
   result.success = command->fate == Fate::kSucceeded;
   if (!result.success) {
     result.error = "The fingers came to rest at " + millimetres(view_.width) +
-                   ", outside the expected " + millimetres(goal.width - goal.epsilon.inner) + " to " +
-                   millimetres(goal.width + goal.epsilon.outer) +
+                   ", outside the expected " + millimetres(goal.width - goal.epsilon.inner) +
+                   " to " + millimetres(goal.width + goal.epsilon.outer) +
                    ": there is no object between them, or another one than expected.";
   }
   grasp_server_.setSucceeded(result);
@@ -254,8 +249,8 @@ void GripperActions::gripperCommand(const control_msgs::GripperCommandGoal& goal
   result.position = view_.width;
   result.effort = 0.0;
   result.stalled = static_cast<unsigned char>(false);
-  result.reached_goal =
-      static_cast<unsigned char>(std::abs(view_.width - width) < parameters_.gripper_action_width_tolerance);
+  result.reached_goal = static_cast<unsigned char>(std::abs(view_.width - width) <
+                                                   parameters_.gripper_action_width_tolerance);
   command_server_.setSucceeded(result);
 }
 

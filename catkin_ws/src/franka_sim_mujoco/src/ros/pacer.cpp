@@ -21,13 +21,9 @@ std::int64_t nanoseconds(clockid_t clock) noexcept {
 
 }  // namespace
 
-std::int64_t monotonicNanoseconds() noexcept {
-  return nanoseconds(CLOCK_MONOTONIC);
-}
+std::int64_t monotonicNanoseconds() noexcept { return nanoseconds(CLOCK_MONOTONIC); }
 
-std::int64_t threadNanoseconds() noexcept {
-  return nanoseconds(CLOCK_THREAD_CPUTIME_ID);
-}
+std::int64_t threadNanoseconds() noexcept { return nanoseconds(CLOCK_THREAD_CPUTIME_ID); }
 
 bool Pacer::setFactor(double factor) noexcept {
   if (!std::isfinite(factor) || factor < 0.0 || (factor > 0.0 && factor < kSlowest)) {
@@ -38,9 +34,7 @@ bool Pacer::setFactor(double factor) noexcept {
   return true;
 }
 
-void Pacer::restart() noexcept {
-  deadline_ns_ = monotonicNanoseconds();
-}
+void Pacer::restart() noexcept { deadline_ns_ = monotonicNanoseconds(); }
 
 void Pacer::waitForNextTick() noexcept {
   if (factor_ == 0.0) {
@@ -54,7 +48,8 @@ void Pacer::waitForNextTick() noexcept {
   }
   const timespec deadline{static_cast<time_t>(deadline_ns_ / kNanosecondsPerSecond),
                           static_cast<long>(deadline_ns_ % kNanosecondsPerSecond)};
-  // An interrupted sleep (a signal) only makes this one tick early; the next deadline is unaffected.
+  // An interrupted sleep (a signal) only makes this one tick early; the next deadline is
+  // unaffected.
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
 }
 

@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/ros/param_reader.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cmath>
 #include <sstream>
-
-#include <xmlrpcpp/XmlRpcValue.h>
 
 namespace franka_sim_mujoco {
 

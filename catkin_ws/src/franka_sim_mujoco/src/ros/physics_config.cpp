@@ -1,13 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/ros/physics_config.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <stdexcept>
-
-#include <yaml-cpp/yaml.h>
-
-#include <franka_sim_mujoco/physics/world.h>
 
 namespace franka_sim_mujoco {
 

@@ -1,14 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/ros/picture_service.h>
-
-#include <cmath>
-#include <stdexcept>
-
+#include <franka_sim_mujoco/ros/simulation.h>
 #include <ros/advertise_service_options.h>
 #include <sensor_msgs/image_encodings.h>
 
-#include <franka_sim_mujoco/ros/simulation.h>
+#include <cmath>
+#include <stdexcept>
 
 namespace franka_sim_mujoco {
 
@@ -42,7 +40,8 @@ Camera toCamera(const RenderPicture::Request& request) {
 
 }  // namespace
 
-PictureService::PictureService(ros::NodeHandle node, Simulation& simulation) : simulation_(simulation) {
+PictureService::PictureService(ros::NodeHandle node, Simulation& simulation)
+    : simulation_(simulation) {
   auto options = ros::AdvertiseServiceOptions::create<RenderPicture>(
       "render_picture",
       [this](RenderPicture::Request& request, RenderPicture::Response& response) {

@@ -36,9 +36,7 @@ void RequestQueue::run(const std::function<void()>& work, std::chrono::milliseco
   }
 }
 
-void RequestQueue::adopt() {
-  server_.store(std::this_thread::get_id());
-}
+void RequestQueue::adopt() { server_.store(std::this_thread::get_id()); }
 
 void RequestQueue::serve() {
   if (!pending_.load(std::memory_order_acquire)) {

@@ -1,13 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/ros/pacer.h>
 #include <franka_sim_mujoco/ros/robot_instance.h>
+#include <ros/console.h>
 
 #include <stdexcept>
 #include <utility>
-
-#include <ros/console.h>
-
-#include <franka_sim_mujoco/ros/pacer.h>
 
 namespace franka_sim_mujoco {
 
@@ -15,8 +13,8 @@ namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
 
-/// The URDF names the hardware by the original's name; where the package franka_gazebo is not ours (it
-/// steps aside for the original) the same hardware has our own.
+/// The URDF names the hardware by the original's name; where the package franka_gazebo is not ours
+/// (it steps aside for the original) the same hardware has our own.
 std::string availableName(HardwareLoader& loader, const std::string& type) {
   static const std::string kOriginal = "franka_gazebo/";
   if (!loader.isClassAvailable(type) && type.compare(0, kOriginal.size(), kOriginal) == 0) {
@@ -72,8 +70,10 @@ void RobotInstance::startHardware(const RobotPlan& plan, World& world, HardwareL
                              "' cannot be loaded: " + error.what());
   }
   const ros::NodeHandle node(plan.robot_namespace);
-  RobotHandle robot{&world, name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks)};
-  if (!hardware_->initSim(plan.robot_namespace, node, std::move(robot), &plan.urdf, plan.transmissions)) {
+  RobotHandle robot{&world, name_, plan.description.urdf, plan.arm_physics,
+                    std::move(between_ticks)};
+  if (!hardware_->initSim(plan.robot_namespace, node, std::move(robot), &plan.urdf,
+                          plan.transmissions)) {
     const std::string reason = hardware_->failure();
     throw std::runtime_error("The hardware of '" + name_ + "' (" + type + ") does not start: " +
                              (reason.empty() ? "the log of the simulation says why." : reason));

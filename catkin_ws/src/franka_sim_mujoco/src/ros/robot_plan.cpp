@@ -1,19 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/ros/arm_parameters.h>
+#include <franka_sim_mujoco/ros/param_reader.h>
+#include <franka_sim_mujoco/ros/physics_config.h>
 #include <franka_sim_mujoco/ros/robot_instance.h>
-
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 #include <ros/console.h>
 #include <ros/package.h>
 #include <tinyxml2.h>
 #include <transmission_interface/transmission_parser.h>
 
-#include <franka_sim_mujoco/ros/arm_parameters.h>
-#include <franka_sim_mujoco/ros/param_reader.h>
-#include <franka_sim_mujoco/ros/physics_config.h>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace franka_sim_mujoco {
 
@@ -36,7 +34,8 @@ PluginElement readPluginElement(const std::string& urdf) {
   PluginElement result;
   tinyxml2::XMLDocument document;
   if (document.Parse(urdf.c_str()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) {
-    throw std::runtime_error("The robot description is not XML: " + std::string(document.ErrorStr()));
+    throw std::runtime_error("The robot description is not XML: " +
+                             std::string(document.ErrorStr()));
   }
   for (const auto* gazebo = document.RootElement()->FirstChildElement("gazebo"); gazebo != nullptr;
        gazebo = gazebo->NextSiblingElement("gazebo")) {
@@ -48,8 +47,9 @@ PluginElement readPluginElement(const std::string& urdf) {
       result.hardware_type = childText(*plugin, "robotSimType");
       result.robot_namespace = childText(*plugin, "robotNamespace");
       const auto* period = plugin->FirstChildElement("controlPeriod");
-      if (period != nullptr && (period->QueryDoubleText(&result.control_period) != tinyxml2::XML_SUCCESS ||
-                                !(result.control_period > 0.0 && result.control_period <= 1.0))) {
+      if (period != nullptr &&
+          (period->QueryDoubleText(&result.control_period) != tinyxml2::XML_SUCCESS ||
+           !(result.control_period > 0.0 && result.control_period <= 1.0))) {
         throw std::runtime_error("The controlPeriod of the robot description is '" +
                                  childText(*plugin, "controlPeriod") +
                                  "'; it must be a time in seconds, above 0 and up to 1.");
@@ -78,10 +78,12 @@ JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& urdf_
   const std::string friction = readString(node, "friction").value_or("none");
   const std::string folder = ros::package::getPath("franka_description");
   if (folder.empty()) {
-    ROS_WARN_NAMED(kLog, "The package franka_description was not found: joints get the default physics.");
+    ROS_WARN_NAMED(kLog,
+                   "The package franka_description was not found: joints get the default physics.");
     return JointPhysics{};
   }
-  return readJointPhysics(folder + "/config/physics.yaml", urdf_name == "fr3" ? "fr3" : "panda", friction);
+  return readJointPhysics(folder + "/config/physics.yaml", urdf_name == "fr3" ? "fr3" : "panda",
+                          friction);
 }
 
 }  // namespace
@@ -92,12 +94,14 @@ RobotPlan planRobot(const SpawnOrder& order) {
     throw std::runtime_error("A robot needs a name.");
   }
   if (!plan.urdf.initString(order.urdf)) {
-    throw std::runtime_error("The robot description of '" + order.name +
-                             "' is not a URDF that can be read; the lines above in the log say why.");
+    throw std::runtime_error(
+        "The robot description of '" + order.name +
+        "' is not a URDF that can be read; the lines above in the log say why.");
   }
   const PluginElement plugin = readPluginElement(order.urdf);
   plan.hardware_type = plugin.hardware_type;
-  plan.control_ticks = std::max(1, static_cast<int>(std::lround(plugin.control_period / World::kTick)));
+  plan.control_ticks =
+      std::max(1, static_cast<int>(std::lround(plugin.control_period / World::kTick)));
   plan.robot_namespace =
       order.robot_namespace.empty() ? plugin.robot_namespace : order.robot_namespace;
   if (plan.robot_namespace.empty()) {
@@ -125,7 +129,8 @@ RobotPlan planRobot(const SpawnOrder& order) {
                                "' for which an initial position was given.");
     }
     if (!std::isfinite(joint.second)) {
-      throw std::runtime_error("The initial position of '" + joint.first + "' is not a finite number.");
+      throw std::runtime_error("The initial position of '" + joint.first +
+                               "' is not a finite number.");
     }
   }
   if (plan.urdf.getJoint(plan.arm_id + "_joint1")) {

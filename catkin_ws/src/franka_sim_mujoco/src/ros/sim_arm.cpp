@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/to_franka.h>
 #include <franka_sim_mujoco/ros/sim_arm.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include <franka_core/to_franka.h>
 
 namespace franka_sim_mujoco {
 
@@ -20,7 +19,8 @@ void smooth(double alpha, std::array<double, N>& filtered, std::array<double, N>
 }
 
 bool allFinite(const std::array<double, 7>& values) noexcept {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
 }
 
 }  // namespace

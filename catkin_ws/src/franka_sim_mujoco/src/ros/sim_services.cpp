@@ -1,16 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/ros/sim_services.h>
-
-#include <cmath>
-#include <stdexcept>
-#include <string>
-
-#include <ros/advertise_service_options.h>
-#include <ros/console.h>
-#include <std_srvs/Empty.h>
-#include <std_srvs/Trigger.h>
-
 #include <franka_sim_mujoco/Benchmark.h>
 #include <franka_sim_mujoco/DeleteRobot.h>
 #include <franka_sim_mujoco/GetBodyPose.h>
@@ -20,7 +9,16 @@
 #include <franka_sim_mujoco/SetRealTimeFactor.h>
 #include <franka_sim_mujoco/SpawnRobot.h>
 #include <franka_sim_mujoco/Step.h>
+#include <franka_sim_mujoco/ros/sim_services.h>
 #include <franka_sim_mujoco/ros/simulation.h>
+#include <ros/advertise_service_options.h>
+#include <ros/console.h>
+#include <std_srvs/Empty.h>
+#include <std_srvs/Trigger.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace franka_sim_mujoco {
 
@@ -34,9 +32,7 @@ template <typename Response>
 void setText(Response& response, const char* text) {
   response.error = text;
 }
-void setText(std_srvs::Trigger::Response& response, const char* text) {
-  response.message = text;
-}
+void setText(std_srvs::Trigger::Response& response, const char* text) { response.message = text; }
 
 void checkFinite(std::initializer_list<double> numbers, const char* what) {
   for (const double number : numbers) {
@@ -51,7 +47,8 @@ Pose fromMessage(const geometry_msgs::Pose& message) {
   pose.position = {message.position.x, message.position.y, message.position.z};
   std::array<double, 4>& q = pose.orientation;
   q = {message.orientation.w, message.orientation.x, message.orientation.y, message.orientation.z};
-  checkFinite({pose.position[0], pose.position[1], pose.position[2], q[0], q[1], q[2], q[3]}, "pose");
+  checkFinite({pose.position[0], pose.position[1], pose.position[2], q[0], q[1], q[2], q[3]},
+              "pose");
   const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   if (std::abs(norm - 1.0) > 1e-3) {
     throw std::runtime_error("The orientation must be a unit quaternion; its length is " +
@@ -111,7 +108,8 @@ void push(World& world, const PushBody::Request& request) {
   if (torque != std::array<double, 3>{}) {
     throw std::runtime_error("A push at a point takes no torque: push the body itself for that.");
   }
-  world.pushAt(request.body, {request.point.x, request.point.y, request.point.z}, force, request.ticks);
+  world.pushAt(request.body, {request.point.x, request.point.y, request.point.z}, force,
+               request.ticks);
 }
 
 bool between(const Contact& contact, const std::string& body1, const std::string& body2) {
@@ -197,7 +195,8 @@ void SimServices::offer(
 void SimServices::offerEmpty(const std::string& name, std::function<void()> action) {
   auto options = ros::AdvertiseServiceOptions::create<std_srvs::Empty>(
       name,
-      [action, name](std_srvs::Empty::Request& /*request*/, std_srvs::Empty::Response& /*response*/) {
+      [action, name](std_srvs::Empty::Request& /*request*/,
+                     std_srvs::Empty::Response& /*response*/) {
         try {
           action();
           return true;
@@ -222,9 +221,8 @@ void SimServices::offerTime() {
         simulation_.setRealTimeFactor(request.real_time_factor);
       });
   offer<std_srvs::Trigger>(
-      "reset", [this](std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& /*response*/) {
-        simulation_.reset();
-      });
+      "reset", [this](std_srvs::Trigger::Request& /*request*/,
+                      std_srvs::Trigger::Response& /*response*/) { simulation_.reset(); });
   offer<Benchmark>("benchmark", [this](Benchmark::Request& request, Benchmark::Response& response) {
     const Simulation::Benchmark result = simulation_.benchmark(request.ticks);
     response.tick_us = result.tick;
@@ -248,26 +246,24 @@ void SimServices::offerRobots() {
 }
 
 void SimServices::offerBodies() {
-  offer<GetBodyPose>("get_body_pose",
-                     [this](GetBodyPose::Request& request, GetBodyPose::Response& response) {
-                       simulation_.withWorld([&](World& world) {
-                         response.pose = toMessage(world.bodyPose(request.body));
-                       });
-                     });
-  offer<SetBodyPose>("set_body_pose",
-                     [this](SetBodyPose::Request& request, SetBodyPose::Response& /*response*/) {
-                       const Pose pose = fromMessage(request.pose);
-                       simulation_.withWorld(
-                           [&](World& world) { world.setBodyPose(request.body, pose); });
-                     });
-  offer<PushBody>("push_body", [this](PushBody::Request& request, PushBody::Response& /*response*/) {
-    simulation_.withWorld([&](World& world) { push(world, request); });
-  });
-  offer<GetContacts>("get_contacts",
-                     [this](GetContacts::Request& request, GetContacts::Response& response) {
-                       simulation_.withWorld(
-                           [&](World& world) { collectContacts(world, request, response); });
-                     });
+  offer<GetBodyPose>(
+      "get_body_pose", [this](GetBodyPose::Request& request, GetBodyPose::Response& response) {
+        simulation_.withWorld(
+            [&](World& world) { response.pose = toMessage(world.bodyPose(request.body)); });
+      });
+  offer<SetBodyPose>(
+      "set_body_pose", [this](SetBodyPose::Request& request, SetBodyPose::Response& /*response*/) {
+        const Pose pose = fromMessage(request.pose);
+        simulation_.withWorld([&](World& world) { world.setBodyPose(request.body, pose); });
+      });
+  offer<PushBody>("push_body",
+                  [this](PushBody::Request& request, PushBody::Response& /*response*/) {
+                    simulation_.withWorld([&](World& world) { push(world, request); });
+                  });
+  offer<GetContacts>(
+      "get_contacts", [this](GetContacts::Request& request, GetContacts::Response& response) {
+        simulation_.withWorld([&](World& world) { collectContacts(world, request, response); });
+      });
 }
 
 }  // namespace franka_sim_mujoco

@@ -1,15 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/physics/bare_steps.h>
 #include <franka_sim_mujoco/ros/simulation.h>
+#include <ros/console.h>
+#include <ros/init.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
-
-#include <ros/console.h>
-#include <ros/init.h>
-
-#include <franka_sim_mujoco/physics/bare_steps.h>
 
 namespace franka_sim_mujoco {
 
@@ -35,9 +33,7 @@ Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
   }
 }
 
-Simulation::~Simulation() {
-  stop();
-}
+Simulation::~Simulation() { stop(); }
 
 void Simulation::start() {
   thread_ = std::thread([this] { loop(); });
@@ -135,7 +131,8 @@ SimulationState Simulation::step(std::uint32_t ticks) {
       throw std::runtime_error("The simulation runs by itself: pause it before stepping it.");
     }
     if (steps_left_ > 0) {
-      throw std::runtime_error("An earlier request is still stepping the simulation: wait for its end.");
+      throw std::runtime_error(
+          "An earlier request is still stepping the simulation: wait for its end.");
     }
     stepped_.emplace();
     done = stepped_->get_future();
@@ -192,8 +189,9 @@ void Simulation::spawn(const SpawnOrder& order) {
 void Simulation::remove(const std::string& name) {
   std::unique_ptr<RobotInstance> removed;
   requests_.run([&] {
-    const auto robot = std::find_if(robots_.begin(), robots_.end(),
-                                    [&](const auto& candidate) { return candidate->name() == name; });
+    const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const auto& candidate) {
+      return candidate->name() == name;
+    });
     if (robot == robots_.end()) {
       throw std::runtime_error("There is no robot named '" + name + "'.");
     }

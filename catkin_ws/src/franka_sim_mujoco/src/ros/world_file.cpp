@@ -39,9 +39,10 @@ std::string findWorldFile(const std::string& name, const std::vector<std::string
     }
     searched += (searched.empty() ? "" : ", ") + folder;
   }
-  throw std::runtime_error("The world '" + name + "' was not found: there is no such MJCF file, and no " +
-                           mjcf.filename().string() + " in " + searched +
-                           ". Give the path of an .xml (MJCF) file or the name of a world that is there.");
+  throw std::runtime_error(
+      "The world '" + name + "' was not found: there is no such MJCF file, and no " +
+      mjcf.filename().string() + " in " + searched +
+      ". Give the path of an .xml (MJCF) file or the name of a world that is there.");
 }
 
 }  // namespace franka_sim_mujoco

@@ -2,7 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// The parts of the ROS room that need no master: queue, pace, world names, physics file, mailbox, claims.
+/// The parts of the ROS room that need no master: queue, pace, world names, physics file, mailbox,
+/// claims.
+
+#include <franka_sim_mujoco/ros/controller_check.h>
+#include <franka_sim_mujoco/ros/gripper_mailbox.h>
+#include <franka_sim_mujoco/ros/pacer.h>
+#include <franka_sim_mujoco/ros/physics_config.h>
+#include <franka_sim_mujoco/ros/request_queue.h>
+#include <franka_sim_mujoco/ros/world_file.h>
+#include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
@@ -14,15 +23,6 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
-
-#include <gtest/gtest.h>
-
-#include <franka_sim_mujoco/ros/controller_check.h>
-#include <franka_sim_mujoco/ros/gripper_mailbox.h>
-#include <franka_sim_mujoco/ros/pacer.h>
-#include <franka_sim_mujoco/ros/physics_config.h>
-#include <franka_sim_mujoco/ros/request_queue.h>
-#include <franka_sim_mujoco/ros/world_file.h>
 
 namespace franka_sim_mujoco {
 namespace {
@@ -153,7 +153,8 @@ class PhysicsFile : public testing::Test {
 
 TEST_F(PhysicsFile, TakesTheRobotsSectionAndTheFrictionSet) {
   const std::string text =
-      "panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, 7], joint_stops: {lower: [-1, -1, -1, -1, -1, -1, -1], "
+      "panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, 7], joint_stops: {lower: [-1, -1, -1, -1, -1, -1, "
+      "-1], "
       "upper: [1, 1, 1, 1, 1, 1, 2]}}\n"
       "friction_sets: {none: {}, fr3: {damping: [.1, .2, .3, .4, .5, .6, .7]}}\n";
   const JointPhysics plain = read(text);
@@ -172,9 +173,11 @@ TEST_F(PhysicsFile, SaysWhatIsWrong) {
   EXPECT_TRUE(contains(complaint("panda: {damping: [1, 2]}"), "panda/damping must be a list of 7"));
   EXPECT_TRUE(contains(complaint("panda: {damping: [1, 2, 3, 4, 5, 6, x]}"), "finite numbers"));
   EXPECT_TRUE(contains(complaint("panda: {damping: [1, 2, 3, 4, 5, 6, .nan]}"), "finite numbers"));
-  EXPECT_TRUE(contains(complaint("panda: {}\nfriction_sets: {none: {}}", "ice"), "no section 'ice'"));
+  EXPECT_TRUE(
+      contains(complaint("panda: {}\nfriction_sets: {none: {}}", "ice"), "no section 'ice'"));
   EXPECT_TRUE(contains(complaint("panda: ["), path_));
-  EXPECT_TRUE(contains(sentence([] { readJointPhysics("/nowhere.yaml", "panda", "none"); }), "/nowhere.yaml"));
+  EXPECT_TRUE(contains(sentence([] { readJointPhysics("/nowhere.yaml", "panda", "none"); }),
+                       "/nowhere.yaml"));
 }
 
 class Mailbox : public testing::Test {
@@ -257,7 +260,8 @@ TEST(ControllerCheck, TakesWholeArmsAndWholeHandsByEffort) {
   EXPECT_EQ("", whyRefused(controller("EffortJointInterface", arm), "a"));
   EXPECT_EQ("", whyRefused(controller("EffortJointInterface", hand), "a"));
   EXPECT_EQ("", whyRefused(controller("EffortJointInterface", {}), "a"));
-  EXPECT_TRUE(contains(whyRefused(controller("PositionJointInterface", arm), "a"), "PositionJointInterface"));
+  EXPECT_TRUE(contains(whyRefused(controller("PositionJointInterface", arm), "a"),
+                       "PositionJointInterface"));
   EXPECT_NE("", whyRefused(controller("EffortJointInterface", six), "a"));
   EXPECT_NE("", whyRefused(controller("EffortJointInterface", both), "a"));
   EXPECT_NE("", whyRefused(controller("EffortJointInterface", arm), "b"));

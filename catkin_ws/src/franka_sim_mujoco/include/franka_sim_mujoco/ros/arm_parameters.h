@@ -2,28 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include <franka_sim_mujoco/robot/control_unit.h>
 #include <ros/node_handle.h>
 
+#include <string>
+
 namespace franka_sim_mujoco {
 
-/// The control unit's configuration from the parameters of a robot's namespace (franka_ros.md 9.2), with
-/// defaults from its URDF: end effector composed of everything behind the flange (decision 7), F_T_NE that of
-/// the hand when there is one.
+/// The control unit's configuration from the parameters of a robot's namespace (franka_ros.md 9.2),
+/// with defaults from its URDF: end effector composed of everything behind the flange (decision 7),
+/// F_T_NE that of the hand when there is one.
 /// @param gravity of the world [m/s^2], axes of the arm's base; the parameter gravity_vector wins
 /// @throws std::invalid_argument with one sentence for the first thing that is wrong
 ControlUnitParameters readArmParameters(const ros::NodeHandle& node, const std::string& urdf,
                                         const std::string& arm_id, bool has_hand,
                                         const std::array<double, 3>& gravity);
 
-/// The prefix of an arm's joint names: the parameter arm_id, else the namespace without slashes, else the
-/// robot's name. @throws std::invalid_argument with a sentence when it is empty or no text
+/// The prefix of an arm's joint names: the parameter arm_id, else the namespace without slashes,
+/// else the robot's name. @throws std::invalid_argument with a sentence when it is empty or no text
 std::string readArmId(const ros::NodeHandle& node, const std::string& robot_namespace,
                       const std::string& robot_name);
 
-/// Sentence for the first threshold that is negative or not a number, or lower above upper; empty if none.
+/// Sentence for the first threshold that is negative or not a number, or lower above upper; empty
+/// if none.
 std::string checkThresholds(const CollisionThresholds& thresholds);
 
 }  // namespace franka_sim_mujoco

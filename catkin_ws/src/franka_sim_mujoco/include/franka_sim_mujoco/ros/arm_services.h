@@ -2,21 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <actionlib/server/simple_action_server.h>
+#include <franka_msgs/ErrorRecoveryAction.h>
+#include <franka_sim_mujoco/robot_hw_sim.h>
+#include <franka_sim_mujoco/ros/sim_arm.h>
+#include <ros/node_handle.h>
+
 #include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include <actionlib/server/simple_action_server.h>
-#include <franka_msgs/ErrorRecoveryAction.h>
-#include <franka_sim_mujoco/ros/sim_arm.h>
-#include <franka_sim_mujoco/robot_hw_sim.h>
-#include <ros/node_handle.h>
-
 namespace franka_sim_mujoco {
 
-/// The services and the recovery action of a simulated arm, under `franka_control` in its namespace. They run
-/// in service and action threads and reach the arm between ticks.
+/// The services and the recovery action of a simulated arm, under `franka_control` in its
+/// namespace. They run in service and action threads and reach the arm between ticks.
 class ArmServices {
  public:
   /// @param restart_controllers whether a recovery restarts the controllers that command the arm

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <memory>
-
 #include <realtime_tools/realtime_publisher.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include <cstdint>
+#include <memory>
+
 namespace franka_sim_mujoco {
 
-/// Publishes /clock, at most 1000 times a wall second however fast the simulation runs (decision 22).
-/// The stepping thread owns it.
+/// Publishes /clock, at most 1000 times a wall second however fast the simulation runs (decision
+/// 22). The stepping thread owns it.
 class ClockPublisher {
  public:
   explicit ClockPublisher(ros::NodeHandle& node);

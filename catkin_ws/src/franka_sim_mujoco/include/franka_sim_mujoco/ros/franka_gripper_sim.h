@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <memory>
-#include <optional>
-#include <string>
-
 #include <controller_interface/controller.h>
 #include <franka_hw/trigger_rate.h>
 #include <franka_sim_mujoco/robot/gripper_unit.h>
@@ -16,12 +11,17 @@
 #include <realtime_tools/realtime_publisher.h>
 #include <sensor_msgs/JointState.h>
 
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
 namespace franka_sim_mujoco {
 
-/// The Franka hand in simulation: a controller of the two finger joints' efforts with the actions of the
-/// real gripper node and its topic joint_states (30 Hz). What the hand does is GripperUnit's; this is its ROS
-/// face. Parameters in the controller's namespace: see the package's documentation (manual,
-/// FrankaGripperSim).
+/// The Franka hand in simulation: a controller of the two finger joints' efforts with the actions
+/// of the real gripper node and its topic joint_states (30 Hz). What the hand does is
+/// GripperUnit's; this is its ROS face. Parameters in the controller's namespace: see the package's
+/// documentation (manual, FrankaGripperSim).
 class FrankaGripperSim
     : public controller_interface::Controller<hardware_interface::EffortJointInterface> {
  public:

@@ -2,13 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <list>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <franka_hw/franka_model_interface.h>
 #include <franka_hw/franka_state_interface.h>
 #include <franka_hw/model_kdl.h>
@@ -21,11 +14,18 @@
 #include <ros/wall_timer.h>
 #include <std_msgs/Bool.h>
 
+#include <array>
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace franka_sim_mujoco {
 
-/// A simulated Panda or FR3 as ros_control hardware: joint states, efforts, franka state and franka model,
-/// as its URDF's transmissions declare. Every command and every state goes through the arm's ControlUnit.
-/// The hand's fingers, when there are any, are two more effort joints.
+/// A simulated Panda or FR3 as ros_control hardware: joint states, efforts, franka state and franka
+/// model, as its URDF's transmissions declare. Every command and every state goes through the arm's
+/// ControlUnit. The hand's fingers, when there are any, are two more effort joints.
 ///
 /// Threads and real-time safety: RobotHWSim. Parameters, services and topics: docs of the package.
 class FrankaHWSim : public RobotHWSim {
@@ -62,9 +62,12 @@ class FrankaHWSim : public RobotHWSim {
   void nameJoints(const urdf::Model& model, bool has_hand);
   void addTransmission(const transmission_interface::TransmissionInfo& transmission,
                        const urdf::Model& model);
-  void addJoint(const transmission_interface::TransmissionInfo& transmission, const urdf::Model& model);
-  void addState(const transmission_interface::TransmissionInfo& transmission, const urdf::Model& model);
-  void addModel(const transmission_interface::TransmissionInfo& transmission, const urdf::Model& model);
+  void addJoint(const transmission_interface::TransmissionInfo& transmission,
+                const urdf::Model& model);
+  void addState(const transmission_interface::TransmissionInfo& transmission,
+                const urdf::Model& model);
+  void addModel(const transmission_interface::TransmissionInfo& transmission,
+                const urdf::Model& model);
   void checkComplete() const;
   void registerAll();
   Joint* findJoint(const std::string& name);

@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <functional>
-#include <memory>
-#include <string>
-
 #include <actionlib/server/simple_action_server.h>
 #include <control_msgs/GripperCommandAction.h>
 #include <franka_gripper/GraspAction.h>
@@ -15,6 +10,11 @@
 #include <franka_gripper/StopAction.h>
 #include <franka_sim_mujoco/ros/gripper_mailbox.h>
 #include <ros/node_handle.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
 
 namespace franka_sim_mujoco {
 
@@ -25,13 +25,13 @@ struct GripperView {
 };
 
 struct GripperActionParameters {
-  double max_width{0.08};                      ///< [m]
+  double max_width{0.08};                        ///< [m]
   double gripper_action_width_tolerance{0.005};  ///< [m]
-  double gripper_action_speed{0.1};            ///< [m/s]
+  double gripper_action_speed{0.1};              ///< [m/s]
 };
 
-/// The hand's five actions: stop, homing, move, grasp and gripper_action, in the controller's namespace.
-/// A goal of one interrupts what another one started. They run in threads of their own.
+/// The hand's five actions: stop, homing, move, grasp and gripper_action, in the controller's
+/// namespace. A goal of one interrupts what another one started. They run in threads of their own.
 class GripperActions {
  public:
   GripperActions(const ros::NodeHandle& node, const GripperActionParameters& parameters,

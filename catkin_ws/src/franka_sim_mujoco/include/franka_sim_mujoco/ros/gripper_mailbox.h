@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/robot/gripper_unit.h>
+
 #include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
-
-#include <franka_sim_mujoco/robot/gripper_unit.h>
 
 namespace franka_sim_mujoco {
 
@@ -29,11 +29,12 @@ struct GripperCommand {
   }
 };
 
-/// Hands commands from action threads to the loop and their outcomes back, without a lock in the loop.
+/// Hands commands from action threads to the loop and their outcomes back, without a lock in the
+/// loop.
 ///
-/// There is one slot: a command that comes before the last one was taken out takes its place, and the last
-/// one counts as interrupted, as it would have been a tick later. Any thread may post; serve, settle and
-/// interruptAll belong to the loop and neither lock nor allocate nor free.
+/// There is one slot: a command that comes before the last one was taken out takes its place, and
+/// the last one counts as interrupted, as it would have been a tick later. Any thread may post;
+/// serve, settle and interruptAll belong to the loop and neither lock nor allocate nor free.
 class GripperMailbox {
  public:
   /// Any thread but the loop.

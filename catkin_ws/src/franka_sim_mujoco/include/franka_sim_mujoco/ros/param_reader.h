@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <ros/node_handle.h>
+
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <ros/node_handle.h>
 
 namespace franka_sim_mujoco {
 

@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <memory>
-#include <thread>
-
 #include <franka_sim_mujoco/RenderPicture.h>
 #include <franka_sim_mujoco/physics/renderer.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
 
 namespace franka_sim_mujoco {
 
 class Simulation;
 
 /// The service that draws pictures. It has a thread of its own: the stepping thread only copies the
-/// moment, and a renderer belongs to one thread. The renderer is made for the first picture, since it takes
-/// memory (decision 38).
+/// moment, and a renderer belongs to one thread. The renderer is made for the first picture, since
+/// it takes memory (decision 38).
 class PictureService {
  public:
   /// @param node in whose namespace `render_picture` is offered

@@ -16,14 +16,16 @@ namespace franka_sim_mujoco {
 
 /// Work that other threads want done by the stepping thread between two ticks.
 ///
-/// Any thread may call `run` and `close`; the stepping thread calls `adopt`, `serve` and `waitForWork`.
-/// While nothing is queued `serve` costs one atomic load: no lock is taken in an undisturbed tick.
+/// Any thread may call `run` and `close`; the stepping thread calls `adopt`, `serve` and
+/// `waitForWork`. While nothing is queued `serve` costs one atomic load: no lock is taken in an
+/// undisturbed tick.
 class RequestQueue {
  public:
   static constexpr std::chrono::milliseconds kDefaultTimeout{10000};
 
-  /// Waits until the stepping thread has done `work`; called by the stepping thread itself, does it at once.
-  /// Rethrows what `work` throws. When this returns or throws, `work` is not and will not be running.
+  /// Waits until the stepping thread has done `work`; called by the stepping thread itself, does it
+  /// at once. Rethrows what `work` throws. When this returns or throws, `work` is not and will not
+  /// be running.
   /// @param timeout how long the work may wait for its turn; once begun it is waited for to its end
   /// @throws std::runtime_error when its turn did not come, or after close()
   void run(const std::function<void()>& work, std::chrono::milliseconds timeout = kDefaultTimeout);

@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <controller_manager/controller_manager.h>
-#include <pluginlib/class_loader.hpp>
+#include <franka_sim_mujoco/physics/world.h>
+#include <franka_sim_mujoco/robot_hw_sim.h>
 #include <ros/node_handle.h>
 #include <urdf/model.h>
 
-#include <franka_sim_mujoco/physics/world.h>
-#include <franka_sim_mujoco/robot_hw_sim.h>
+#include <cstdint>
+#include <memory>
+#include <pluginlib/class_loader.hpp>
+#include <string>
+#include <vector>
 
 namespace franka_sim_mujoco {
 
@@ -26,7 +25,8 @@ struct SpawnOrder {
   std::map<std::string, double> initial_positions;
 };
 
-/// A spawn order, read and checked: everything that needs neither the world nor the stepping thread.
+/// A spawn order, read and checked: everything that needs neither the world nor the stepping
+/// thread.
 struct RobotPlan {
   RobotDescription description;
   std::string robot_namespace;
@@ -53,9 +53,11 @@ struct TickTimes {
 /// the robots by the stepping thread; destroyed by any thread afterwards.
 class RobotInstance {
  public:
-  /// Enters the robot into the world and starts its hardware; nothing is left behind when it throws.
+  /// Enters the robot into the world and starts its hardware; nothing is left behind when it
+  /// throws.
   /// @throws std::runtime_error with a sentence
-  RobotInstance(const RobotPlan& plan, World& world, HardwareLoader& loader, BetweenTicks between_ticks);
+  RobotInstance(const RobotPlan& plan, World& world, HardwareLoader& loader,
+                BetweenTicks between_ticks);
   ~RobotInstance();
   RobotInstance(const RobotInstance&) = delete;
   RobotInstance& operator=(const RobotInstance&) = delete;

@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
+
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace franka_sim_mujoco {
 
 class Simulation;
 
-/// The simulation's services: time (pause, step, factor, reset), robots (spawn, delete), things (poses,
-/// pushes, contacts), benchmark. Each answers success=false and a sentence instead of failing the call.
-/// They have threads of their own, so that a controller switch that waits for a paused simulation cannot keep
-/// anyone from unpausing it.
+/// The simulation's services: time (pause, step, factor, reset), robots (spawn, delete), things
+/// (poses, pushes, contacts), benchmark. Each answers success=false and a sentence instead of
+/// failing the call. They have threads of their own, so that a controller switch that waits for a
+/// paused simulation cannot keep anyone from unpausing it.
 class SimServices {
  public:
   /// @param node in whose namespace they are offered; pause_physics and unpause_physics too

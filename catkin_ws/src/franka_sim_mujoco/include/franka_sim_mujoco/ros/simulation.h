@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/physics/world.h>
+#include <franka_sim_mujoco/ros/clock_publisher.h>
+#include <franka_sim_mujoco/ros/pacer.h>
+#include <franka_sim_mujoco/ros/request_queue.h>
+#include <franka_sim_mujoco/ros/robot_instance.h>
+
 #include <atomic>
 #include <cstdint>
 #include <future>
@@ -11,23 +17,17 @@
 #include <thread>
 #include <vector>
 
-#include <franka_sim_mujoco/physics/world.h>
-#include <franka_sim_mujoco/ros/clock_publisher.h>
-#include <franka_sim_mujoco/ros/pacer.h>
-#include <franka_sim_mujoco/ros/request_queue.h>
-#include <franka_sim_mujoco/ros/robot_instance.h>
-
 namespace franka_sim_mujoco {
 
 struct SimulationOptions {
-  std::string world_file;         ///< MJCF; empty: the empty world
-  double real_time_factor{1.0};   ///< see Pacer
+  std::string world_file;        ///< MJCF; empty: the empty world
+  double real_time_factor{1.0};  ///< see Pacer
   bool paused{false};
 };
 
 /// Where the simulation stands.
 struct SimulationState {
-  std::uint64_t tick{0};        ///< since the start; a reset does not set it back
+  std::uint64_t tick{0};  ///< since the start; a reset does not set it back
   ros::Time time;
   std::uint64_t state_hash{0};  ///< World::stateHash
 };
@@ -36,7 +36,8 @@ struct SimulationState {
 /// readSim, controllers, writeSim, then the physics, then /clock.
 ///
 /// ROS time begins at 1 ms and grows by 1 ms a tick; it never goes back, also not when the world is
-/// reset. All public functions may be called from any thread and throw std::runtime_error with a sentence.
+/// reset. All public functions may be called from any thread and throw std::runtime_error with a
+/// sentence.
 class Simulation {
  public:
   /// Builds the world. @throws std::runtime_error what World throws, or for a wrong factor
@@ -65,8 +66,8 @@ class Simulation {
   /// Runs work on the world in the stepping thread, between ticks.
   void withWorld(const std::function<void(World&)>& work);
 
-  /// What each part of a tick takes of the stepping thread's computing time [us], over `ticks` ticks without
-  /// waiting. Physics includes the publishing of /clock.
+  /// What each part of a tick takes of the stepping thread's computing time [us], over `ticks`
+  /// ticks without waiting. Physics includes the publishing of /clock.
   struct Benchmark {
     double tick{0}, physics{0}, read{0}, update{0}, write{0}, bare{0};
   };
