@@ -45,9 +45,9 @@ class Ratio:
     executable: str
     subject: str
     reference: str
-    goal: float | None = None          # of the ratio
-    goal_ns: float | None = None       # of the subject's time
-    divide: float = 1.0                # the subject does this many of the reference's pieces of work
+    goal: float | None = None  # of the ratio
+    goal_ns: float | None = None  # of the subject's time
+    divide: float = 1.0  # the subject does this many of the reference's pieces of work
 
 
 RATIOS = [
@@ -90,16 +90,27 @@ def google_benchmark(executable: Path) -> dict[str, float]:
     command = [str(executable), "--benchmark_format=json", "--benchmark_repetitions=3"]
     output = subprocess.run(command, capture_output=True, text=True, check=True, timeout=300).stdout
     unit = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
-    return {entry["run_name"].split("/min_time")[0].split("/repeats")[0]: entry["cpu_time"] * unit[entry["time_unit"]]
-            for entry in json.loads(output)["benchmarks"] if entry.get("aggregate_name") == "median"}
+    return {
+        entry["run_name"].split("/min_time")[0].split("/repeats")[0]: entry["cpu_time"]
+        * unit[entry["time_unit"]]
+        for entry in json.loads(output)["benchmarks"]
+        if entry.get("aggregate_name") == "median"
+    }
 
 
 # ---- the whole simulation --------------------------------------------------------------------------------
 
 
 def simulation(folder: Path, world: str, *arguments: str) -> Session:
-    return Session("franka_sim_mujoco", "panda.launch", f"world:={world}", f"controller:={CONTROLLER}",
-                   "interactive_marker:=false", *arguments, log=folder / "launch.log")
+    return Session(
+        "franka_sim_mujoco",
+        "panda.launch",
+        f"world:={world}",
+        f"controller:={CONTROLLER}",
+        "interactive_marker:=false",
+        *arguments,
+        log=folder / "launch.log",
+    )
 
 
 def wait_running(session: Session, timeout: float = 60.0) -> None:
@@ -143,23 +154,38 @@ def node_memory(session: Session) -> float:
 
 def tick() -> None:
     print("One tick of 1 ms: physics, control unit, hardware, controller manager, impedance controller")
-    for title, world, goal in (("arm, hand and controller", "empty.xml", 25), ("pick-and-place scene", "stone.xml", 12)):
-        with tempfile.TemporaryDirectory() as folder, \
-                simulation(Path(folder), world, "x:=-0.5", "real_time_factor:=0") as session:
+    for title, world, goal in (
+        ("arm, hand and controller", "empty.xml", 25),
+        ("pick-and-place scene", "stone.xml", 12),
+    ):
+        with (
+            tempfile.TemporaryDirectory() as folder,
+            simulation(Path(folder), world, "x:=-0.5", "real_time_factor:=0") as session,
+        ):
             wait_running(session)
-            best = min((call(session, "/gazebo/benchmark", "ticks: 20000") for _ in range(3)),
-                       key=lambda answer: answer["tick_us"] / answer["bare_us"])
+            best = min(
+                (call(session, "/gazebo/benchmark", "ticks: 20000") for _ in range(3)),
+                key=lambda answer: answer["tick_us"] / answer["bare_us"],
+            )
             for part in ("physics_us", "read_us", "update_us", "write_us"):
                 figure(f"{title}: {part}", best[part], "us")
             figure(f"{title}: tick", best["tick_us"], "us")
             figure(f"{title}: tick / bare mj_step", best["tick_us"] / best["bare_us"], "x", 2.0)
-            figure(f"{title}: times real time, flat out", 1000 / best["tick_us"], "x", goal, at_least=True)
+            figure(
+                f"{title}: times real time, flat out",
+                1000 / best["tick_us"],
+                "x",
+                goal,
+                at_least=True,
+            )
 
 
 def memory() -> None:
     print("Memory of the simulation's process")
-    with tempfile.TemporaryDirectory() as folder, \
-            simulation(Path(folder), "stone.xml", "x:=-0.5", "real_time_factor:=0") as session:
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        simulation(Path(folder), "stone.xml", "x:=-0.5", "real_time_factor:=0") as session,
+    ):
         wait_running(session)
         before = node_memory(session)
         figure("resident before the first picture", before, "MB", 150)
@@ -186,7 +212,10 @@ def main() -> int:
     names = sys.argv[1:] or list(BENCHMARKS)
     unknown = [name for name in names if name not in BENCHMARKS]
     if unknown:
-        print(f"There is no benchmark {', '.join(unknown)}. There are: {', '.join(BENCHMARKS)}.", file=sys.stderr)
+        print(
+            f"There is no benchmark {', '.join(unknown)}. There are: {', '.join(BENCHMARKS)}.",
+            file=sys.stderr,
+        )
         return 2
     for name in names:
         BENCHMARKS[name]()

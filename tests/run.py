@@ -72,8 +72,19 @@ def run_ctest(kind: str, names: list[str], parallel: int) -> None:
 def run_pytest(title: str, paths: list[Path], long: bool) -> int:
     if not paths:
         return 0
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--import-mode=importlib"]
-    command += ["--durations=8", f"--junitxml={PYTEST_RESULTS / (title.replace(' ', '-') + '.xml')}"]
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "--import-mode=importlib",
+    ]
+    command += [
+        "--durations=8",
+        f"--junitxml={PYTEST_RESULTS / (title.replace(' ', '-') + '.xml')}",
+    ]
     command += ["--timeout=900"] + (["--long"] if long else []) + [str(path) for path in paths]
     return run(f"pytest {title}", command, cwd=TOP)
 
@@ -86,7 +97,10 @@ def main() -> int:
     known = packages()
     unknown = [name for name in arguments.packages if name not in known and name != "tests"]
     if unknown:
-        print(f"There is no package {', '.join(unknown)}. There are: tests, {', '.join(known)}.", file=sys.stderr)
+        print(
+            f"There is no package {', '.join(unknown)}. There are: tests, {', '.join(known)}.",
+            file=sys.stderr,
+        )
         return 2
     wanted = [name for name in arguments.packages if name != "tests"]
     end_to_end = not arguments.packages or "tests" in arguments.packages
@@ -101,11 +115,17 @@ def main() -> int:
     if wanted or not arguments.packages:
         run_ctest("gtest", wanted, os.cpu_count() or 2)
         run_ctest("rostest", wanted, 1)
-        tests = [p for n, folder in known.items() if not wanted or n in wanted
-                 for p in sorted(folder.glob("test/**/test_*.py"))]
+        tests = [
+            p
+            for n, folder in known.items()
+            if not wanted or n in wanted
+            for p in sorted(folder.glob("test/**/test_*.py"))
+        ]
         pytest_broken |= run_pytest("packages", tests, arguments.long) > 1
     if end_to_end:
-        pytest_broken |= run_pytest("end to end", sorted((TOP / "tests").glob("test_*.py")), arguments.long) > 1
+        pytest_broken |= (
+            run_pytest("end to end", sorted((TOP / "tests").glob("test_*.py")), arguments.long) > 1
+        )
 
     tally = Tally()
     for path in sorted(RESULTS.glob("**/*.xml")):

@@ -21,11 +21,17 @@ NEEDS_HEADER = {".cpp", ".h", ".py", ".sh", ".cmake", ".launch", ".xacro"}
 
 # Who may include what: a path pattern, the headers that must not stand there, and why.
 ROOMS = [
-    (r"catkin_ws/src/libfranka/|.*/(physics|robot|fci)/", r"<(ros|tf2?|tf2_ros|std_msgs|sensor_msgs|geometry_msgs)/",
-     "this room knows no ROS"),
+    (
+        r"catkin_ws/src/libfranka/|.*/(physics|robot|fci)/",
+        r"<(ros|tf2?|tf2_ros|std_msgs|sensor_msgs|geometry_msgs)/",
+        "this room knows no ROS",
+    ),
     (r"(?!.*/physics/)", r"<mujoco/", "MuJoCo headers stand in physics/ only"),
-    (r"(?!catkin_ws/src/libfranka/src/|.*/fci/|.*/test/|tests/)", r"<(sys/socket|netinet/in|arpa/inet)\.h>",
-     "sockets stand in libfranka/src and fci/ only"),
+    (
+        r"(?!catkin_ws/src/libfranka/src/|.*/fci/|.*/test/|tests/)",
+        r"<(sys/socket|netinet/in|arpa/inet)\.h>",
+        "sockets stand in libfranka/src and fci/ only",
+    ),
 ]
 MARKERS = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(work|home|root|Users)/\w+")

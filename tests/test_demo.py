@@ -12,12 +12,26 @@ SEEDS = list(range(1, 21))
 
 
 def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int, list[dict], str]:
-    command = ["rosrun", "franka_sim_mujoco", "pick_and_place", "--start", "--output", str(output), *arguments]
-    result = subprocess.run(command, text=True, capture_output=True, timeout=timeout, stdin=subprocess.DEVNULL)
+    command = [
+        "rosrun",
+        "franka_sim_mujoco",
+        "pick_and_place",
+        "--start",
+        "--output",
+        str(output),
+        *arguments,
+    ]
+    result = subprocess.run(
+        command, text=True, capture_output=True, timeout=timeout, stdin=subprocess.DEVNULL
+    )
     print(result.stdout)
     print(result.stderr, file=sys.stderr)
     report = output / "report.json"
-    return result.returncode, json.loads(report.read_text()) if report.exists() else [], result.stdout
+    return (
+        result.returncode,
+        json.loads(report.read_text()) if report.exists() else [],
+        result.stdout,
+    )
 
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
@@ -31,7 +45,9 @@ def test_twenty_seeds_are_placed(robot, tmp_path):
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
 def test_carried_stone_stays_between_the_fingers(robot, tmp_path):
-    code, results, _ = pick_and_place(tmp_path, f"robot:={robot}", "--speed", "0", "--no-pictures", "--hold", "60")
+    code, results, _ = pick_and_place(
+        tmp_path, f"robot:={robot}", "--speed", "0", "--no-pictures", "--hold", "60"
+    )
     assert code == 0
     assert results[0]["slip"] < 2e-3
 
@@ -52,7 +68,11 @@ def test_demo_shows_progress_and_pictures(tmp_path):
 
 
 def test_unknown_robot_is_refused():
-    result = subprocess.run(["rosrun", "franka_sim_mujoco", "pick_and_place", "robot:=ur5"], text=True,
-                            capture_output=True, timeout=60)
+    result = subprocess.run(
+        ["rosrun", "franka_sim_mujoco", "pick_and_place", "robot:=ur5"],
+        text=True,
+        capture_output=True,
+        timeout=60,
+    )
     assert result.returncode == 2
     assert "panda" in result.stderr and "fr3" in result.stderr

@@ -13,14 +13,25 @@ FRANKA = str(TOP / "franka")
 
 
 def franka(*arguments: str, **environment: str) -> subprocess.CompletedProcess:
-    return subprocess.run([FRANKA, *arguments], env={**os.environ, **environment}, text=True,
-                          capture_output=True, timeout=120, stdin=subprocess.DEVNULL)
+    return subprocess.run(
+        [FRANKA, *arguments],
+        env={**os.environ, **environment},
+        text=True,
+        capture_output=True,
+        timeout=120,
+        stdin=subprocess.DEVNULL,
+    )
 
 
 def in_script(code: str, **environment: str) -> str:
     """Output of shell code that runs with the script's functions."""
-    result = subprocess.run(["bash", "-c", f"source {FRANKA}; {code}"], env={**os.environ, **environment},
-                            text=True, capture_output=True, timeout=60)
+    result = subprocess.run(
+        ["bash", "-c", f"source {FRANKA}; {code}"],
+        env={**os.environ, **environment},
+        text=True,
+        capture_output=True,
+        timeout=60,
+    )
     assert result.returncode == 0, result.stderr
     return result.stdout
 
@@ -55,8 +66,12 @@ def test_no_command_shows_usage_and_fails():
 
 
 def test_unknown_package_is_refused_with_those_there_are():
-    result = subprocess.run([os.sys.executable, str(TOP / "tests" / "run.py"), "franka_hv"], text=True,
-                            capture_output=True, timeout=60)
+    result = subprocess.run(
+        [os.sys.executable, str(TOP / "tests" / "run.py"), "franka_hv"],
+        text=True,
+        capture_output=True,
+        timeout=60,
+    )
     assert result.returncode == 2
     assert "franka_hv" in result.stderr and "franka_hw" in result.stderr
 
@@ -67,11 +82,16 @@ def test_wanted_packages_are_names_only():
     assert all(name.isascii() and "#" not in name for name in names)
 
 
-@pytest.mark.parametrize("command", [["python3", "-c", "import rospy, tf2_ros"],
-                                     ["xacro", "--help"],
-                                     ["rosrun", "xacro", "xacro", "--help"],
-                                     ["roslaunch", "--help"],
-                                     ["rosrun", "franka_sim_mujoco", "pick_and_place", "--help"]])
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["python3", "-c", "import rospy, tf2_ros"],
+        ["xacro", "--help"],
+        ["rosrun", "xacro", "xacro", "--help"],
+        ["roslaunch", "--help"],
+        ["rosrun", "franka_sim_mujoco", "pick_and_place", "--help"],
+    ],
+)
 def test_shell_works_whatever_python_stands_first(command, foreign_python):
     result = franka("shell", *command, PATH=foreign_python)
     assert result.returncode == 0, result.stdout + result.stderr
@@ -99,4 +119,6 @@ def test_a_single_original_steps_aside_alone(tmp_path):
 
 
 def test_our_own_devel_space_is_no_original():
-    assert in_script("stand_ins_to_leave_out", CMAKE_PREFIX_PATH=str(TOP / "catkin_ws" / "devel")).split() == []
+    assert (
+        in_script("stand_ins_to_leave_out", CMAKE_PREFIX_PATH=str(TOP / "catkin_ws" / "devel")).split() == []
+    )

@@ -19,30 +19,64 @@ def installed(tmp_path_factory) -> Path:
     """The workspace's packages in a prefix of their own."""
     prefix = tmp_path_factory.mktemp("install")
     environment = dict(os.environ, PATH=f"/usr/bin:{os.environ['PATH']}")
-    subprocess.run(["cmake", f"-DCMAKE_INSTALL_PREFIX={prefix}", "."], cwd=WORKSPACE / "build", env=environment,
-                   check=True, capture_output=True, timeout=300)
+    subprocess.run(
+        ["cmake", f"-DCMAKE_INSTALL_PREFIX={prefix}", "."],
+        cwd=WORKSPACE / "build",
+        env=environment,
+        check=True,
+        capture_output=True,
+        timeout=300,
+    )
     try:
-        result = subprocess.run(["make", "install"], cwd=WORKSPACE / "build", env=environment, text=True,
-                                capture_output=True, timeout=800)
+        result = subprocess.run(
+            ["make", "install"],
+            cwd=WORKSPACE / "build",
+            env=environment,
+            text=True,
+            capture_output=True,
+            timeout=800,
+        )
         assert result.returncode == 0, (result.stdout + result.stderr)[-4000:]
     finally:
-        subprocess.run(["cmake", f"-DCMAKE_INSTALL_PREFIX={WORKSPACE / 'install'}", "."], cwd=WORKSPACE / "build",
-                       env=environment, check=True, capture_output=True, timeout=300)
+        subprocess.run(
+            ["cmake", f"-DCMAKE_INSTALL_PREFIX={WORKSPACE / 'install'}", "."],
+            cwd=WORKSPACE / "build",
+            env=environment,
+            check=True,
+            capture_output=True,
+            timeout=300,
+        )
     yield prefix
     shutil.rmtree(prefix, ignore_errors=True)
 
 
-def in_install_space(prefix: Path, command: str, folder: Path, timeout: float = 300) -> subprocess.CompletedProcess:
+def in_install_space(
+    prefix: Path, command: str, folder: Path, timeout: float = 300
+) -> subprocess.CompletedProcess:
     """Runs a shell command with nothing but the install space sourced."""
-    clean = {"HOME": str(folder), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "ROS_HOSTNAME": "localhost",
-             "ROS_HOME": str(folder)}
-    return subprocess.run(["bash", "-c", f"source {prefix}/setup.bash && {command}"], env=clean, text=True,
-                          capture_output=True, timeout=timeout, stdin=subprocess.DEVNULL)
+    clean = {
+        "HOME": str(folder),
+        "PATH": "/usr/bin:/bin",
+        "LANG": "C.UTF-8",
+        "ROS_HOSTNAME": "localhost",
+        "ROS_HOME": str(folder),
+    }
+    return subprocess.run(
+        ["bash", "-c", f"source {prefix}/setup.bash && {command}"],
+        env=clean,
+        text=True,
+        capture_output=True,
+        timeout=timeout,
+        stdin=subprocess.DEVNULL,
+    )
 
 
 def test_demo_runs_from_the_install_space(installed, tmp_path):
     result = in_install_space(
-        installed, f"rosrun franka_sim_mujoco pick_and_place --start --speed 0 --output {tmp_path}/demo", tmp_path)
+        installed,
+        f"rosrun franka_sim_mujoco pick_and_place --start --speed 0 --output {tmp_path}/demo",
+        tmp_path,
+    )
     assert result.returncode == 0, result.stdout + result.stderr
     assert json.loads((tmp_path / "demo" / "report.json").read_text())[0]["in_tray"]
 
@@ -50,15 +84,26 @@ def test_demo_runs_from_the_install_space(installed, tmp_path):
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
 def test_xacro_runs_from_the_install_space(installed, robot, tmp_path):
     result = in_install_space(
-        installed, f"xacro $(rospack find franka_description)/robots/{robot}/{robot}.urdf.xacro gazebo:=true hand:=true",
-        tmp_path)
+        installed,
+        f"xacro $(rospack find franka_description)/robots/{robot}/{robot}.urdf.xacro gazebo:=true hand:=true",
+        tmp_path,
+    )
     assert result.returncode == 0, result.stderr
     assert f'<link name="{robot}_hand_tcp"' in result.stdout
 
 
-@pytest.mark.parametrize("header", ["hardware_interface/robot_hw.h", "franka_hw/model_kdl.h",
-                                    "franka_sim_mujoco/robot_hw_sim.h", "pluginlib/class_list_macros.h",
-                                    "controller_manager/controller_manager.h", "franka/robot_state.h",
-                                    "franka_msgs/FrankaState.h", "control_toolbox/pid.h"])
+@pytest.mark.parametrize(
+    "header",
+    [
+        "hardware_interface/robot_hw.h",
+        "franka_hw/model_kdl.h",
+        "franka_sim_mujoco/robot_hw_sim.h",
+        "pluginlib/class_list_macros.h",
+        "controller_manager/controller_manager.h",
+        "franka/robot_state.h",
+        "franka_msgs/FrankaState.h",
+        "control_toolbox/pid.h",
+    ],
+)
 def test_headers_are_installed(installed, header):
     assert (installed / "include" / header).exists()

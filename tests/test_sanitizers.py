@@ -12,6 +12,11 @@ SCRIPT = TOP / "catkin_ws" / "src" / "ros_control" / "controller_manager" / "tes
 def test_controller_manager_under_thread_sanitizer(long_run):
     operations = "10000" if long_run else "2000"
     build = TOP / "out" / "tsan"
-    result = subprocess.run([str(SCRIPT), str(build), operations], text=True, timeout=850,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    result = subprocess.run(
+        [str(SCRIPT), str(build), operations],
+        text=True,
+        timeout=850,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
     assert result.returncode == 0, result.stdout[-6000:]

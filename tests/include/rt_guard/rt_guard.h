@@ -177,11 +177,11 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
 }  // extern "C"
 
 // One forwarding definition: counts, then calls the genuine function with the same arguments.
-#define RT_GUARD_FORWARD(count, version, name, specifier, parameters, arguments) \
-  extern "C" int name parameters specifier {                                     \
-    static std::atomic<void*> genuine{nullptr};                                  \
-    using Function = int(*) parameters;                                          \
-    rt_guard::internal::count();                                                 \
+#define RT_GUARD_FORWARD(count, version, name, specifier, parameters, arguments)  \
+  extern "C" int name parameters specifier {                                      \
+    static std::atomic<void*> genuine{nullptr};                                   \
+    using Function = int(*) parameters;                                           \
+    rt_guard::internal::count();                                                  \
     return rt_guard::internal::next<Function>(genuine, #name, version) arguments; \
   }
 

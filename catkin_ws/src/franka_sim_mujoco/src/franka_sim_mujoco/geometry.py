@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
-from tf.transformations import quaternion_from_matrix, quaternion_matrix, rotation_matrix
+from tf.transformations import quaternion_from_matrix, quaternion_matrix
 
 
 def matrix_of(pose: Pose) -> np.ndarray:
@@ -45,12 +45,6 @@ def rotation_vector(rotation: np.ndarray) -> np.ndarray:
     if sine < 1e-12:
         return np.zeros(3)
     return 2.0 * math.atan2(math.copysign(sine, w), abs(w)) / sine * np.array([x, y, z])
-
-
-def rotation_of(vector: np.ndarray) -> np.ndarray:
-    """4x4 rotation of a rotation vector [rad]."""
-    angle = float(np.linalg.norm(vector))
-    return rotation_matrix(angle, vector) if angle > 1e-12 else np.eye(4)
 
 
 def wrap(angle: float, period: float) -> float:

@@ -18,15 +18,31 @@ import rospy
 from actionlib import CommState
 from actionlib_msgs.msg import GoalStatus
 from dynamic_reconfigure.client import Client as ReconfigureClient
-from franka_gripper.msg import (GraspAction, GraspEpsilon, GraspGoal, HomingAction, HomingGoal,
-                                MoveAction, MoveGoal, StopAction, StopGoal)
+from franka_gripper.msg import (
+    GraspAction,
+    GraspEpsilon,
+    GraspGoal,
+    HomingAction,
+    HomingGoal,
+    MoveAction,
+    MoveGoal,
+    StopAction,
+    StopGoal,
+)
 from franka_msgs.msg import FrankaState
 from franka_msgs.srv import SetLoad
 from geometry_msgs.msg import Point, Pose, PoseStamped
 from sensor_msgs.msg import Image
 
-from franka_sim_mujoco.geometry import (downwards, matrix_of, minimum_jerk, pose_of, rotation_of,
-                                        rotation_vector, wrap, yaw_of)
+from franka_sim_mujoco.geometry import (
+    downwards,
+    matrix_of,
+    minimum_jerk,
+    pose_of,
+    rotation_vector,
+    wrap,
+    yaw_of,
+)
 from franka_sim_mujoco.srv import GetBodyPose, GetContacts, RenderPicture, SetBodyPose
 
 # The scene (franka_ros.md 9.6): sizes [m], mass [kg].
@@ -40,7 +56,9 @@ class TaskError(RuntimeError):
     """A step did not reach its goal; the text says which, and what was measured."""
 
 
-def wait_until(condition: Callable[[], bool], what: str, simulated: float = 15.0, wall: float = 120.0) -> None:
+def wait_until(
+    condition: Callable[[], bool], what: str, simulated: float = 15.0, wall: float = 120.0
+) -> None:
     """Polls until the condition holds; raises TaskError after either time [s] has passed."""
     start, wall_end = rospy.get_time(), time.monotonic() + wall
     while not condition():
@@ -57,16 +75,14 @@ class Arm:
     """The arm under the Cartesian impedance controller, as its topics show it."""
 
     CONTROLLER = "cartesian_impedance_example_controller"
-    CORRECTION_RATE = 1.5      # of the equilibrium pose towards the wanted one [1/s]
-    LARGEST_CORRECTION = np.array([0.15] * 3 + [0.6] * 3)  # [m] and [rad]
-    TURN_TOLERANCE = 0.03      # [rad]
+    TURN_TOLERANCE = 0.03  # [rad]
+    SETTLED = 0.2  # a pose counts when it is kept for so long [s]
 
     def __init__(self, arm_id: str):
         self.arm_id = arm_id
         self._state: FrankaState | None = None
         self._target: np.ndarray | None = None
-        self._correction = np.zeros(6)  # of the equilibrium pose: [m], rotation vector [rad]
-        self._last_lead = 0.0
+        self._arrival: float | None = None  # since when the arm is where it should be
         self._publisher = rospy.Publisher(f"{self.CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1)
         rospy.Subscriber("franka_state_controller/franka_states", FrankaState, self._store, queue_size=1)
         self._set_load = rospy.ServiceProxy("franka_control/set_load", SetLoad)
@@ -77,8 +93,16 @@ class Arm:
     def wait_ready(self) -> None:
         """Until states arrive, the controller listens, and the robot is in Move."""
         wait_until(lambda: self._state is not None, "the first robot state", simulated=60)
-        wait_until(lambda: self._publisher.get_num_connections() > 0, "the impedance controller", simulated=60)
-        wait_until(lambda: self.state.robot_mode == FrankaState.ROBOT_MODE_MOVE, "robot mode Move", simulated=60)
+        wait_until(
+            lambda: self._publisher.get_num_connections() > 0,
+            "the impedance controller",
+            simulated=60,
+        )
+        wait_until(
+            lambda: self.state.robot_mode == FrankaState.ROBOT_MODE_MOVE,
+            "robot mode Move",
+            simulated=60,
+        )
         self._target = self.pose
 
     @property
@@ -101,8 +125,14 @@ class Arm:
         if not answer.success:
             raise TaskError(f"set_load was refused: {answer.error}")
 
-    def move(self, target: np.ndarray, speed: float = 0.15, turn_speed: float = 0.8,
-             tolerance: float = 0.01, what: str = "the motion") -> None:
+    def move(
+        self,
+        target: np.ndarray,
+        speed: float = 0.15,
+        turn_speed: float = 0.8,
+        tolerance: float = 0.01,
+        what: str = "the motion",
+    ) -> None:
         """Leads the equilibrium pose to `target` (O_T_EE) and waits until the arm is there, at rest.
 
         @param speed [m/s], turn_speed [rad/s]: mean speeds of the way; tolerance of the position [m].
@@ -123,31 +153,20 @@ class Arm:
             self._lead(downwards(*position, yaw_of(start) + s * turn))
             time.sleep(0.004)
         self._target = target
+        self._arrival = None
         try:
             wait_until(lambda: self._arrived(target, tolerance), what)
         except TaskError as error:
             away = (self.pose[:3, 3] - target[:3, 3]) * 1e3
             turn = rotation_vector(self.pose[:3, :3] @ target[:3, :3].T)
-            raise TaskError(f"{error} The end effector stands {away[0]:.1f}, {away[1]:.1f}, {away[2]:.1f} mm and "
-                            f"{turn[0]:.3f}, {turn[1]:.3f}, {turn[2]:.3f} rad off its target, the fastest joint "
-                            f"moves at {max(abs(v) for v in self.state.dq):.3f} rad/s.") from error
+            raise TaskError(
+                f"{error} The end effector stands {away[0]:.1f}, {away[1]:.1f}, {away[2]:.1f} mm and "
+                f"{turn[0]:.3f}, {turn[1]:.3f}, {turn[2]:.3f} rad off its target, the fastest joint "
+                f"moves at {max(abs(v) for v in self.state.dq):.3f} rad/s."
+            ) from error
 
     def _lead(self, target: np.ndarray) -> None:
-        """Publishes the equilibrium pose that brings the end effector to `target`.
-
-        Impedance is compliant: load and null-space torques leave the arm some way off the equilibrium pose.
-        As a person at the interactive marker does, the pose is shifted until the measured one is right.
-        """
-        now = rospy.get_time()
-        step = min(max(now - self._last_lead, 0.0), 0.1)
-        self._last_lead = now
-        error = np.concatenate([target[:3, 3] - self.pose[:3, 3],
-                                rotation_vector(target[:3, :3] @ self.pose[:3, :3].T)])
-        self._correction += self.CORRECTION_RATE * step * error
-        self._correction = np.clip(self._correction, -self.LARGEST_CORRECTION, self.LARGEST_CORRECTION)
-        equilibrium = rotation_of(self._correction[3:]) @ target
-        equilibrium[:3, 3] = target[:3, 3] + self._correction[:3]
-        message = PoseStamped(pose=pose_of(equilibrium))
+        message = PoseStamped(pose=pose_of(target))
         message.header.stamp = rospy.Time.now()
         message.header.frame_id = f"{self.arm_id}_link0"
         self._publisher.publish(message)
@@ -157,9 +176,14 @@ class Arm:
             raise TaskError(f"The robot left Move (mode {self.state.robot_mode}); was the user stop pressed?")
         self._lead(target)
         time.sleep(0.004)
+        now = rospy.get_time()
         away = float(np.linalg.norm(self.pose[:3, 3] - target[:3, 3]))
         turned = float(np.linalg.norm(rotation_vector(target[:3, :3] @ self.pose[:3, :3].T)))
-        return away < tolerance and turned < self.TURN_TOLERANCE and max(abs(v) for v in self.state.dq) < 0.03
+        if away > tolerance or turned > self.TURN_TOLERANCE or max(abs(v) for v in self.state.dq) > 0.03:
+            self._arrival = None
+            return False
+        self._arrival = self._arrival if self._arrival is not None else now
+        return now - self._arrival > self.SETTLED
 
 
 class Gripper:
@@ -170,17 +194,26 @@ class Gripper:
     def __init__(self):
         # Goal handles are polled: the simple client loses goals that end before its send_goal() returns,
         # as they do when the simulation runs flat out.
-        self._clients = {name: actionlib.ActionClient(f"franka_gripper/{name}", kind)
-                         for name, kind in self.ACTIONS.items()}
+        self._clients = {
+            name: actionlib.ActionClient(f"franka_gripper/{name}", kind)
+            for name, kind in self.ACTIONS.items()
+        }
 
     def wait_ready(self) -> None:
         for name, client in self._clients.items():
-            wait_until(lambda c=client: c.wait_for_server(rospy.Duration(0.05)), f"the gripper's {name} action",
-                       simulated=60)
+            wait_until(
+                lambda c=client: c.wait_for_server(rospy.Duration(0.05)),
+                f"the gripper's {name} action",
+                simulated=60,
+            )
 
     def _run(self, name: str, goal, simulated: float = 20.0) -> None:
         handle = self._clients[name].send_goal(goal)
-        wait_until(lambda: handle.get_comm_state() == CommState.DONE, f"the gripper's {name}", simulated=simulated)
+        wait_until(
+            lambda: handle.get_comm_state() == CommState.DONE,
+            f"the gripper's {name}",
+            simulated=simulated,
+        )
         result = handle.get_result()
         if handle.get_terminal_state() != GoalStatus.SUCCEEDED or not result.success:
             text = (result.error if result else "") or handle.get_goal_status_text()
@@ -193,8 +226,15 @@ class Gripper:
         self._run("move", MoveGoal(width=width, speed=speed))
 
     def grasp(self, width: float, force: float, speed: float = 0.05, epsilon: float = 0.005) -> None:
-        self._run("grasp", GraspGoal(width=width, epsilon=GraspEpsilon(inner=epsilon, outer=epsilon),
-                                     speed=speed, force=force))
+        self._run(
+            "grasp",
+            GraspGoal(
+                width=width,
+                epsilon=GraspEpsilon(inner=epsilon, outer=epsilon),
+                speed=speed,
+                force=force,
+            ),
+        )
 
     def stop(self) -> None:
         self._run("stop", StopGoal())
@@ -249,15 +289,15 @@ class Placement:
     """Where the stone ended."""
 
     position: tuple[float, float, float]  # in the world [m]
-    distance: float                       # from the tray's centre, in the plane [m]
-    in_tray: bool                         # stands or lies in the red tray, at rest
+    distance: float  # from the tray's centre, in the plane [m]
+    in_tray: bool  # stands or lies in the red tray, at rest
 
 
 class PickAndPlace:
     """The task, a step a function; `report` gets a sentence for each."""
 
     APPROACH = 0.12  # above the stone [m]
-    FORCE = 5.0      # [N]
+    FORCE = 5.0  # [N]
 
     def __init__(self, arm: Arm, gripper: Gripper, scene: Scene, report: Callable[[str], None]):
         self.arm, self.gripper, self.scene, self.report = arm, gripper, scene, report
@@ -283,7 +323,9 @@ class PickAndPlace:
         self.report(f"grasping with {self.FORCE:.0f} N")
         self.gripper.grasp(width, self.FORCE)
         self._tell_load(yaw)
-        self.report(f"the stone is held, contact forces {self.scene.grip_force('stone', self._fingers):.1f} N")
+        self.report(
+            f"the stone is held, contact forces {self.scene.grip_force('stone', self._fingers):.1f} N"
+        )
         self._held = (z, yaw, stone)
         self.arm.move(downwards(x, y, z + self.APPROACH, yaw), speed=0.1, what="the lift")
         lifted = self._in_base(self.scene.pose("stone"))[2, 3] - z
@@ -293,7 +335,10 @@ class PickAndPlace:
     def carry(self) -> None:
         z, yaw, _ = self._held
         tray = self._in_base(self.scene.pose("place_tray"))
-        self.arm.move(downwards(tray[0, 3], tray[1, 3], z + self.APPROACH, yaw), what="the way to the red tray")
+        self.arm.move(
+            downwards(tray[0, 3], tray[1, 3], z + self.APPROACH, yaw),
+            what="the way to the red tray",
+        )
         self.report("the stone is above the red tray")
 
     def place(self) -> None:
@@ -326,8 +371,11 @@ class PickAndPlace:
         highest = math.hypot(*STONE_SIZE) / 2
         # The tray's frame is at its bottom; the stone rests on its upper face.
         height = offset[2, 3] - TRAY_SIZE[2]
-        inside = bool(abs(offset[0, 3]) < TRAY_SIZE[0] / 2 and abs(offset[1, 3]) < TRAY_SIZE[1] / 2
-                      and lowest < height < highest)
+        inside = bool(
+            abs(offset[0, 3]) < TRAY_SIZE[0] / 2
+            and abs(offset[1, 3]) < TRAY_SIZE[1] / 2
+            and lowest < height < highest
+        )
         return Placement(tuple(stone[:3, 3].tolist()), math.hypot(offset[0, 3], offset[1, 3]), inside)
 
     def _in_base(self, world: np.ndarray) -> np.ndarray:
@@ -337,8 +385,8 @@ class PickAndPlace:
     def _grasp_of(stone: np.ndarray) -> tuple[float, float]:
         """Gripper yaw and width for whichever pair of the stone's sides needs the smaller turn."""
         yaw = yaw_of(stone)
-        along_y = wrap(yaw, math.pi)                 # the fingers close along the stone's y
-        along_x = wrap(yaw + math.pi / 2, math.pi)   # ... and along its x
+        along_y = wrap(yaw, math.pi)  # the fingers close along the stone's y
+        along_x = wrap(yaw + math.pi / 2, math.pi)  # ... and along its x
         if abs(along_y) <= abs(along_x):
             return along_y, STONE_SIZE[1]
         return along_x, STONE_SIZE[0]

@@ -40,8 +40,13 @@ class Session:
         self.log.parent.mkdir(parents=True, exist_ok=True)
         with open(self.log, "w", encoding="utf-8") as out:
             self._process = subprocess.Popen(
-                self._command, stdout=out, stderr=subprocess.STDOUT, env=self.environment,
-                stdin=subprocess.DEVNULL, start_new_session=True)
+                self._command,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                env=self.environment,
+                stdin=subprocess.DEVNULL,
+                start_new_session=True,
+            )
         return self
 
     def __exit__(self, *_) -> None:
@@ -57,7 +62,8 @@ class Session:
         """Raises SessionError when the launch has ended by itself."""
         if not self.running():
             raise SessionError(
-                f"{' '.join(self._command)} ended with status {self.returncode()}:\n{self.tail()}")
+                f"{' '.join(self._command)} ended with status {self.returncode()}:\n{self.tail()}"
+            )
 
     def tail(self, lines: int = 20) -> str:
         """The last lines of the log."""
@@ -65,8 +71,15 @@ class Session:
 
     def run(self, *command: str, timeout: float = 30.0, check: bool = True) -> subprocess.CompletedProcess:
         """Runs a command against this master and returns it with its output as text."""
-        return subprocess.run(command, env=self.environment, timeout=timeout, check=check, text=True,
-                              stdin=subprocess.DEVNULL, capture_output=True)
+        return subprocess.run(
+            command,
+            env=self.environment,
+            timeout=timeout,
+            check=check,
+            text=True,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+        )
 
     def wait_for_master(self, timeout: float = 20.0) -> None:
         """Until the master accepts connections."""

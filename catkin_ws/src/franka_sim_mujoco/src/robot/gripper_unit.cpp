@@ -13,7 +13,10 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr double kForceRise = 0.05;  // [s] until a grasp presses with its full force (our choice)
-constexpr double kSlowest = 1e-5;    // [m/s]: what moves slower does not move (our choice)
+/// How far the asked width runs ahead before standing fingers tell of an obstacle [m] (our choice:
+/// free fingers follow long before).
+constexpr double kTellingLag = 1e-3;
+constexpr double kSlowest = 1e-5;  // [m/s]: what moves slower does not move (our choice)
 constexpr double kPressingDamping =
     20.0;  // [N s/m] at most: stable at 1 kHz for fingers from 0.015 kg on
 
@@ -168,6 +171,11 @@ bool GripperUnit::resting(double period) noexcept {
   double threshold = parameters_.resting_threshold;
   if (pressing_ || ramp_.arrived()) {
     standstill_.countFromNow();
+  } else if (std::abs(ramp_.width() - width()) < kTellingLag) {
+    // Nothing has been asked of the fingers yet: that they rest says nothing, nor does what an
+    // object that is let go does to them.
+    standstill_.forget();
+    return false;
   } else {
     // A slow command must not look like standstill.
     threshold = std::min(threshold, std::max(0.25 * speed_, kSlowest));

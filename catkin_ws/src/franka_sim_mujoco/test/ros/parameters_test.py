@@ -31,17 +31,24 @@ WRONG = [
     ("I_load", "nan 0 0 0 1 0 0 0 1", "I_load"),
     ("F_x_Cload", "0 0 0 0", "F_x_Cload"),
     ("gravity_vector", "0 -9.81", "gravity_vector"),
-    ("collision_config/lower_torque_thresholds_nominal", [20.0] * 6, "lower_torque_thresholds_nominal"),
+    (
+        "collision_config/lower_torque_thresholds_nominal",
+        [20.0] * 6,
+        "lower_torque_thresholds_nominal",
+    ),
     ("collision_config/upper_torque_thresholds_nominal", [-1.0] * 7, "torque threshold"),
     ("collision_config/lower_force_thresholds_nominal", [90.0] * 6, "force threshold"),
-    ("collision_config/upper_force_thresholds_nominal", "a b c d e f", "upper_force_thresholds_nominal"),
+    (
+        "collision_config/upper_force_thresholds_nominal",
+        "a b c d e f",
+        "upper_force_thresholds_nominal",
+    ),
     ("restart_controllers_after_recovery", "yes", "restart_controllers_after_recovery"),
     ("friction", "ice", "ice"),
 ]
 
 
 class ParametersTest(unittest.TestCase):
-
     @classmethod
     def setUpClass(cls):
         rospy.init_node("parameters_test")
@@ -52,8 +59,9 @@ class ParametersTest(unittest.TestCase):
         cls.panda = rospy.get_param("/panda_description")
 
     def spawn(self, name, namespace, urdf=None, joints=()):
-        order = SpawnRobotRequest(name=name, urdf=self.panda if urdf is None else urdf,
-                                  robot_namespace=namespace)
+        order = SpawnRobotRequest(
+            name=name, urdf=self.panda if urdf is None else urdf, robot_namespace=namespace
+        )
         order.pose.orientation.w = 1
         order.joint_names = [joint for joint, _ in joints]
         order.joint_positions = [position for _, position in joints]
@@ -72,21 +80,35 @@ class ParametersTest(unittest.TestCase):
         self.assertFalse(answer.success)
 
     def test_right_parameters_are_taken_as_lists_and_as_texts(self):
-        for name, value in {"arm_id": "panda", "m_ee": 0.5, "F_x_Cee": "0.01 0 0.03",
-                            "I_ee": [0.001, 0, 0, 0, 0.002, 0, 0, 0, 0.003], "m_load": 1,
-                            "F_x_Cload": [0.0, 0.0, 0.1], "EE_T_K": "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0.02 1",
-                            "tau_ext_lowpass_filter": 0.5, "friction": "fr3"}.items():
+        for name, value in {
+            "arm_id": "panda",
+            "m_ee": 0.5,
+            "F_x_Cee": "0.01 0 0.03",
+            "I_ee": [0.001, 0, 0, 0, 0.002, 0, 0, 0, 0.003],
+            "m_load": 1,
+            "F_x_Cload": [0.0, 0.0, 0.1],
+            "EE_T_K": "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0.02 1",
+            "tau_ext_lowpass_filter": 0.5,
+            "friction": "fr3",
+        }.items():
             rospy.set_param("/right/" + name, value)
         answer = self.spawn("panda", "/right")
         self.assertTrue(answer.success, answer.error)
         services = subprocess.run(["rosservice", "list"], capture_output=True, text=True, check=True).stdout
-        for name in ("set_EE_frame", "set_K_frame", "set_load", "set_force_torque_collision_behavior",
-                     "set_user_stop"):
+        for name in (
+            "set_EE_frame",
+            "set_K_frame",
+            "set_load",
+            "set_force_torque_collision_behavior",
+            "set_user_stop",
+        ):
             self.assertIn(f"/right/franka_control/{name}\n", services)
         self.assertIn("/right/controller_manager/list_controllers\n", services)
         topics = dict(rospy.get_published_topics())
-        self.assertEqual(topics.get("/right/franka_control/error_recovery/result"),
-                         "franka_msgs/ErrorRecoveryActionResult")
+        self.assertEqual(
+            topics.get("/right/franka_control/error_recovery/result"),
+            "franka_msgs/ErrorRecoveryActionResult",
+        )
         self.assertEqual(topics.get("/right/initialized"), "std_msgs/Bool")
         twice = self.spawn("panda", "/right")
         self.assertFalse(twice.success)
@@ -101,47 +123,93 @@ class ParametersTest(unittest.TestCase):
     def test_wrong_orders_end_in_a_sentence(self):
         rospy.set_param("/order/arm_id", "panda")
         for expected, answer in (
-                ("name", self.spawn("", "/order")),
-                ("not a URDF", self.spawn("panda", "/order", "not a URDF")),
-                ("no_joint", self.spawn("panda", "/order", joints=[("no_joint", 0.0)])),
-                ("panda_joint1", self.spawn("panda", "/order", joints=[("panda_joint1", float("nan"))])),
-                ("namespace", self.spawn("panda", "/no good")),
-                ("no/Such", self.spawn("panda", "/order",
-                                       self.panda.replace("franka_gazebo/FrankaHWSim", "no/Such"))),
-                ("gazebo:=true", self.spawn("panda", "/order", self.panda.replace(
-                    "hardware_interface/EffortJointInterface", "hardware_interface/VelocityJointInterface")))):
+            ("name", self.spawn("", "/order")),
+            ("not a URDF", self.spawn("panda", "/order", "not a URDF")),
+            ("no_joint", self.spawn("panda", "/order", joints=[("no_joint", 0.0)])),
+            (
+                "panda_joint1",
+                self.spawn("panda", "/order", joints=[("panda_joint1", float("nan"))]),
+            ),
+            ("namespace", self.spawn("panda", "/no good")),
+            (
+                "no/Such",
+                self.spawn("panda", "/order", self.panda.replace("franka_gazebo/FrankaHWSim", "no/Such")),
+            ),
+            (
+                "gazebo:=true",
+                self.spawn(
+                    "panda",
+                    "/order",
+                    self.panda.replace(
+                        "hardware_interface/EffortJointInterface",
+                        "hardware_interface/VelocityJointInterface",
+                    ),
+                ),
+            ),
+        ):
             self.assertFalse(answer.success, expected)
             self.assertIn(expected, answer.error)
 
     def run_spawner(self, *arguments):
-        done = subprocess.run(["rosrun", "franka_sim_mujoco", "spawn_robot", *arguments],
-                              capture_output=True, text=True, timeout=WAIT)
+        done = subprocess.run(
+            ["rosrun", "franka_sim_mujoco", "spawn_robot", *arguments],
+            capture_output=True,
+            text=True,
+            timeout=WAIT,
+        )
         return done.returncode, done.stdout + done.stderr
 
     def test_spawner_ends_with_a_status_and_a_sentence(self):
         status, text = self.run_spawner("-param", "nothing_here", "-model", "panda")
         self.assertEqual(status, 1, text)
         self.assertIn("/nothing_here", text)
-        status, text = self.run_spawner("-param", "panda_description", "-model", "panda", "-J", "panda_joint1", "x")
+        status, text = self.run_spawner(
+            "-param", "panda_description", "-model", "panda", "-J", "panda_joint1", "x"
+        )
         self.assertEqual(status, 1, text)
         self.assertIn("not a number", text)
-        status, text = self.run_spawner("-param", "panda_description", "-model", "panda", "-timeout", "1",
-                                        "-gazebo_namespace", "/nobody")
+        status, text = self.run_spawner(
+            "-param",
+            "panda_description",
+            "-model",
+            "panda",
+            "-timeout",
+            "1",
+            "-gazebo_namespace",
+            "/nobody",
+        )
         self.assertEqual(status, 1, text)
         self.assertIn("/nobody/spawn_robot", text)
         rospy.set_param("/script/arm_id", "panda")
-        status, text = self.run_spawner("-param", "panda_description", "-model", "panda", "-robot_namespace",
-                                        "/script", "-J", "panda_joint2", "-0.5")
+        status, text = self.run_spawner(
+            "-param",
+            "panda_description",
+            "-model",
+            "panda",
+            "-robot_namespace",
+            "/script",
+            "-J",
+            "panda_joint2",
+            "-0.5",
+        )
         self.assertEqual(status, 0, text)
         self.assertTrue(self.delete("panda").success)
 
     def test_the_node_ends_with_a_status_and_a_sentence(self):
-        for wrong, expected in (("_world:=/nowhere/moon.sdf", "moon"), ("_real_time_factor:=-1", "real time factor"),
-                                ("_real_time_factor:=fast", "real_time_factor"), ("_paused:=3", "paused")):
+        for wrong, expected in (
+            ("_world:=/nowhere/moon.sdf", "moon"),
+            ("_real_time_factor:=-1", "real time factor"),
+            ("_real_time_factor:=fast", "real_time_factor"),
+            ("_paused:=3", "paused"),
+        ):
             if rospy.has_param("/other"):
                 rospy.delete_param("/other")
-            done = subprocess.run(["rosrun", "franka_sim_mujoco", "franka_sim_mujoco_node", "__name:=other", wrong],
-                                  capture_output=True, text=True, timeout=WAIT)
+            done = subprocess.run(
+                ["rosrun", "franka_sim_mujoco", "franka_sim_mujoco_node", "__name:=other", wrong],
+                capture_output=True,
+                text=True,
+                timeout=WAIT,
+            )
             text = done.stdout + done.stderr
             self.assertEqual(done.returncode, 1, text)
             self.assertEqual(text.count("FATAL"), 1, text)

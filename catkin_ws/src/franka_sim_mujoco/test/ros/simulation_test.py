@@ -14,17 +14,32 @@ import rostest
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import GripperCommandAction, GripperCommandGoal
 from controller_manager_msgs.srv import ListControllers
-from franka_gripper.msg import (GraspAction, GraspEpsilon, GraspGoal, HomingAction, HomingGoal, MoveAction,
-                                MoveGoal, StopAction, StopGoal)
+from franka_gripper.msg import (
+    GraspAction,
+    GraspEpsilon,
+    GraspGoal,
+    HomingAction,
+    HomingGoal,
+    MoveAction,
+    MoveGoal,
+    StopAction,
+    StopGoal,
+)
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
-from franka_msgs.srv import (SetEEFrame, SetForceTorqueCollisionBehavior, SetKFrame, SetLoad)
+from franka_msgs.srv import SetEEFrame, SetForceTorqueCollisionBehavior, SetKFrame, SetLoad
+from franka_sim_mujoco.srv import (
+    GetBodyPose,
+    GetContacts,
+    PushBody,
+    RenderPicture,
+    SetBodyPose,
+    SetRealTimeFactor,
+    Step,
+)
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool
 from std_srvs.srv import Empty, SetBool, Trigger
-
-from franka_sim_mujoco.srv import (GetBodyPose, GetContacts, PushBody, RenderPicture, SetBodyPose,
-                                   SetRealTimeFactor, Step)
 
 IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
 WAIT = 20  # wall seconds
@@ -73,13 +88,16 @@ def pause(paused=True):
 
 
 class SimulationTest(unittest.TestCase):
-
     @classmethod
     def setUpClass(cls):
         rospy.init_node("simulation_test")
         end = time.monotonic() + 40
         running = set()
-        wanted = {"franka_state_controller", "cartesian_impedance_example_controller", "franka_gripper"}
+        wanted = {
+            "franka_state_controller",
+            "cartesian_impedance_example_controller",
+            "franka_gripper",
+        }
         while not wanted <= running and time.monotonic() < end:
             answer = service("/controller_manager/list_controllers", ListControllers)()
             running = {c.name for c in answer.controller if c.state == "running"}
@@ -130,7 +148,10 @@ class SimulationTest(unittest.TestCase):
 
         frame = list(IDENTITY)
         frame[14] = 0.05
-        for name, kind, field in (("set_EE_frame", SetEEFrame, "NE_T_EE"), ("set_K_frame", SetKFrame, "EE_T_K")):
+        for name, kind, field in (
+            ("set_EE_frame", SetEEFrame, "NE_T_EE"),
+            ("set_K_frame", SetKFrame, "EE_T_K"),
+        ):
             setter = service("/franka_control/" + name, kind)
             self.assertTrue(setter(frame).success)
             state_when(lambda s, f=field: abs(getattr(s, f)[14] - 0.05) < 1e-9)
@@ -140,8 +161,9 @@ class SimulationTest(unittest.TestCase):
             self.assertIn(field, refused.error)
 
     def test_a_push_shows_as_contact_and_collision_with_the_right_sign(self):
-        set_behavior = service("/franka_control/set_force_torque_collision_behavior",
-                               SetForceTorqueCollisionBehavior)
+        set_behavior = service(
+            "/franka_control/set_force_torque_collision_behavior", SetForceTorqueCollisionBehavior
+        )
         push = service("/gazebo/push_body", PushBody)
         self.assertTrue(set_behavior([50] * 7, [60] * 7, [5] * 6, [50] * 6).success)
         pause()
@@ -152,8 +174,14 @@ class SimulationTest(unittest.TestCase):
         now = state_when(lambda s: abs(s.O_F_ext_hat_K[0] + 10) < 0.2)
         self.assertTrue(set_behavior([1, 1, 1, 1, 1, 1, 1], [2] * 7, [5] * 6, [8] * 6).success)
         state_when(lambda s: any(s.cartesian_collision))
-        self.assertTrue(set_behavior([20, 20, 18, 18, 16, 14, 12], [20, 20, 18, 18, 16, 14, 12],
-                                     [20, 20, 20, 25, 25, 25], [20, 20, 20, 25, 25, 25]).success)
+        self.assertTrue(
+            set_behavior(
+                [20, 20, 18, 18, 16, 14, 12],
+                [20, 20, 18, 18, 16, 14, 12],
+                [20, 20, 20, 25, 25, 25],
+                [20, 20, 20, 25, 25, 25],
+            ).success
+        )
         bad = set_behavior([5] * 7, [4] * 7, [5] * 6, [50] * 6)
         self.assertFalse(bad.success)
         self.assertIn("lower", bad.error)
@@ -196,12 +224,16 @@ class SimulationTest(unittest.TestCase):
         wide.command.position = 0.05
         epsilon = GraspEpsilon(inner=0.005, outer=0.005)
         nan = float("nan")
-        for client, goal in ((move, MoveGoal(width=0.09, speed=0.1)), (move, MoveGoal(width=-0.01, speed=0.1)),
-                             (move, MoveGoal(width=nan, speed=0.1)), (move, MoveGoal(width=0.04, speed=-0.1)),
-                             (grasp, GraspGoal(width=nan, epsilon=epsilon, speed=0.1, force=5)),
-                             (grasp, GraspGoal(width=0.02, epsilon=epsilon, speed=0.1, force=nan)),
-                             (grasp, GraspGoal(width=0.02, epsilon=epsilon, speed=-1, force=5)),
-                             (command, wide)):
+        for client, goal in (
+            (move, MoveGoal(width=0.09, speed=0.1)),
+            (move, MoveGoal(width=-0.01, speed=0.1)),
+            (move, MoveGoal(width=nan, speed=0.1)),
+            (move, MoveGoal(width=0.04, speed=-0.1)),
+            (grasp, GraspGoal(width=nan, epsilon=epsilon, speed=0.1, force=5)),
+            (grasp, GraspGoal(width=0.02, epsilon=epsilon, speed=0.1, force=nan)),
+            (grasp, GraspGoal(width=0.02, epsilon=epsilon, speed=-1, force=5)),
+            (command, wide),
+        ):
             status, _, text = finish(client, goal)
             self.assertEqual(status, GoalStatus.ABORTED, goal)
             self.assertTrue(text, goal)
@@ -285,9 +317,12 @@ class SimulationTest(unittest.TestCase):
         stone.pose.position.z += 0.1
         self.assertTrue(set_pose("stone", stone.pose).success)
         self.assertAlmostEqual(get_pose("stone").pose.position.z, stone.pose.position.z)
-        for answer in (get_pose("no_such_body"), set_pose("no_such_body", stone.pose),
-                       set_pose("panda_link3", stone.pose),
-                       set_pose("stone", Pose(orientation=Quaternion(w=3)))):
+        for answer in (
+            get_pose("no_such_body"),
+            set_pose("no_such_body", stone.pose),
+            set_pose("panda_link3", stone.pose),
+            set_pose("stone", Pose(orientation=Quaternion(w=3))),
+        ):
             self.assertFalse(answer.success)
             self.assertTrue(answer.error)
         service("/gazebo/reset", Trigger)()
@@ -305,8 +340,10 @@ class SimulationTest(unittest.TestCase):
         render = service("/gazebo/render_picture", RenderPicture)
         answer = render(Point(1.4, -1.2, 1.2), Point(0, 0, 0.4), 0, 160, 120)
         self.assertTrue(answer.success, answer.error)
-        self.assertEqual((answer.image.width, answer.image.height, len(answer.image.data)),
-                         (160, 120, 160 * 120 * 3))
+        self.assertEqual(
+            (answer.image.width, answer.image.height, len(answer.image.data)),
+            (160, 120, 160 * 120 * 3),
+        )
         self.assertGreater(len(set(answer.image.data)), 20)
         self.assertFalse(render(Point(1, 1, 1), Point(1, 1, 1), 0, 0, 0).success)
 

@@ -1,20 +1,20 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The control unit on the arm that MuJoCo moves: rest, free motion, pushes, a load nobody configured.
+// The control unit on the arm that MuJoCo moves: rest, free motion, pushes, a load nobody
+// configured.
+#include <franka_core/arm_model.h>
+#include <franka_sim_mujoco/physics/world.h>
+#include <franka_sim_mujoco/robot/control_unit.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
-
-#include <Eigen/Dense>
-#include <gtest/gtest.h>
-
-#include <franka_core/arm_model.h>
-#include <franka_sim_mujoco/physics/world.h>
-#include <franka_sim_mujoco/robot/control_unit.h>
 
 namespace franka_sim_mujoco {
 namespace {
@@ -28,7 +28,9 @@ using Array7 = std::array<double, 7>;
 
 constexpr Array7 kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
 
-Eigen::Map<const Vector7> vector(const Array7& array) { return Eigen::Map<const Vector7>(array.data()); }
+Eigen::Map<const Vector7> vector(const Array7& array) {
+  return Eigen::Map<const Vector7>(array.data());
+}
 
 Array7 array(const Vector7& vector) {
   Array7 result;
@@ -64,7 +66,8 @@ class ArmInWorld : public testing::TestWithParam<RobotKind> {
     ASSERT_FALSE(urdf.empty());
     model_ = std::make_unique<franka_core::ArmModel>(franka_core::ArmModel::fromUrdf(urdf, id));
     ControlUnitParameters parameters{*model_};
-    parameters.F_T_NE = {M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1};
+    parameters.F_T_NE = {M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0,      0,
+                         0,         0,          1, 0, 0,         0,         0.1034, 1};
     parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, id);
     // What is tested is the reading, so nothing may be declared a collision meanwhile.
     parameters.nominal.upper_force.fill(1e3);
@@ -116,7 +119,8 @@ class ArmInWorld : public testing::TestWithParam<RobotKind> {
   }
 
   Jacobian jacobian(const franka_core::RobotState& state) const {
-    const auto columns = model_->zeroJacobian(franka_core::ArmFrame::kEndEffector, state.q, state.F_T_EE);
+    const auto columns =
+        model_->zeroJacobian(franka_core::ArmFrame::kEndEffector, state.q, state.F_T_EE);
     return Jacobian::Map(columns.data());
   }
 
@@ -125,24 +129,29 @@ class ArmInWorld : public testing::TestWithParam<RobotKind> {
   }
 
   // Holds the pose of `target` as the example's impedance controller does, with a stiff null space.
-  Array7 impedance(const franka_core::RobotState& state, const Matrix4& target, const Vector7& posture) const {
+  Array7 impedance(const franka_core::RobotState& state, const Matrix4& target,
+                   const Vector7& posture) const {
     const Matrix4 pose = Matrix4::Map(state.O_T_EE.data());
     const Jacobian J = jacobian(state);
     Vector6 error;
     error.head<3>() = pose.topRightCorner<3, 1>() - target.topRightCorner<3, 1>();
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(pose.topLeftCorner<3, 3>() * target.topLeftCorner<3, 3>().transpose()));
+    const Eigen::AngleAxisd turn(
+        Eigen::Matrix3d(pose.topLeftCorner<3, 3>() * target.topLeftCorner<3, 3>().transpose()));
     error.tail<3>() = turn.angle() * turn.axis();
     Vector6 stiffness;
     stiffness << 600, 600, 600, 50, 50, 50;
     const Vector7 dq = vector(state.dq);
-    const Vector6 wrench = -stiffness.cwiseProduct(error) - 2 * stiffness.cwiseSqrt().cwiseProduct(J * dq);
+    const Vector6 wrench =
+        -stiffness.cwiseProduct(error) - 2 * stiffness.cwiseSqrt().cwiseProduct(J * dq);
     const Eigen::Matrix<double, 7, 6> pinv = J.transpose() * (J * J.transpose()).inverse();
     const Matrix7 null_space = Matrix7::Identity() - J.transpose() * pinv.transpose();
     const auto coriolis = model_->coriolis(state.q, state.dq, total(state));
-    return array(J.transpose() * wrench + null_space * (20 * (posture - vector(state.q)) - 9 * dq) + vector(coriolis));
+    return array(J.transpose() * wrench + null_space * (20 * (posture - vector(state.q)) - 9 * dq) +
+                 vector(coriolis));
   }
 
-  // Pushes with a force and a torque (axes of O) at the end effector and returns the steady state's wrenches.
+  // Pushes with a force and a torque (axes of O) at the end effector and returns the steady state's
+  // wrenches.
   std::pair<Vector6, Vector6> push(const Vector6& wrench) {
     idleTick();
     EXPECT_EQ(RequestStatus::kSuccess, unit_->startTorqueControl());
@@ -156,7 +165,8 @@ class ArmInWorld : public testing::TestWithParam<RobotKind> {
       world_->push(hand_, {0, 0, 0}, {ramp * wrench[3], ramp * wrench[4], ramp * wrench[5]}, 1);
       tick([&](const auto& state) { return impedance(state, target, posture); });
     }
-    return {Vector6::Map(unit_->state().O_F_ext_hat_K.data()), Vector6::Map(unit_->state().K_F_ext_hat_K.data())};
+    return {Vector6::Map(unit_->state().O_F_ext_hat_K.data()),
+            Vector6::Map(unit_->state().K_F_ext_hat_K.data())};
   }
 
   std::unique_ptr<franka_core::ArmModel> model_;
@@ -219,7 +229,8 @@ TEST_P(ArmInWorld, FreeMotionAtFullSpeedFeelsNothing) {
     }
   }
   for (int i = 0; i < 7; ++i) {
-    EXPECT_GT(fastest[i], 0.85 * GetParam().max_velocity[i]) << "joint " << i + 1 << " was not fast enough to tell";
+    EXPECT_GT(fastest[i], 0.85 * GetParam().max_velocity[i])
+        << "joint " << i + 1 << " was not fast enough to tell";
   }
   EXPECT_LT(force, 0.1);
   EXPECT_LT(torque, 0.02);
@@ -238,8 +249,10 @@ TEST_P(ArmInWorld, PushesAreMeasuredWithTheRobotsSign) {
       expected_K << R.transpose() * -wrench.head<3>(), R.transpose() * -wrench.tail<3>();
       const double tolerance_N = 0.005 * 10, tolerance_Nm = 0.005 * 2;
       for (int i = 0; i < 6; ++i) {
-        EXPECT_NEAR(-wrench[i], in_O[i], i < 3 ? tolerance_N : tolerance_Nm) << "O, push " << axis << ", axis " << i;
-        EXPECT_NEAR(expected_K[i], in_K[i], i < 3 ? tolerance_N : tolerance_Nm) << "K, push " << axis << ", axis " << i;
+        EXPECT_NEAR(-wrench[i], in_O[i], i < 3 ? tolerance_N : tolerance_Nm)
+            << "O, push " << axis << ", axis " << i;
+        EXPECT_NEAR(expected_K[i], in_K[i], i < 3 ? tolerance_N : tolerance_Nm)
+            << "K, push " << axis << ", axis " << i;
       }
     }
   }

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <stdexcept>
-
 #include <franka_core/arm_model.h>
 #include <franka_core/error_names.h>
+
+#include <stdexcept>
 
 int main() {
   try {

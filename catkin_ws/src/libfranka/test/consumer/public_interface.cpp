@@ -1,11 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
-
 #include <franka/exception.h>
 #include <franka/rate_limiting.h>
 #include <franka/robot_state.h>
 #include <franka_core/to_franka.h>
+
+#include <iostream>
 
 int main() {
   franka_core::RobotState from;

@@ -1,10 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <string>
-#include <vector>
-
 #include <controller_interface/controller_base.h>
 #include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
 
 using controller_interface::ControllerBase;
 using State = ControllerBase::ControllerState;
@@ -102,8 +102,8 @@ TEST(ControllerBase, abort) {
 
 TEST(ControllerBase, updatesOnlyWhileRunning) {
   Recorder controller;
-  for (const State state : {State::CONSTRUCTED, State::INITIALIZED, State::STOPPED, State::WAITING,
-                            State::ABORTED}) {
+  for (const State state :
+       {State::CONSTRUCTED, State::INITIALIZED, State::STOPPED, State::WAITING, State::ABORTED}) {
     controller.state_ = state;
     controller.updateRequest(kTime, ros::Duration(0.001));
   }

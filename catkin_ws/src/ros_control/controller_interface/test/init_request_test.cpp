@@ -1,9 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <controller_interface/controller.h>
 #include <controller_interface/multi_interface_controller.h>
 #include <gmock/gmock.h>
@@ -11,6 +7,10 @@
 #include <hardware_interface/joint_state_interface.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/ros.h>
+
+#include <memory>
+#include <string>
+#include <vector>
 
 using controller_interface::Controller;
 using controller_interface::ControllerBase;

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // One cycle of the manager with 1, 10 and 50 running controllers, against as many bare virtual
 // calls. Needs a master, for the parameters of the controllers; prints the ratio of the two itself.
+#include <benchmark/benchmark.h>
+#include <controller_manager/controller_manager.h>
+#include <ros/ros.h>
+
 #include <chrono>
 #include <cstdio>
 #include <future>
@@ -9,10 +13,6 @@
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <benchmark/benchmark.h>
-#include <controller_manager/controller_manager.h>
-#include <ros/ros.h>
 
 #include "dummies.h"
 
@@ -39,8 +39,7 @@ class EmptyLoader : public controller_manager::ControllerLoaderInterface {
 /// A manager whose `count` controllers run.
 class Setup {
  public:
-  explicit Setup(int count)
-      : nh_("update_bench_" + std::to_string(count)), manager_(&robot_, nh_) {
+  explicit Setup(int count) : nh_("update_bench_" + std::to_string(count)), manager_(&robot_, nh_) {
     manager_.registerControllerLoader(std::make_shared<EmptyLoader>());
     std::vector<std::string> names;
     for (int i = 0; i < count; ++i) {
@@ -50,8 +49,8 @@ class Setup {
         throw std::runtime_error("the benchmark's controllers could not be loaded");
       }
     }
-    auto answer = std::async(std::launch::async,
-                             [&] { return manager_.switchController(names, {}, 2); });
+    auto answer =
+        std::async(std::launch::async, [&] { return manager_.switchController(names, {}, 2); });
     while (answer.wait_for(std::chrono::microseconds(100)) != std::future_status::ready) {
       manager_.update(time_, period_);
     }
@@ -133,9 +132,10 @@ int main(int argc, char** argv) {
     Setup& setup = setupOf(count);
     const double bare = nanoseconds([&] { setup.callBare(); });
     const double update = nanoseconds([&] { setup.update(); });
-    std::printf("controller_manager update, %d controllers: %.1f ns, virtual calls: %.1f ns, "
-                "ratio %.2f\n",
-                count, update, bare, update / bare);
+    std::printf(
+        "controller_manager update, %d controllers: %.1f ns, virtual calls: %.1f ns, "
+        "ratio %.2f\n",
+        count, update, bare, update / bare);
   }
   return 0;
 }

@@ -1,17 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <controller_manager/controller_manager.h>
-
-#include <algorithm>
-#include <utility>
-
 #include <controller_manager/controller_loader.h>
+#include <controller_manager/controller_manager.h>
 #include <controller_manager/internal/controller_registry.h>
 #include <controller_manager/internal/loop_gate.h>
 #include <controller_manager/internal/manager_services.h>
 #include <controller_manager/internal/switch_desk.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <ros/console.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace controller_manager {
 
@@ -159,8 +158,8 @@ bool ControllerManager::initController(ControllerSpec& spec, ros::NodeHandle& co
   const char* const name = spec.info.name.c_str();
   bool initialized = false;
   try {
-    initialized = spec.c->initRequest(robot_hw_, root_nh_, controller_nh,
-                                      spec.info.claimed_resources);
+    initialized =
+        spec.c->initRequest(robot_hw_, root_nh_, controller_nh, spec.info.claimed_resources);
   } catch (const std::exception& error) {
     ROS_ERROR("Exception thrown while initializing controller '%s'.\n%s", name, error.what());
   } catch (...) {
@@ -225,15 +224,17 @@ bool ControllerManager::reloadControllerLibraries(bool force_kill) {
   // Without anything to stop this must not wait for the loop.
   constexpr int kBestEffort = controller_manager_msgs::SwitchControllerRequest::BEST_EFFORT;
   if (!running.empty() && !switchController({}, running, kBestEffort)) {
-    ROS_ERROR("Controller manager: Cannot reload controller libraries because the running "
-              "controllers could not be stopped");
+    ROS_ERROR(
+        "Controller manager: Cannot reload controller libraries because the running "
+        "controllers could not be stopped");
     return false;
   }
   for (const std::string& name : loaded) {
     if (!unloadController(name)) {
-      ROS_ERROR("Controller manager: Cannot reload controller libraries because controller '%s' "
-                "could not be unloaded",
-                name.c_str());
+      ROS_ERROR(
+          "Controller manager: Cannot reload controller libraries because controller '%s' "
+          "could not be unloaded",
+          name.c_str());
       return false;
     }
   }
@@ -243,8 +244,9 @@ bool ControllerManager::reloadControllerLibraries(bool force_kill) {
 bool ControllerManager::reloadLoaders() {
   const std::lock_guard<std::mutex> services_lock(services_mutex_);
   if (!registry_->snapshot()->specs().empty()) {
-    ROS_ERROR("Controller manager: Cannot reload controller libraries because a controller was "
-              "loaded meanwhile");
+    ROS_ERROR(
+        "Controller manager: Cannot reload controller libraries because a controller was "
+        "loaded meanwhile");
     return false;
   }
   const std::lock_guard<std::mutex> loaders_lock(loaders_mutex_);

@@ -1,8 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <controller_manager/internal/manager_services.h>
-
 #include <controller_manager/controller_manager.h>
+#include <controller_manager/internal/manager_services.h>
 
 namespace controller_manager {
 namespace internal {
@@ -68,9 +67,9 @@ ManagerServices::ManagerServices(ControllerManager& manager, const ros::NodeHand
 }
 
 ManagerServices::~ManagerServices() {
-  for (ros::ServiceServer* server : {&list_controllers_, &list_controller_types_, &load_controller_,
-                                     &unload_controller_, &reload_libraries_,
-                                     &switch_controller_}) {
+  for (ros::ServiceServer* server :
+       {&list_controllers_, &list_controller_types_, &load_controller_, &unload_controller_,
+        &reload_libraries_, &switch_controller_}) {
     server->shutdown();
   }
   waiting_spinner_.stop();

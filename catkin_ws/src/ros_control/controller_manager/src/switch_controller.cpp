@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The switch as seen from outside the loop: what is asked for, whether it is possible, and how it
 // went.
-#include <algorithm>
-#include <memory>
-#include <utility>
-
 #include <controller_manager/controller_manager.h>
 #include <controller_manager/internal/controller_registry.h>
 #include <controller_manager/internal/loop_gate.h>
 #include <controller_manager/internal/switch_desk.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <ros/console.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace controller_manager {
 
@@ -47,9 +47,10 @@ bool resolve(const ControllerList& list, const Names& asked, const char* verb, b
           verb, name.c_str());
       return false;
     } else {
-      ROS_DEBUG("Could not %s controller with name '%s' because no controller with this name "
-                "exists",
-                verb, name.c_str());
+      ROS_DEBUG(
+          "Could not %s controller with name '%s' because no controller with this name "
+          "exists",
+          verb, name.c_str());
     }
   }
   return true;
@@ -119,9 +120,10 @@ void reportOutcome(const SwitchRequest& request) {
                   start.info.name.c_str());
         break;
       case SwitchRequest::Outcome::kTimeout:
-        ROS_ERROR("Controller '%s' was not started, because the robot was not ready for it after "
-                  "%g s",
-                  start.info.name.c_str(), request.timeout);
+        ROS_ERROR(
+            "Controller '%s' was not started, because the robot was not ready for it after "
+            "%g s",
+            start.info.name.c_str(), request.timeout);
         break;
       default:
         break;
@@ -177,9 +179,10 @@ bool ControllerManager::switchController(const Names& start_controllers,
       ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
       return false;
     }
-    ROS_ERROR("Could not switch controllers, because the switch before this one has not finished "
-              "after %g s. Is the control loop running?",
-              turn.elapsed());
+    ROS_ERROR(
+        "Could not switch controllers, because the switch before this one has not finished "
+        "after %g s. Is the control loop running?",
+        turn.elapsed());
     return false;
   }
   std::list<hardware_interface::ControllerInfo> start_list;
@@ -202,10 +205,11 @@ bool ControllerManager::switchController(const Names& start_controllers,
       reportOutcome(turn.request());
       return true;
     case SwitchDesk::Result::kAbandoned:
-      ROS_ERROR("Could not finish switching controllers, because the control loop stood still for "
-                "%g s after it had begun. The controllers to start will be aborted when it runs "
-                "again.",
-                turn.elapsed());
+      ROS_ERROR(
+          "Could not finish switching controllers, because the control loop stood still for "
+          "%g s after it had begun. The controllers to start will be aborted when it runs "
+          "again.",
+          turn.elapsed());
       return false;
     case SwitchDesk::Result::kWithdrawn:
       break;
@@ -213,9 +217,10 @@ bool ControllerManager::switchController(const Names& start_controllers,
   if (desk_->mustEnd()) {
     ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
   } else {
-    ROS_ERROR("Could not switch controllers, because the control loop did not run for %g s. Is the "
-              "robot connected, or the simulation paused?",
-              turn.elapsed());
+    ROS_ERROR(
+        "Could not switch controllers, because the control loop did not run for %g s. Is the "
+        "robot connected, or the simulation paused?",
+        turn.elapsed());
   }
   // The robot prepared for a switch that never came: let it prepare for the way back.
   const std::lock_guard<std::mutex> lock(services_mutex_);

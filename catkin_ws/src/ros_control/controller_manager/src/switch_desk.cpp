@@ -1,12 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <controller_manager/internal/switch_desk.h>
+#include <ros/init.h>
 
 #include <limits>
 #include <thread>
 #include <utility>
-
-#include <ros/init.h>
 
 namespace controller_manager {
 namespace internal {

@@ -4,6 +4,12 @@
 
 // Controllers, a loader and a robot that do as they are told, for the tests of the manager.
 
+#include <controller_interface/controller.h>
+#include <controller_manager/controller_loader_interface.h>
+#include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/joint_state_interface.h>
+#include <hardware_interface/robot_hw.h>
+
 #include <atomic>
 #include <list>
 #include <memory>
@@ -11,12 +17,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#include <controller_interface/controller.h>
-#include <controller_manager/controller_loader_interface.h>
-#include <hardware_interface/joint_command_interface.h>
-#include <hardware_interface/joint_state_interface.h>
-#include <hardware_interface/robot_hw.h>
 
 namespace dummies {
 

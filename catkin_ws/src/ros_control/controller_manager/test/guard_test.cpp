@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The loop's side neither allocates nor locks nor sleeps, whatever the other side does.
-#include <algorithm>
-
 #include <rt_guard/rt_guard.h>
+
+#include <algorithm>
 
 #include "manager_fixture.h"
 

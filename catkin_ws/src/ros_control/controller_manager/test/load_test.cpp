@@ -137,9 +137,8 @@ TEST_F(LoadTest, reloadNeedsForceWhileControllersAreLoaded) {
 TEST_F(LoadTest, forcedReloadStopsWhatRuns) {
   load({"a", "c"});
   ASSERT_TRUE(doSwitch({"a"}, {}));
-  EXPECT_TRUE(stepUntil(std::async(std::launch::async, [this] {
-    return manager_->reloadControllerLibraries(true);
-  })));
+  EXPECT_TRUE(stepUntil(std::async(std::launch::async,
+                                   [this] { return manager_->reloadControllerLibraries(true); })));
   EXPECT_EQ(0, DummyController::living());
   EXPECT_EQ(1, loader_->reloads_);
 }

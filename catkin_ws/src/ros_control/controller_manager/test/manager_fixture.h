@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <controller_manager/controller_manager.h>
+#include <gmock/gmock.h>
+#include <ros/console.h>
+#include <ros/node_handle.h>
+
 #include <chrono>
 #include <future>
 #include <memory>
@@ -9,11 +14,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#include <controller_manager/controller_manager.h>
-#include <gmock/gmock.h>
-#include <ros/console.h>
-#include <ros/node_handle.h>
 
 #include "dummies.h"
 

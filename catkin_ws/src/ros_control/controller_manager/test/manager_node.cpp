@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A controller manager with a dummy robot and a 1 kHz loop that can be halted, for tests of the
 // services and scripts. It spins with one thread on purpose: a waiting switch must not block it.
-#include <atomic>
-#include <chrono>
-#include <thread>
-
 #include <controller_manager/controller_manager.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "dummies.h"
 

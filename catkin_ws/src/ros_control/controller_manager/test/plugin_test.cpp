@@ -17,9 +17,8 @@ TEST_F(PluginTest, loadsRunsAndReloadsAPlugin) {
   ASSERT_TRUE(doSwitch({"plugged"}, {}));
   step();
   EXPECT_TRUE(manager_->getControllerByName("plugged")->isRunning());
-  EXPECT_TRUE(stepUntil(std::async(std::launch::async, [this] {
-    return manager_->reloadControllerLibraries(true);
-  })));
+  EXPECT_TRUE(stepUntil(std::async(std::launch::async,
+                                   [this] { return manager_->reloadControllerLibraries(true); })));
   EXPECT_TRUE(manager_->loadController("plugged"));
 }
 

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Four threads load, unload, switch, restart and list controllers while the loop runs at 1 kHz and
 // halts now and then. Built with ThreadSanitizer by tsan.sh; without it the counts are checked.
+#include <controller_manager/controller_manager.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <random>
 #include <thread>
 #include <vector>
-
-#include <controller_manager/controller_manager.h>
-#include <gtest/gtest.h>
-#include <ros/ros.h>
 
 #include "dummies.h"
 

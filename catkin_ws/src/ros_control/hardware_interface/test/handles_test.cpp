@@ -1,11 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <string>
-
 #include <gmock/gmock.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <rt_guard/rt_guard.h>
+
+#include <string>
 
 using namespace hardware_interface;
 using testing::ElementsAre;
@@ -139,9 +139,8 @@ TEST_F(HandlesTest, onlyCommandInterfacesClaim) {
 TEST_F(HandlesTest, aFailedLookUpSaysSoAndClaimsNothing) {
   PositionJointInterface positions;
   positions.registerHandle(JointHandle(state_, &cmd_));
-  EXPECT_EQ(
-      "Could not find resource 'elbow' in 'hardware_interface::PositionJointInterface'.",
-      textOf<HardwareInterfaceException>([&] { positions.getHandle("elbow"); }));
+  EXPECT_EQ("Could not find resource 'elbow' in 'hardware_interface::PositionJointInterface'.",
+            textOf<HardwareInterfaceException>([&] { positions.getHandle("elbow"); }));
   EXPECT_THAT(positions.getClaims(), IsEmpty());
 }
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <memory>
-#include <string>
-
 #include <gmock/gmock.h>
 #include <hardware_interface/internal/hardware_resource_manager.h>
 #include <hardware_interface/internal/interface_manager.h>
+
+#include <memory>
+#include <string>
 
 using namespace hardware_interface;
 using testing::ElementsAre;

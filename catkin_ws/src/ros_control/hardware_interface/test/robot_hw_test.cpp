@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <list>
-#include <set>
-#include <string>
-
 #include <gmock/gmock.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/robot_hw.h>
+
+#include <list>
+#include <set>
+#include <string>
 
 using namespace hardware_interface;
 

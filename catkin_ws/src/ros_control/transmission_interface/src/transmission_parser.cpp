@@ -1,10 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <ros/console.h>
 #include <transmission_interface/transmission_parser.h>
 
 #include <utility>
-
-#include <ros/console.h>
 
 namespace transmission_interface {
 

@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
 #include <transmission_interface/transmission_parser.h>
 
 #include <string>
 #include <vector>
-
-#include <gmock/gmock.h>
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -84,9 +83,9 @@ TEST(TransmissionParser, readsEveryField) {
 }
 
 TEST(TransmissionParser, theSerialisedElementIsXmlAgain) {
-  const auto infos = parsed(transmission(
-      "<joint name='j&amp;1'><hardwareInterface>a/A</hardwareInterface></joint>" +
-      std::string(kGoodActuator)));
+  const auto infos = parsed(
+      transmission("<joint name='j&amp;1'><hardwareInterface>a/A</hardwareInterface></joint>" +
+                   std::string(kGoodActuator)));
   ASSERT_EQ(1u, infos.size());
   EXPECT_EQ("j&1", infos[0].joints_[0].name_);
   TiXmlDocument again;

@@ -15,6 +15,8 @@ class Standstill {
   void restart() noexcept;
   /// Samples count from now on, motion or not.
   void countFromNow() noexcept { counting_ = true; }
+  /// The samples up to now do not count.
+  void forget() noexcept { below_ = 0; }
   /// One tick. @param speed, threshold in the same unit @param period [s] @returns whether it
   /// rests.
   bool update(double speed, double threshold, double period) noexcept;

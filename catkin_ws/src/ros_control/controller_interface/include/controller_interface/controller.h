@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include <controller_interface/controller_base.h>
 #include <hardware_interface/internal/demangle_symbol.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
+
+#include <string>
 
 namespace controller_interface {
 
@@ -50,8 +50,8 @@ class Controller : public virtual ControllerBase {
       hw->clearClaims();
       return false;
     }
-    claimed_resources.assign(1, hardware_interface::InterfaceResources(getHardwareInterfaceType(),
-                                                                       hw->getClaims()));
+    claimed_resources.assign(
+        1, hardware_interface::InterfaceResources(getHardwareInterfaceType(), hw->getClaims()));
     hw->clearClaims();
     state_ = ControllerState::INITIALIZED;
     return true;

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <memory>
-#include <vector>
-
 #include <hardware_interface/interface_resources.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
+
+#include <atomic>
+#include <memory>
+#include <vector>
 
 namespace controller_interface {
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <controller_manager/controller_loader_interface.h>
+
 #include <memory>
+#include <pluginlib/class_loader.hpp>
 #include <string>
 #include <vector>
-
-#include <controller_manager/controller_loader_interface.h>
-#include <pluginlib/class_loader.hpp>
 
 namespace controller_manager {
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <controller_interface/controller_base.h>
+
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <controller_interface/controller_base.h>
 
 namespace controller_manager {
 

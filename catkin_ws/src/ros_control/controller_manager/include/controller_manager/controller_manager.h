@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <list>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
-
 #include <controller_interface/controller_base.h>
 #include <controller_manager/controller_loader_interface.h>
 #include <controller_manager/controller_spec.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
+
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
 
 namespace controller_manager {
 

@@ -5,6 +5,7 @@
 import rosgraph
 import rospy
 import rosservice
+
 from controller_manager_msgs.srv import ListControllers
 
 #: The services that make a controller manager, by name, with their types.

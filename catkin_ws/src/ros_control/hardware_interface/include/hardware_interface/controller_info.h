@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hardware_interface/interface_resources.h>
+
 #include <string>
 #include <vector>
-
-#include <hardware_interface/interface_resources.h>
 
 namespace hardware_interface {
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cassert>
-#include <string>
-
 #include <hardware_interface/internal/hardware_resource_manager.h>
 #include <hardware_interface/joint_state_interface.h>
+
+#include <cassert>
+#include <string>
 
 namespace hardware_interface {
 

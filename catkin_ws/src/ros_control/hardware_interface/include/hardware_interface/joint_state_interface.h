@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hardware_interface/internal/hardware_resource_manager.h>
+
 #include <cassert>
 #include <stdexcept>
 #include <string>
-
-#include <hardware_interface/internal/hardware_resource_manager.h>
 
 namespace hardware_interface {
 

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <list>
-#include <map>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <hardware_interface/controller_info.h>
 #include <hardware_interface/hardware_interface.h>
 #include <hardware_interface/internal/interface_manager.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
+
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace hardware_interface {
 

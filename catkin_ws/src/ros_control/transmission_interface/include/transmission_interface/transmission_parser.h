@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tinyxml.h>
+#include <transmission_interface/transmission_info.h>
+
 #include <string>
 #include <vector>
-
-#include <tinyxml.h>
-
-#include <transmission_interface/transmission_info.h>
 
 namespace transmission_interface {
 

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include <controller_interface/controller_base.h>
 #include <hardware_interface/interface_resources.h>
 #include <hardware_interface/internal/demangle_symbol.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/console.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace controller_interface {
 namespace internal {

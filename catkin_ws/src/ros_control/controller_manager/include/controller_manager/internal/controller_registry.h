@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <controller_manager/controller_spec.h>
+#include <controller_manager/internal/loop_gate.h>
+
 #include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
-
-#include <controller_manager/controller_spec.h>
-#include <controller_manager/internal/loop_gate.h>
 
 namespace controller_manager {
 namespace internal {

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <controller_manager/internal/loop_gate.h>
+#include <controller_manager/internal/switch_request.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/time.h>
+
 #include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
-
-#include <controller_manager/internal/loop_gate.h>
-#include <controller_manager/internal/switch_request.h>
-#include <hardware_interface/robot_hw.h>
-#include <ros/time.h>
 
 namespace controller_manager {
 namespace internal {
@@ -82,7 +82,7 @@ class SwitchDesk {
   std::atomic<bool> closed_{false};
 
   std::mutex mutex_;  ///< for what follows; the loop never takes it
-  bool busy_{false};          ///< somebody holds the turn
+  bool busy_{false};  ///< somebody holds the turn
   std::unique_ptr<SwitchRequest> request_;
   std::vector<std::unique_ptr<SwitchRequest>> withdrawn_;  ///< may still be read by the loop
 };

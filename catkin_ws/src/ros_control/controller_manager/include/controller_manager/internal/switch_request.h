@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <list>
-#include <string>
-#include <vector>
-
 #include <controller_interface/controller_base.h>
 #include <hardware_interface/controller_info.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/time.h>
+
+#include <atomic>
+#include <list>
+#include <string>
+#include <vector>
 
 namespace controller_manager {
 namespace internal {

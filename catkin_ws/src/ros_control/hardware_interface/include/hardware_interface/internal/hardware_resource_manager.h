@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <stdexcept>
-#include <string>
-
 #include <hardware_interface/hardware_interface.h>
 #include <hardware_interface/internal/resource_manager.h>
+
+#include <stdexcept>
+#include <string>
 
 namespace hardware_interface {
 

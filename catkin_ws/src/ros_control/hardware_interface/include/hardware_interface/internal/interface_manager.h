@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hardware_interface/internal/demangle_symbol.h>
+#include <hardware_interface/internal/resource_manager.h>
+#include <ros/console.h>
+
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
-
-#include <hardware_interface/internal/demangle_symbol.h>
-#include <hardware_interface/internal/resource_manager.h>
-#include <ros/console.h>
 
 namespace hardware_interface {
 namespace internal {
@@ -139,10 +139,11 @@ class InterfaceManager {
       interface_destruction_list_.push_back(combined);
       return combined.get();
     } else {
-      ROS_ERROR_STREAM("You cannot register multiple interfaces of the same type which are not of "
-                       "type ResourceManager. There is no established protocol for combining "
-                       "them. The type is '"
-                       << type << "'.");
+      ROS_ERROR_STREAM(
+          "You cannot register multiple interfaces of the same type which are not of "
+          "type ResourceManager. There is no established protocol for combining "
+          "them. The type is '"
+          << type << "'.");
       return nullptr;
     }
   }

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hardware_interface/internal/demangle_symbol.h>
+#include <ros/console.h>
+
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <hardware_interface/internal/demangle_symbol.h>
-#include <ros/console.h>
 
 namespace hardware_interface {
 
