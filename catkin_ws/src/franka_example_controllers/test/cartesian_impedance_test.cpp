@@ -73,13 +73,13 @@ Vector7 expectedTorque(const Arm& arm, const Eigen::Isometry3d& desired, const V
   wrench.head<3>() =
       kt * (desired.translation() - O_T_EE.topRightCorner<3, 1>()) - dt * twist.head<3>();
   wrench.tail<3>() = kr * std::sin(turn.angle() / 2.0) * turn.axis() - dr * twist.tail<3>();
-  // The null space by singular values: each direction of J keeps 1 - s^2/(s^2 + 0.001^2) of it.
+  // The null space by singular values: each direction of J keeps 1 - s^2/(s^2 + 0.002^2) of it.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J.transpose(), Eigen::ComputeThinU);
   const Vector7 elbow = kn * (q_start - joints(arm.q)) - 2.0 * std::sqrt(kn) * joints(arm.dq);
   Vector7 kept = elbow;
   for (int i = 0; i < 6; ++i) {
     const double s2 = std::pow(svd.singularValues()[i], 2);
-    kept -= svd.matrixU().col(i) * (svd.matrixU().col(i).dot(elbow) * s2 / (s2 + 1e-6));
+    kept -= svd.matrixU().col(i) * (svd.matrixU().col(i).dot(elbow) * s2 / (s2 + 4e-6));
   }
   return J.transpose() * wrench + kept + joints(arm.coriolis);
 }

@@ -19,7 +19,7 @@ struct Compliance {
 /// is, but a direction of singular value s lets s_d^2 / (s^2 + s_d^2) of the null-space torque
 /// through to the end effector: with the 0.2 that pseudoInverse() takes, a null-space stiffness of
 /// 10 Nm/rad drew the end effector 5 cm off its equilibrium.
-constexpr double kNullSpaceDamping = 1e-3;
+constexpr double kNullSpaceDamping = 2e-3;
 
 /// A Cartesian impedance with a null-space impedance for one seven-joint arm.
 ///

@@ -171,16 +171,14 @@ bool GripperUnit::resting(double period) noexcept {
   double threshold = parameters_.resting_threshold;
   if (pressing_ || ramp_.arrived()) {
     standstill_.countFromNow();
-  } else if (std::abs(ramp_.width() - width()) < kTellingLag) {
-    // Nothing has been asked of the fingers yet: that they rest says nothing, nor does what an
-    // object that is let go does to them.
-    standstill_.forget();
-    return false;
   } else {
     // A slow command must not look like standstill.
     threshold = std::min(threshold, std::max(0.25 * speed_, kSlowest));
   }
-  return standstill_.update(measured_.dq[0] + measured_.dq[1], threshold, period);
+  // What an object that is let go does to the fingers is not yet the motion that was asked for.
+  const bool asked =
+      pressing_ || ramp_.arrived() || std::abs(ramp_.width() - width()) > kTellingLag;
+  return standstill_.update(measured_.dq[0] + measured_.dq[1], threshold, period, asked);
 }
 
 void GripperUnit::advanceMove(bool resting) noexcept {

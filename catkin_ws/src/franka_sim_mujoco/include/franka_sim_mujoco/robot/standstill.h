@@ -5,8 +5,8 @@
 namespace franka_sim_mujoco {
 
 /// Whether something that was set in motion has come to rest: enough consecutive samples below a
-/// threshold. Samples count after the first motion or, for what cannot move at all, after 0.2 s
-/// (decision 29): at the start everything still rests. Real-time safe; one thread.
+/// threshold. Samples count after the first motion that was asked for or, for what cannot move at
+/// all, after 0.2 s (decision 29): at the start everything still rests. Real-time safe; one thread.
 class Standstill {
  public:
   explicit Standstill(int samples) noexcept : samples_(samples) {}
@@ -15,11 +15,9 @@ class Standstill {
   void restart() noexcept;
   /// Samples count from now on, motion or not.
   void countFromNow() noexcept { counting_ = true; }
-  /// The samples up to now do not count.
-  void forget() noexcept { below_ = 0; }
-  /// One tick. @param speed, threshold in the same unit @param period [s] @returns whether it
-  /// rests.
-  bool update(double speed, double threshold, double period) noexcept;
+  /// One tick. @param speed, threshold in the same unit @param period [s] @param asked whether a
+  /// motion can be the answer to the command yet @returns whether it rests.
+  bool update(double speed, double threshold, double period, bool asked = true) noexcept;
 
  private:
   int samples_;
