@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "physics/compile.h"
 #include "physics/gl_context.h"
+#include "physics/scene_model.h"
 #include "physics/world_impl.h"
 
 namespace franka_sim_mujoco {
@@ -36,30 +36,11 @@ mjvCamera freeCamera(const Camera& camera) {
   return result;
 }
 
-void setJoint(const mjModel& model, mjData* data, const std::string& name, double position) {
-  const int joint = mj_name2id(&model, mjOBJ_JOINT, name.c_str());
-  if (joint >= 0) {
-    data->qpos[model.jnt_qposadr[joint]] = position;
-  }
-}
-
-void setBody(const mjModel& model, mjData* data, const std::string& name, const Pose& pose) {
-  const int body = mj_name2id(&model, mjOBJ_BODY, name.c_str());
-  if (body >= 0 && model.body_jntnum[body] > 0 &&
-      model.jnt_type[model.body_jntadr[body]] == mjJNT_FREE) {
-    double* qpos = data->qpos + model.jnt_qposadr[model.body_jntadr[body]];
-    std::copy(pose.position.begin(), pose.position.end(), qpos);
-    std::copy(pose.orientation.begin(), pose.orientation.end(), qpos + 3);
-  }
-}
-
 }  // namespace
 
 struct Renderer::Impl {
   std::unique_ptr<physics::GlContext> gl{physics::makeGlContext()};
-  std::string mjcf;
-  physics::ModelPtr model;
-  physics::DataPtr data;
+  physics::SceneModel drawn;
   mjvScene scene;
   mjrContext context;
 
@@ -74,22 +55,20 @@ struct Renderer::Impl {
 
   /// Compiles and uploads only when the set of things changed or the picture outgrew the buffer.
   void prepare(const std::string& text, int width, int height) {
-    const bool same_model = model != nullptr && text == mjcf;
-    if (same_model && width <= context.offWidth && height <= context.offHeight) {
+    const bool other_model = drawn.load(text);
+    if (!other_model && width <= context.offWidth && height <= context.offHeight) {
       return;
     }
-    if (!same_model) {
-      model = physics::compile(text, "The model to draw");
-      data = physics::makeData(*model);
-      mjcf = text;
+    mjModel* model = drawn.model();
+    if (other_model) {
       mjv_freeScene(&scene);
-      mjv_makeScene(model.get(), &scene, kMostGeoms);
+      mjv_makeScene(model, &scene, kMostGeoms);
     }
     model->vis.global.offwidth = std::max(width, context.offWidth);
     model->vis.global.offheight = std::max(height, context.offHeight);
     model->vis.quality.offsamples = 0;
     mjr_freeContext(&context);
-    mjr_makeContext(model.get(), &context, mjFONTSCALE_100);
+    mjr_makeContext(model, &context, mjFONTSCALE_100);
     mjr_setBuffer(mjFB_OFFSCREEN, &context);
     if (context.currentBuffer != mjFB_OFFSCREEN) {
       throw std::runtime_error("The graphics driver (" + gl->name() +
@@ -116,20 +95,12 @@ Picture Renderer::render(const Scene& scene, const Camera& camera, int width, in
   mjvCamera view = freeCamera(camera);
   impl_->gl->makeCurrent();
   impl_->prepare(scene.mjcf, width, height);
-  const mjModel& model = *impl_->model;
-  mj_resetData(&model, impl_->data.get());
-  for (const auto& [name, position] : scene.joints) {
-    setJoint(model, impl_->data.get(), name, position);
-  }
-  for (const auto& [name, pose] : scene.bodies) {
-    setBody(model, impl_->data.get(), name, pose);
-  }
-  mj_kinematics(&model, impl_->data.get());
-  mj_camlight(&model, impl_->data.get());
-  impl_->model->vis.global.fovy = static_cast<float>(camera.field_of_view);
+  impl_->drawn.pose(scene);
+  mjModel* model = impl_->drawn.model();
+  model->vis.global.fovy = static_cast<float>(camera.field_of_view);
   mjvOption option;
   mjv_defaultOption(&option);
-  mjv_updateScene(&model, impl_->data.get(), &option, nullptr, &view, mjCAT_ALL, &impl_->scene);
+  mjv_updateScene(model, impl_->drawn.data(), &option, nullptr, &view, mjCAT_ALL, &impl_->scene);
   const mjrRect area{0, 0, width, height};
   mjr_render(area, &impl_->scene, &impl_->context);
   Picture picture{width, height, std::vector<std::uint8_t>(3u * width * height)};

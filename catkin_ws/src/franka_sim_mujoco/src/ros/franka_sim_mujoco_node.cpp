@@ -3,12 +3,14 @@
 
 /// @file
 /// The simulation as a ROS node. Parameters: ~world, ~real_time_factor, ~paused (see Simulation and
-/// findWorldFile); services: see SimServices and PictureService. It needs use_sim_time.
+/// findWorldFile), ~gui (a window, where there is a display); services: see SimServices and
+/// PictureService. It needs use_sim_time.
 
 #include <franka_sim_mujoco/ros/param_reader.h>
 #include <franka_sim_mujoco/ros/picture_service.h>
 #include <franka_sim_mujoco/ros/sim_services.h>
 #include <franka_sim_mujoco/ros/simulation.h>
+#include <franka_sim_mujoco/ros/window_view.h>
 #include <franka_sim_mujoco/ros/world_file.h>
 #include <ros/callback_queue.h>
 #include <ros/console.h>
@@ -64,7 +66,17 @@ void run(ros::NodeHandle& node) {
   spinner.start();
   simulation.start();
   ROS_INFO_NAMED(kLog, "The simulation is ready.");
+  std::optional<sim::WindowView> window;
+  if (sim::readBool(private_node, "gui").value_or(false)) {
+    if (std::getenv("DISPLAY") != nullptr) {
+      window.emplace(simulation);
+    } else {
+      ROS_INFO_NAMED(kLog,
+                     "There is no display (DISPLAY is not set): the simulation opens no window.");
+    }
+  }
   ros::waitForShutdown();
+  window.reset();
   // From the outside in: no new requests, then no more ticks, then no more callbacks.
   simulation.stop();
   pictures.reset();
