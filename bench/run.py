@@ -199,10 +199,25 @@ def memory() -> None:
         wait_running(session)
         before = node_memory(session)
         figure("resident before the first picture", before, "MB", 150)
-        call(session, "/gazebo/benchmark", "ticks: 300000")
-        half = node_memory(session)
-        call(session, "/gazebo/benchmark", "ticks: 300000")
-        figure("growth over the last 5 of 10 simulated minutes", node_memory(session) - half, "MB", 1)
+        begin = simulated_seconds(session)
+        wait_simulated(session, begin + 30)  # threads, publishers and buffers have come up
+        settled = node_memory(session)
+        wait_simulated(session, begin + 630)
+        figure("growth over 10 simulated minutes", node_memory(session) - settled, "MB", 1)
+
+
+def simulated_seconds(session: Session) -> float:
+    text = session.run("rostopic", "echo", "-n1", "-p", "/clock/clock", timeout=30).stdout
+    return float(text.split()[-1].split(",")[-1]) / 1e9
+
+
+def wait_simulated(session: Session, until: float, timeout: float = 200.0) -> None:
+    """Lets the simulation run flat out until its clock has passed a time [s]."""
+    deadline = time.monotonic() + timeout
+    while simulated_seconds(session) < until:
+        if time.monotonic() > deadline:
+            raise RuntimeError(f"the simulation did not reach {until:.0f} s within {timeout:.0f} s")
+        time.sleep(0.5)
 
 
 def start() -> None:
