@@ -10,7 +10,7 @@ SCRIPT = TOP / "catkin_ws" / "src" / "ros_control" / "controller_manager" / "tes
 
 
 def test_controller_manager_under_thread_sanitizer(long_run):
-    operations = "10000" if long_run else "2000"
+    operations = "100000" if long_run else "10000"
     build = TOP / "out" / "tsan"
     result = subprocess.run(
         [str(SCRIPT), str(build), operations],

@@ -1,17 +1,21 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// One cycle of the manager with 1, 10 and 50 running controllers, against as many bare virtual
-// calls. Needs a master, for the parameters of the controllers; prints the ratio of the two itself.
+// One cycle of the manager with 1, 10 and 50 running controllers, plain and under watch, against as
+// many bare virtual calls; and how long a switch takes beside a loop of 1 kHz. Needs a master, for
+// the parameters of the controllers; prints the ratios itself.
 #include <benchmark/benchmark.h>
 #include <controller_manager/controller_manager.h>
 #include <ros/ros.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <future>
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "dummies.h"
@@ -39,7 +43,9 @@ class EmptyLoader : public controller_manager::ControllerLoaderInterface {
 /// A manager whose `count` controllers run.
 class Setup {
  public:
-  explicit Setup(int count) : nh_("update_bench_" + std::to_string(count)), manager_(&robot_, nh_) {
+  explicit Setup(int count, bool watched = false)
+      : nh_(std::string(watched ? "watched_" : "update_") + "bench_" + std::to_string(count)),
+        manager_(&robot_, describe(nh_, watched)) {
     manager_.registerControllerLoader(std::make_shared<EmptyLoader>());
     std::vector<std::string> names;
     for (int i = 0; i < count; ++i) {
@@ -59,6 +65,8 @@ class Setup {
     }
   }
 
+  controller_manager::ControllerManager& manager() { return manager_; }
+
   void update() { manager_.update(time_, period_); }
   void callBare() {
     for (controller_interface::ControllerBase* controller : bare_) {
@@ -67,6 +75,12 @@ class Setup {
   }
 
  private:
+  static const ros::NodeHandle& describe(const ros::NodeHandle& nh, bool watched) {
+    nh.setParam("controller_manager/abort_faulty_controllers", watched);
+    nh.setParam("controller_manager/statistics_rate", watched ? 1.0 : 0.0);
+    return nh;
+  }
+
   ros::NodeHandle nh_;
   dummies::DummyRobot robot_;
   controller_manager::ControllerManager manager_;
@@ -121,6 +135,42 @@ double nanoseconds(Action action) {
   return best;
 }
 
+/// Starts and stops one of two controllers beside a loop of 1 kHz and prints the quantiles.
+void measureSwitches() {
+  Setup setup(2);
+  std::atomic<bool> ended{false};
+  std::thread loop([&] {
+    auto next = std::chrono::steady_clock::now();
+    while (!ended) {
+      setup.update();
+      next += std::chrono::milliseconds(1);
+      std::this_thread::sleep_until(next);
+    }
+  });
+  std::vector<double> milliseconds;
+  for (int i = 0; i < 2000; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<std::string> one{"c1"};
+    const std::vector<std::string> none;
+    if (!setup.manager().switchController(i % 2 == 0 ? none : one, i % 2 == 0 ? one : none, 2)) {
+      std::printf("a switch failed\n");
+    }
+    milliseconds.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+            .count());
+  }
+  ended = true;
+  loop.join();
+  std::sort(milliseconds.begin(), milliseconds.end());
+  const auto quantile = [&](double q) {
+    return milliseconds[static_cast<std::size_t>(q * (milliseconds.size() - 1))];
+  };
+  std::printf(
+      "a switch beside a loop of 1 kHz: median %.2f ms, p99 %.2f ms, most %.2f ms; p99 in periods "
+      "of the loop %.2f\n",
+      quantile(0.5), quantile(0.99), quantile(1.0), quantile(0.99) / 1.0);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -136,6 +186,13 @@ int main(int argc, char** argv) {
         "controller_manager update, %d controllers: %.1f ns, virtual calls: %.1f ns, "
         "ratio %.2f\n",
         count, update, bare, update / bare);
+    Setup watched(count, true);
+    const double watching = nanoseconds([&] { watched.update(); });
+    std::printf(
+        "controller_manager update under watch, %d controllers: %.1f ns, of that each controller "
+        "%.1f ns, ratio %.2f\n",
+        count, watching, watching / count, watching / bare);
   }
+  measureSwitches();
   return 0;
 }

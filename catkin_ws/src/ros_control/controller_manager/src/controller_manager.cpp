@@ -5,6 +5,7 @@
 #include <controller_manager/internal/controller_registry.h>
 #include <controller_manager/internal/loop_gate.h>
 #include <controller_manager/internal/manager_services.h>
+#include <controller_manager/internal/supervisor.h>
 #include <controller_manager/internal/switch_desk.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <ros/console.h>
@@ -26,12 +27,20 @@ ControllerManager::ControllerManager(hardware_interface::RobotHW* robot_hw,
       desk_(std::make_unique<internal::SwitchDesk>(*gate_)) {
   controller_loaders_.push_back(std::make_shared<ControllerLoader<ControllerBase>>(
       "controller_interface", "controller_interface::ControllerBase"));
+  const ros::NodeHandle own_nh(nh, "controller_manager");
+  const internal::Supervision supervision = internal::readSupervision(own_nh);
+  default_switch_timeout_ = supervision.default_switch_timeout;
+  if (supervision.watches()) {
+    supervisor_ = std::make_unique<internal::Supervisor>(
+        supervision, *registry_, *gate_, own_nh, [this](const auto& name) { settleFault(name); });
+  }
   services_ = std::make_unique<internal::ManagerServices>(*this, nh);
 }
 
 ControllerManager::~ControllerManager() {
   desk_->close();
   services_.reset();
+  supervisor_.reset();
 }
 
 void ControllerManager::update(const ros::Time& time, const ros::Duration& period,
@@ -46,8 +55,12 @@ void ControllerManager::update(const ros::Time& time, const ros::Duration& perio
       }
     }
   }
-  for (ControllerBase* controller : list.controllers()) {
-    controller->updateRequest(time, period);
+  if (supervisor_) {
+    supervisor_->update(list, time, period);
+  } else {
+    for (ControllerBase* controller : list.controllers()) {
+      controller->updateRequest(time, period);
+    }
   }
   desk_->serve(*robot_hw_, time);
 }
@@ -114,7 +127,7 @@ bool ControllerManager::loadController(const std::string& name) {
       return false;
     }
     spec.c = createController(name, spec.info.type);
-    if (!spec.c || !initController(spec, controller_nh)) {
+    if (!spec.c || !initController(spec, controller_nh) || !watchController(spec, controller_nh)) {
       return false;
     }
   } catch (const ros::InvalidNameException& error) {
@@ -170,6 +183,21 @@ bool ControllerManager::initController(ControllerSpec& spec, ros::NodeHandle& co
     ROS_ERROR("Initializing controller '%s' failed", name);
   }
   return initialized;
+}
+
+bool ControllerManager::watchController(ControllerSpec& spec, const ros::NodeHandle& nh) {
+  if (!supervisor_) {
+    return true;
+  }
+  std::vector<std::string> fallbacks;
+  if (nh.hasParam("fallback_controllers") && !nh.getParam("fallback_controllers", fallbacks)) {
+    ROS_ERROR("Could not load controller '%s' because '%s' is no list of controllers' names",
+              spec.info.name.c_str(), nh.resolveName("fallback_controllers").c_str());
+    return false;
+  }
+  spec.watch = std::make_shared<internal::ControllerWatch>(
+      *spec.c, spec.info, *robot_hw_, supervisor_->supervision(), std::move(fallbacks));
+  return true;
 }
 
 bool ControllerManager::unloadController(const std::string& name) {

@@ -5,6 +5,7 @@
 #include <controller_manager/controller_manager.h>
 #include <controller_manager/internal/controller_registry.h>
 #include <controller_manager/internal/loop_gate.h>
+#include <controller_manager/internal/supervisor.h>
 #include <controller_manager/internal/switch_desk.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <ros/console.h>
@@ -23,6 +24,9 @@ using internal::SwitchRequest;
 namespace {
 
 typedef std::vector<std::string> Names;
+
+// [s] for the robot to take over from a controller that was aborted.
+constexpr double kFaultTimeout = 1.0;
 
 bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -125,10 +129,24 @@ void reportOutcome(const SwitchRequest& request) {
             "%g s",
             start.info.name.c_str(), request.timeout);
         break;
+      case SwitchRequest::Outcome::kThrew:
+        ROS_ERROR("Controller '%s' was not started, because its starting threw: %s",
+                  start.info.name.c_str(), start.thrown.data());
+        break;
       default:
         break;
     }
   }
+}
+
+Names thrownBy(const SwitchRequest& request) {
+  Names names;
+  for (const SwitchRequest::Start& start : request.starts) {
+    if (start.outcome == SwitchRequest::Outcome::kThrew) {
+      names.push_back(start.info.name);
+    }
+  }
+  return names;
 }
 
 }  // namespace
@@ -164,6 +182,17 @@ bool ControllerManager::switchController(const Names& start_controllers,
   if (refusedInLoop("switch")) {
     return false;
   }
+  Names thrown;
+  const bool carried_out = carryOut(start_controllers, stop_controllers, strictness, start_asap,
+                                    timeout > 0.0 ? timeout : default_switch_timeout_, thrown);
+  for (const std::string& name : thrown) {
+    settleFault(name);
+  }
+  return carried_out;
+}
+
+bool ControllerManager::carryOut(const Names& start_controllers, const Names& stop_controllers,
+                                 int strictness, bool start_asap, double timeout, Names& thrown) {
   const bool strict = strictness == SwitchControllerRequest::STRICT;
   if (!strict && strictness != SwitchControllerRequest::BEST_EFFORT) {
     ROS_WARN(
@@ -194,6 +223,7 @@ bool ControllerManager::switchController(const Names& start_controllers,
       return false;
     }
     request->start_asap = start_asap;
+    request->guarded = supervisor_ && supervisor_->supervision().abort_faulty;
     request->timeout = timeout;
     start_list = request->start_list;
     stop_list = request->stop_list;
@@ -203,6 +233,7 @@ bool ControllerManager::switchController(const Names& start_controllers,
   switch (turn.await()) {
     case SwitchDesk::Result::kDone:
       reportOutcome(turn.request());
+      thrown = thrownBy(turn.request());
       return true;
     case SwitchDesk::Result::kAbandoned:
       ROS_ERROR(
@@ -214,20 +245,83 @@ bool ControllerManager::switchController(const Names& start_controllers,
     case SwitchDesk::Result::kWithdrawn:
       break;
   }
-  if (desk_->mustEnd()) {
-    ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
-  } else {
-    ROS_ERROR(
-        "Could not switch controllers, because the control loop did not run for %g s. Is the "
-        "robot connected, or the simulation paused?",
-        turn.elapsed());
-  }
+  explainWithdrawal(turn.elapsed());
   // The robot prepared for a switch that never came: let it prepare for the way back.
   const std::lock_guard<std::mutex> lock(services_mutex_);
   if (!robot_hw_->prepareSwitch(stop_list, start_list)) {
     ROS_WARN("The robot refused to take the preparations of that switch back");
   }
   return false;
+}
+
+void ControllerManager::explainWithdrawal(double elapsed) const {
+  if (desk_->mustEnd()) {
+    ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
+  } else {
+    ROS_ERROR(
+        "Could not switch controllers, because the control loop did not run for %g s. Is the "
+        "robot connected, or the simulation paused?",
+        elapsed);
+  }
+}
+
+std::unique_ptr<SwitchRequest> ControllerManager::planFallback(const ControllerSpec& aborted) {
+  const internal::ControllerListPtr list = registry_->snapshot();
+  Names start;
+  for (const std::string& name : aborted.watch->fallbacks()) {
+    const ControllerSpec* const spec = list->find(name);
+    if (spec == nullptr) {
+      ROS_ERROR("The fallback '%s' of controller '%s' is not loaded", name.c_str(),
+                aborted.info.name.c_str());
+    } else if (!spec->c->isRunning() && spec->c != aborted.c && !contains(start, name)) {
+      start.push_back(name);
+    }
+  }
+  if (!start.empty() && robot_hw_->checkForConflict(runningAfter(*list, start, {}))) {
+    ROS_ERROR("The fallbacks of controller '%s' were not started, due to resource conflict",
+              aborted.info.name.c_str());
+    start.clear();
+  }
+  std::unique_ptr<SwitchRequest> request = makeRequest(*list, start, {});
+  request->stop_list.push_back(aborted.info);
+  if (!robot_hw_->prepareSwitch(request->start_list, request->stop_list)) {
+    ROS_ERROR("The robot refused to stop what controller '%s' commanded",
+              aborted.info.name.c_str());
+    return nullptr;
+  }
+  return request;
+}
+
+void ControllerManager::settleFault(const std::string& name) {
+  SwitchDesk::Turn turn(*desk_, kFaultTimeout);
+  if (!turn) {
+    ROS_ERROR(
+        "The robot could not be told that controller '%s' was aborted: another switch is "
+        "under way",
+        name.c_str());
+    return;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(services_mutex_);
+    const internal::ControllerListPtr list = registry_->snapshot();
+    const ControllerSpec* const spec = list->find(name);
+    // Somebody may have started or unloaded it meanwhile.
+    if (spec == nullptr || !spec->c->isAborted()) {
+      return;
+    }
+    std::unique_ptr<SwitchRequest> request = planFallback(*spec);
+    if (!request) {
+      return;
+    }
+    request->timeout = kFaultTimeout;
+    request->guarded = true;
+    turn.post(std::move(request));
+  }
+  if (turn.await() == SwitchDesk::Result::kDone) {
+    reportOutcome(turn.request());
+  } else {
+    explainWithdrawal(turn.elapsed());
+  }
 }
 
 }  // namespace controller_manager

@@ -3,6 +3,8 @@
 #include <controller_manager/internal/switch_request.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 
 namespace controller_manager {
 namespace internal {
@@ -35,12 +37,44 @@ bool SwitchRequest::begin(hardware_interface::RobotHW& robot, const ros::Time& t
   begin_ = time;
   robot.doSwitch(start_list, stop_list);
   // In the first cycle only: later ones would stop restarted controllers again.
-  for (const Stop& stop : stops) {
-    if (stop.controller->isRunning()) {
-      stop.controller->stopRequest(time);
+  for (const Stop& stopped : stops) {
+    if (stopped.controller->isRunning()) {
+      stop(stopped, time);
     }
   }
   return true;
+}
+
+void SwitchRequest::start(Start& start, const ros::Time& time) const {
+  start.outcome = Outcome::kStarted;
+  if (!guarded) {
+    start.controller->startRequest(time);
+    return;
+  }
+  try {
+    start.controller->startRequest(time);
+  } catch (const std::exception& error) {
+    std::snprintf(start.thrown.data(), start.thrown.size(), "%s", error.what());
+    start.outcome = Outcome::kThrew;
+  } catch (...) {
+    std::snprintf(start.thrown.data(), start.thrown.size(), "an exception of unknown type");
+    start.outcome = Outcome::kThrew;
+  }
+  if (start.outcome == Outcome::kThrew) {
+    start.controller->state_ = controller_interface::ControllerBase::ControllerState::ABORTED;
+  }
+}
+
+void SwitchRequest::stop(const Stop& stop, const ros::Time& time) const {
+  if (!guarded) {
+    stop.controller->stopRequest(time);
+    return;
+  }
+  try {
+    stop.controller->stopRequest(time);
+  } catch (...) {
+    stop.controller->state_ = controller_interface::ControllerBase::ControllerState::ABORTED;
+  }
 }
 
 SwitchRequest::Outcome SwitchRequest::reasonToGiveUp(SwitchState state,
@@ -66,9 +100,8 @@ void SwitchRequest::giveUp(const ros::Time& time) {
 // for the original count on that, as do their tests.
 bool SwitchRequest::startTogether(hardware_interface::RobotHW& robot, const ros::Time& time) {
   if (robot.switchResult() == SwitchState::DONE) {
-    for (Start& start : starts) {
-      start.controller->startRequest(time);
-      start.outcome = Outcome::kStarted;
+    for (Start& started : starts) {
+      start(started, time);
     }
     return true;
   }
@@ -86,21 +119,20 @@ bool SwitchRequest::startTogether(hardware_interface::RobotHW& robot, const ros:
 
 bool SwitchRequest::startEach(hardware_interface::RobotHW& robot, const ros::Time& time) {
   bool settled = true;
-  for (Start& start : starts) {
-    if (start.outcome != Outcome::kPending) {
+  for (Start& waiting : starts) {
+    if (waiting.outcome != Outcome::kPending) {
       continue;
     }
-    if (robot.switchResult(start.info) == SwitchState::DONE) {
-      start.controller->startRequest(time);
-      start.outcome = Outcome::kStarted;
+    if (robot.switchResult(waiting.info) == SwitchState::DONE) {
+      start(waiting, time);
       continue;
     }
-    start.outcome = reasonToGiveUp(robot.switchResult(start.info), time);
-    if (start.outcome == Outcome::kPending) {
-      start.controller->waitRequest(time);
+    waiting.outcome = reasonToGiveUp(robot.switchResult(waiting.info), time);
+    if (waiting.outcome == Outcome::kPending) {
+      waiting.controller->waitRequest(time);
       settled = false;
     } else {
-      start.controller->abortRequest(time);
+      waiting.controller->abortRequest(time);
     }
   }
   return settled;

@@ -1,11 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The loop's side neither allocates nor locks nor sleeps, whatever the other side does.
+// The loop's side neither allocates nor locks nor enters the kernel, whatever the other side does.
 #include <rt_guard/rt_guard.h>
+#include <rt_guard/syscall_guard.h>
+#include <unistd.h>
 
 #include <algorithm>
 
-#include "manager_fixture.h"
+#include "supervision_fixture.h"
 
 using dummies::kStrict;
 using hardware_interface::RobotHW;
@@ -21,10 +23,14 @@ class GuardTest : public dummies::ManagerTest {
     time_ += ros::Duration(0.001);
     const ros::Duration period(0.001);
     const rt_guard::Scope scope;
+    const rt_guard::SyscallScope syscalls;
     manager_->update(time_, period, reset);
     allocations_ += scope.allocations();
     locks_ += scope.locks();
     sleeps_ += scope.sleeps();
+    if (syscalls.called()) {
+      syscall_ = syscalls.number();
+    }
   }
 
   void guardedSwitch(const Names& start, const Names& stop, bool asap) {
@@ -39,9 +45,11 @@ class GuardTest : public dummies::ManagerTest {
     EXPECT_EQ(0u, allocations_);
     EXPECT_EQ(0u, locks_);
     EXPECT_EQ(0u, sleeps_);
+    EXPECT_EQ(-1, syscall_) << "the number of a system call";
   }
 
   std::size_t allocations_{0}, locks_{0}, sleeps_{0};
+  int syscall_{-1};
 };
 
 }  // namespace
@@ -63,6 +71,20 @@ TEST_F(GuardTest, theGuardWatches) {
   }
   EXPECT_EQ(2u, allocations);
   EXPECT_EQ(1u, locks);
+}
+
+TEST_F(GuardTest, theSyscallGuardWatches) {
+  if (!rt_guard::SyscallScope::available()) {
+    GTEST_SKIP() << "this kernel cannot tell system calls";
+  }
+  {
+    const rt_guard::SyscallScope scope;
+    EXPECT_GT(getppid(), -1);
+    EXPECT_TRUE(scope.called());
+  }
+  const rt_guard::SyscallScope scope;
+  (void)std::chrono::steady_clock::now();
+  EXPECT_FALSE(scope.called()) << scope.number();
 }
 
 TEST_F(GuardTest, steadyState) {
@@ -101,4 +123,32 @@ TEST_F(GuardTest, whileControllersComeAndGo) {
     guardedStep();
     return done.load();
   });
+}
+
+using dummies::SupervisionTest;
+
+TEST_F(SupervisionTest, watchingAllocatesAndLocksNothing) {
+  own_.setParam("statistics_rate", 50.0);
+  own_.setParam("max_update_time", 0.5);
+  renewGuarded();
+  std::size_t allocations = 0;
+  std::size_t locks = 0;
+  const ros::Duration period(0.001);
+  for (int i = 0; i < 300; ++i) {
+    dummies::FaultyController::inUpdate() =
+        i == 200 ? dummies::Mischief::kNan : dummies::Mischief::kNone;
+    time_ += period;
+    {
+      const rt_guard::Scope scope;
+      const rt_guard::SyscallScope syscalls;
+      manager_->update(time_, period);
+      allocations += scope.allocations();
+      locks += scope.locks();
+      EXPECT_FALSE(syscalls.called()) << syscalls.number();
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  EXPECT_TRUE(controller("faulty").isAborted());
+  EXPECT_EQ(0u, allocations);
+  EXPECT_EQ(0u, locks);
 }

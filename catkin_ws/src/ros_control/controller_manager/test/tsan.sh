@@ -6,7 +6,7 @@
 # Needs a sourced workspace that has controller_manager_msgs and hardware_interface.
 # The exit status is 0 when no race was found and the test passed.
 #
-#   tsan.sh BUILD_DIRECTORY [OPERATIONS]     OPERATIONS: 2000 unless given
+#   tsan.sh BUILD_DIRECTORY [OPERATIONS]     OPERATIONS: 10000 unless given
 set -eu
 
 if [ $# -lt 1 ]; then
@@ -17,7 +17,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 package=$(dirname "$here")
 mkdir -p "$1"
 build=$(cd "$1" && pwd)
-operations=${2:-2000}
+operations=${2:-10000}
 
 if ! command -v setarch >/dev/null; then
   echo "tsan.sh: setarch is missing; it is in the Debian package util-linux" >&2

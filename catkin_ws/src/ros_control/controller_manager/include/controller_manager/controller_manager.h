@@ -22,6 +22,7 @@ class ControllerList;
 class ControllerRegistry;
 class LoopGate;
 class ManagerServices;
+class Supervisor;
 struct SwitchRequest;
 class SwitchDesk;
 }  // namespace internal
@@ -35,6 +36,15 @@ class SwitchDesk;
 ///
 /// While the loop stands still, controllers can be listed, loaded and unloaded; a switch waits for
 /// the loop, lets the other requests through meanwhile, and fails after its timeout.
+///
+/// Parameters in `<nh>/controller_manager/`, read once, turn on what the original does not have:
+/// * `statistics_rate` [Hz]: publish `statistics` (controller_manager_msgs/ControllersStatistics).
+/// * `abort_faulty_controllers` (bool): a controller that throws, or commands a joint NaN, is
+///   aborted alone; the robot keeps the last good commands until it has been told.
+/// * `max_update_time` [s]: so is one whose update takes longer.
+/// * `default_switch_timeout` [s]: of switches that name none.
+/// A controller's own parameter `fallback_controllers` (names) says what is started in its place
+/// after it was aborted so.
 class ControllerManager {
  public:
   static constexpr bool WAIT_FOR_ALL_RESOURCES = false;
@@ -46,6 +56,7 @@ class ControllerManager {
   /// @param robot_hw outlives the manager
   /// @param nh below which controllers find their parameters; its queue answers the services,
   /// except the two that may wait for the loop: those have threads of their own.
+  /// @throws std::invalid_argument with a sentence when one of the parameters above makes no sense
   explicit ControllerManager(hardware_interface::RobotHW* robot_hw,
                              const ros::NodeHandle& nh = ros::NodeHandle());
 
@@ -73,7 +84,8 @@ class ControllerManager {
   /// controller in both lists is restarted.
   /// @param strictness controller_manager_msgs/SwitchController STRICT or BEST_EFFORT
   /// @param start_asap start each controller once the robot is ready for it, not all together
-  /// @param timeout [s] to begin with, and again for the robot to get ready; 0 waits for ever
+  /// @param timeout [s] to begin with, and again for the robot to get ready; 0 waits for ever, or
+  /// for the parameter default_switch_timeout
   /// @returns true when the loop has carried the switch out, also if the robot was not ready in
   /// time and controllers were aborted; false after logging the reason
   bool switchController(const std::vector<std::string>& start_controllers,
@@ -113,6 +125,15 @@ class ControllerManager {
                                                       const std::vector<std::string>& stop,
                                                       bool strict);
 
+  /// @param[out] thrown the controllers whose starting() threw
+  bool carryOut(const std::vector<std::string>& start, const std::vector<std::string>& stop,
+                int strictness, bool start_asap, double timeout, std::vector<std::string>& thrown);
+  /// Starts what stands in for an aborted controller, and tells the robot.
+  void settleFault(const std::string& name);
+  std::unique_ptr<internal::SwitchRequest> planFallback(const ControllerSpec& aborted);
+  bool watchController(ControllerSpec& spec, const ros::NodeHandle& controller_nh);
+  void explainWithdrawal(double elapsed) const;
+
   hardware_interface::RobotHW* robot_hw_;
   ros::NodeHandle root_nh_;
 
@@ -127,7 +148,9 @@ class ControllerManager {
   std::unique_ptr<internal::LoopGate> gate_;
   std::unique_ptr<internal::ControllerRegistry> registry_;
   std::unique_ptr<internal::SwitchDesk> desk_;
+  std::unique_ptr<internal::Supervisor> supervisor_;
   std::unique_ptr<internal::ManagerServices> services_;
+  double default_switch_timeout_{INFINITE_TIMEOUT};
 };
 
 }  // namespace controller_manager

@@ -5,12 +5,20 @@
 #include <controller_interface/controller_base.h>
 #include <hardware_interface/controller_info.h>
 
+#include <memory>
+
 namespace controller_manager {
 
-/// A loaded controller and what is known about it.
+namespace internal {
+class ControllerWatch;
+}
+
+/// A loaded controller, and what is known about it.
 struct ControllerSpec {
   hardware_interface::ControllerInfo info;
   controller_interface::ControllerBaseSharedPtr c;
+  /// Times the updates and stops a faulty controller; null unless parameters ask for that.
+  std::shared_ptr<internal::ControllerWatch> watch;
 };
 
 }  // namespace controller_manager

@@ -7,6 +7,7 @@
 #include <hardware_interface/robot_hw.h>
 #include <ros/time.h>
 
+#include <array>
 #include <atomic>
 #include <list>
 #include <string>
@@ -25,12 +26,13 @@ struct SwitchRequest {
     kDone        ///< the loop will never touch it again
   };
 
-  enum class Outcome { kPending, kStarted, kRobotError, kTimeout, kCancelled };
+  enum class Outcome { kPending, kStarted, kRobotError, kTimeout, kCancelled, kThrew };
 
   struct Start {
     controller_interface::ControllerBaseSharedPtr controller;
     hardware_interface::ControllerInfo info;
     Outcome outcome{Outcome::kPending};
+    std::array<char, 256> thrown{};  ///< what starting() threw
   };
 
   struct Stop {
@@ -43,6 +45,7 @@ struct SwitchRequest {
   std::list<hardware_interface::ControllerInfo> start_list;  ///< for the robot, without restarts
   std::list<hardware_interface::ControllerInfo> stop_list;
   bool start_asap{false};
+  bool guarded{false};  ///< a controller whose starting() or stopping() throws is aborted
   double timeout{0.0};  ///< [s] on the loop's clock, from its first cycle on; 0 never ends
 
   std::atomic<Phase> phase{Phase::kPosted};
@@ -61,6 +64,8 @@ struct SwitchRequest {
   bool begin(hardware_interface::RobotHW& robot, const ros::Time& time);
   bool startTogether(hardware_interface::RobotHW& robot, const ros::Time& time);
   bool startEach(hardware_interface::RobotHW& robot, const ros::Time& time);
+  void start(Start& start, const ros::Time& time) const;
+  void stop(const Stop& stop, const ros::Time& time) const;
   void giveUp(const ros::Time& time);
   /// Why the start is given up in this cycle; kPending if it is not.
   Outcome reasonToGiveUp(hardware_interface::RobotHW::SwitchState state,

@@ -1,0 +1,79 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <controller_interface/controller_base.h>
+#include <controller_manager/internal/command_guard.h>
+#include <controller_manager/internal/time_statistics.h>
+#include <hardware_interface/controller_info.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/time.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace controller_manager {
+namespace internal {
+
+/// What the manager does beyond the original, each only if its parameter asks for it. They stand in
+/// `<manager's namespace>/controller_manager/`.
+struct Supervision {
+  double statistics_rate{0.0};         ///< [Hz] of the topic `statistics`; 0: no statistics
+  bool abort_faulty{false};            ///< abort a controller that throws or commands no number
+  double max_update_time{0.0};         ///< [s] abort a controller that takes longer; 0: never
+  double default_switch_timeout{0.0};  ///< [s] of switches that name none; 0: wait for ever
+
+  bool watches() const { return statistics_rate > 0.0 || abort_faulty || max_update_time > 0.0; }
+};
+
+/// Runs one controller's updates: times them, and aborts the controller when it is faulty, leaving
+/// the robot the last commands that were good. One thread calls update(); a fault is read outside
+/// the loop.
+class ControllerWatch {
+ public:
+  enum class Fault { kNone, kException, kNotFinite, kTooSlow };
+
+  /// @param controller outlives the watch
+  /// @param fallbacks names of the controllers to start after a fault
+  ControllerWatch(controller_interface::ControllerBase& controller,
+                  const hardware_interface::ControllerInfo& info,
+                  hardware_interface::RobotHW& robot, const Supervision& supervision,
+                  std::vector<std::string> fallbacks);
+
+  /// One cycle. Allocates and locks nothing, unless the controller throws.
+  /// @param window which of the two statistics to fill
+  void update(const ros::Time& time, const ros::Duration& period, std::size_t window);
+
+  /// The fault that has not been settled yet. Any thread.
+  Fault fault() const { return fault_.load(std::memory_order_acquire); }
+  /// Why, in words that go on after "because"; valid while there is a fault.
+  std::string reason() const;
+  /// The fault has been dealt with: the next one may be noted.
+  void settle() { fault_.store(Fault::kNone, std::memory_order_release); }
+
+  const std::vector<std::string>& fallbacks() const { return fallbacks_; }
+  TimeStatistics& statistics(std::size_t window) { return statistics_[window]; }
+
+ private:
+  Fault run(const ros::Time& time, const ros::Duration& period);
+  void abort(Fault fault, const ros::Time& time, double elapsed);
+  void note(const char* text);
+
+  controller_interface::ControllerBase& controller_;
+  const bool abort_faulty_;
+  const double max_update_time_;
+  const std::vector<std::string> fallbacks_;
+  CommandGuard commands_;
+  TimeStatisticsPair statistics_;
+
+  std::atomic<Fault> fault_{Fault::kNone};
+  // Written by the loop before the fault is shown, then left alone until it is settled.
+  std::array<char, 256> text_{};
+  double elapsed_{0.0};
+};
+
+}  // namespace internal
+}  // namespace controller_manager

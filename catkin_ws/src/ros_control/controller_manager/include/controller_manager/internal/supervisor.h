@@ -1,0 +1,82 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <controller_manager/internal/controller_registry.h>
+#include <controller_manager/internal/controller_watch.h>
+#include <controller_manager/internal/loop_gate.h>
+#include <controller_manager_msgs/ControllersStatistics.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/time.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace controller_manager {
+namespace internal {
+
+/// Reads the parameters `statistics_rate`, `abort_faulty_controllers`, `max_update_time` and
+/// `default_switch_timeout` below `nh`.
+/// @throws std::invalid_argument with a sentence, for one of the wrong type or below zero.
+Supervision readSupervision(const ros::NodeHandle& nh);
+
+/// Runs the controllers' updates under watch, and does outside the loop what follows from it: has
+/// faults settled, and publishes `statistics` (controller_manager_msgs/ControllersStatistics).
+///
+/// Each message covers the time since the one before, but for the count of overruns, which goes on.
+/// max, mean and variance_time are of the execution of update(); variance_time holds the standard
+/// deviation, since a variance [s^2] does not fit a duration. An overrun is an update that took
+/// longer than the cycle's period or than max_update_time. Two further entries describe the loop:
+/// `control_loop` of type `execution`, for all controllers together, and of type `period`, whose
+/// deviation is the jitter between cycles on the monotonic clock.
+class Supervisor {
+ public:
+  /// Stops a controller for good that was aborted, and starts its fallbacks.
+  typedef std::function<void(const std::string& name)> Settle;
+
+  Supervisor(const Supervision& supervision, ControllerRegistry& registry, LoopGate& gate,
+             const ros::NodeHandle& nh, Settle settle);
+  ~Supervisor();
+
+  /// One cycle, during a visit of the gate. Real-time safe.
+  void update(const ControllerList& list, const ros::Time& time, const ros::Duration& period);
+
+  const Supervision& supervision() const { return supervision_; }
+
+ private:
+  typedef std::chrono::steady_clock Clock;
+
+  void run();
+  void settleFaults();
+  void publish();
+  controller_manager_msgs::ControllerStatistics message(const std::string& name,
+                                                        const std::string& type,
+                                                        TimeStatistics& statistics);
+
+  const Supervision supervision_;
+  ControllerRegistry& registry_;
+  LoopGate& gate_;
+  const Settle settle_;
+  ros::Publisher publisher_;
+  std::map<std::string, std::pair<std::uint32_t, double>> overruns_;  ///< until now, by entry
+
+  std::atomic<std::size_t> window_{0};  ///< which statistics the loop fills
+  TimeStatisticsPair execution_, cycle_;
+  Clock::time_point last_cycle_{};
+
+  std::mutex mutex_;
+  std::condition_variable ending_;
+  bool ended_{false};
+  std::thread thread_;
+};
+
+}  // namespace internal
+}  // namespace controller_manager

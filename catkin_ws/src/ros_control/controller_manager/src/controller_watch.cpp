@@ -1,0 +1,114 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <controller_manager/internal/controller_watch.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+namespace controller_manager {
+namespace internal {
+
+using controller_interface::ControllerBase;
+
+ControllerWatch::ControllerWatch(ControllerBase& controller,
+                                 const hardware_interface::ControllerInfo& info,
+                                 hardware_interface::RobotHW& robot, const Supervision& supervision,
+                                 std::vector<std::string> fallbacks)
+    : controller_(controller),
+      abort_faulty_(supervision.abort_faulty),
+      max_update_time_(supervision.max_update_time),
+      fallbacks_(std::move(fallbacks)),
+      commands_(info, robot) {}
+
+void ControllerWatch::update(const ros::Time& time, const ros::Duration& period,
+                             std::size_t window) {
+  if (!controller_.isRunning()) {
+    return;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  Fault fault = run(time, period);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+
+  TimeStatistics& statistics = statistics_[window];
+  statistics.add(elapsed.count());
+  const bool too_slow = max_update_time_ > 0.0 && elapsed.count() > max_update_time_;
+  if (too_slow || (period > ros::Duration(0.0) && elapsed.count() > period.toSec())) {
+    statistics.addOverrun(time.toSec());
+  }
+  if (fault == Fault::kNone && too_slow) {
+    fault = Fault::kTooSlow;
+  }
+  if (fault != Fault::kNone) {
+    abort(fault, time, elapsed.count());
+  } else if (abort_faulty_) {
+    commands_.remember();
+  }
+}
+
+ControllerWatch::Fault ControllerWatch::run(const ros::Time& time, const ros::Duration& period) {
+  if (!abort_faulty_) {
+    controller_.updateRequest(time, period);
+    return Fault::kNone;
+  }
+  try {
+    controller_.updateRequest(time, period);
+  } catch (const std::exception& error) {
+    note(error.what());
+    return Fault::kException;
+  } catch (...) {
+    note("an exception of unknown type");
+    return Fault::kException;
+  }
+  const char* const offender = commands_.offender();
+  if (offender == nullptr) {
+    return Fault::kNone;
+  }
+  note(offender);
+  return Fault::kNotFinite;
+}
+
+void ControllerWatch::note(const char* text) {
+  // The text of a fault not yet settled is being read.
+  if (fault() == Fault::kNone) {
+    std::snprintf(text_.data(), text_.size(), "%s", text);
+  }
+}
+
+void ControllerWatch::abort(Fault fault, const ros::Time& time, double elapsed) {
+  if (fault != Fault::kTooSlow) {
+    commands_.restore();
+  }
+  try {
+    controller_.abortRequest(time);
+  } catch (...) {
+    controller_.state_ = ControllerBase::ControllerState::ABORTED;
+  }
+  if (this->fault() == Fault::kNone) {
+    elapsed_ = elapsed;
+    fault_.store(fault, std::memory_order_release);
+  }
+}
+
+std::string ControllerWatch::reason() const {
+  switch (fault()) {
+    case Fault::kException:
+      return std::string("its update threw: ") + text_.data();
+    case Fault::kNotFinite:
+      return std::string("it commanded joint '") + text_.data() + "' a value that is no number";
+    case Fault::kTooSlow: {
+      std::array<char, 128> text;
+      std::snprintf(text.data(), text.size(),
+                    "its update took %.3f ms, and controller_manager/max_update_time allows %.3f",
+                    1e3 * elapsed_, 1e3 * max_update_time_);
+      return text.data();
+    }
+    case Fault::kNone:
+      break;
+  }
+  return "nothing is wrong with it";
+}
+
+}  // namespace internal
+}  // namespace controller_manager

@@ -1,0 +1,130 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// A controller that misbehaves on demand, and a manager told to watch for that.
+
+#include <limits>
+#include <stdexcept>
+
+#include "manager_fixture.h"
+
+namespace dummies {
+
+enum class Mischief { kNone, kThrow, kThrowNumber, kNan, kSlow };
+
+/// Behaves until it is told not to.
+class FaultyController : public DummyController {
+ public:
+  static Mischief& inUpdate() {
+    static Mischief mischief{Mischief::kNone};
+    return mischief;
+  }
+  static bool& inStarting() {
+    static bool throws{false};
+    return throws;
+  }
+
+  bool init(hardware_interface::EffortJointInterface* hw, ros::NodeHandle& nh) override {
+    std::vector<std::string> joints;
+    nh.getParam("joints", joints);
+    handle_ = hw->getHandle(joints.at(0));
+    return true;
+  }
+  void starting(const ros::Time& time) override {
+    if (inStarting()) {
+      throw std::runtime_error("the target is unknown");
+    }
+    DummyController::starting(time);
+  }
+  void update(const ros::Time& /*time*/, const ros::Duration& /*period*/) override {
+    ++updates_;
+    handle_.setCommand(inUpdate() == Mischief::kNan ? std::numeric_limits<double>::quiet_NaN()
+                                                    : 7.0);
+    if (inUpdate() == Mischief::kThrow) {
+      throw std::runtime_error("the matrix is singular");
+    }
+    if (inUpdate() == Mischief::kThrowNumber) {
+      throw 42;
+    }
+    if (inUpdate() == Mischief::kSlow) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    }
+  }
+
+ private:
+  hardware_interface::JointHandle handle_;
+};
+
+class FaultyLoader : public controller_manager::ControllerLoaderInterface {
+ public:
+  FaultyLoader() : ControllerLoaderInterface("FaultyController") {}
+  controller_interface::ControllerBaseSharedPtr createInstance(const std::string&) override {
+    return std::make_shared<FaultyController>();
+  }
+  std::vector<std::string> getDeclaredClasses() override { return {"dummy/Faulty"}; }
+  void reload() override {}
+};
+
+class SupervisionTest : public ManagerTest {
+ protected:
+  SupervisionTest() : own_(nh_, "controller_manager") {
+    FaultyController::inUpdate() = Mischief::kNone;
+    FaultyController::inStarting() = false;
+    describe("faulty", "dummy/Faulty", {"j3"});
+  }
+  ~SupervisionTest() override {
+    for (const char* const name : {"statistics_rate", "abort_faulty_controllers", "max_update_time",
+                                   "default_switch_timeout"}) {
+      own_.deleteParam(name);
+    }
+    nh_.deleteParam("faulty/fallback_controllers");
+  }
+
+  /// A manager that has read the parameters of the test.
+  void renew() {
+    manager_.reset();
+    manager_ = std::make_unique<controller_manager::ControllerManager>(&robot_, nh_);
+    manager_->registerControllerLoader(loader_);
+    manager_->registerControllerLoader(std::make_shared<FaultyLoader>());
+  }
+  void renewGuarded() {
+    own_.setParam("abort_faulty_controllers", true);
+    renew();
+    load({"a", "faulty"});
+    ASSERT_TRUE(doSwitch({"a", "faulty"}, {}));
+  }
+
+  double command(const std::string& joint) {
+    auto* const efforts = robot_.get<hardware_interface::EffortJointInterface>();
+    return efforts->getHandle(joint).getCommand();
+  }
+
+  /// Steps until the robot has been told of the abort.
+  void stepUntilTold(int switches) {
+    waitFor([&] {
+      step();
+      return robot_.switches_ > switches;
+    });
+  }
+
+  /// One bad cycle: the controller is aborted in it, and the other one goes on.
+  void misbehave(Mischief mischief) {
+    step();
+    const int updates = controller("a").updates_;
+    const int switches = robot_.switches_;
+    FaultyController::inUpdate() = mischief;
+    EXPECT_NO_THROW(step());
+    EXPECT_TRUE(controller("faulty").isAborted());
+    EXPECT_EQ(1, controller("faulty").aborts_);
+    EXPECT_EQ(updates + 1, controller("a").updates_);
+    stepUntilTold(switches);
+    EXPECT_EQ("faulty", robot_.prepared_stop_.back());
+    EXPECT_EQ(1, robot_.stopped_);
+    EXPECT_TRUE(controller("a").isRunning());
+  }
+
+  ros::NodeHandle own_;
+};
+
+}  // namespace dummies
