@@ -1,0 +1,111 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <hardware_interface/internal/hardware_resource_manager.h>
+
+#include <cassert>
+#include <stdexcept>
+#include <string>
+
+namespace hardware_interface {
+
+/// Reads the state of one actuator, the motor's side of a transmission. It points at values that
+/// the robot writes in `read()`; copies point at the same values. Units: position [rad] or [m],
+/// velocity [rad/s] or [m/s], effort [Nm] or [N]. The getters of position, velocity and effort are
+/// safe in the control loop.
+class ActuatorStateHandle {
+ public:
+  ActuatorStateHandle() = default;
+
+  /// @throws HardwareInterfaceException when a pointer is null; so do all constructors.
+  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
+                      const double* eff)
+      : name_(name),
+        pos_(require(pos, "Position")),
+        vel_(require(vel, "Velocity")),
+        eff_(require(eff, "Effort")) {}
+
+  /// With an absolute encoder and a torque sensor.
+  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
+                      const double* eff, const double* absolute_pos, const double* torque_sensor)
+      : ActuatorStateHandle(name, pos, vel, eff) {
+    absolute_pos_ = require(absolute_pos, "Absolute");
+    torque_sensor_ = require(torque_sensor, "Torque sensor");
+  }
+
+  /// With an absolute encoder.
+  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
+                      const double* eff, const double* absolute_pos)
+      : ActuatorStateHandle(name, pos, vel, eff) {
+    absolute_pos_ = require(absolute_pos, "Absolute");
+  }
+
+  /// With a torque sensor; the bool only tells this constructor from the one before.
+  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
+                      const double* eff, const double* torque_sensor, bool /*tag*/)
+      : ActuatorStateHandle(name, pos, vel, eff) {
+    torque_sensor_ = require(torque_sensor, "Torque sensor");
+  }
+
+  std::string getName() const { return name_; }
+
+  double getPosition() const {
+    assert(pos_);
+    return *pos_;
+  }
+  double getVelocity() const {
+    assert(vel_);
+    return *vel_;
+  }
+  double getEffort() const {
+    assert(eff_);
+    return *eff_;
+  }
+  /// @throws std::runtime_error for actuators without an absolute encoder.
+  double getAbsolutePosition() const { return *getAbsolutePositionPtr(); }
+  /// @throws std::runtime_error for actuators without a torque sensor.
+  double getTorqueSensor() const { return *getTorqueSensorPtr(); }
+
+  const double* getPositionPtr() const { return pos_; }
+  const double* getVelocityPtr() const { return vel_; }
+  const double* getEffortPtr() const { return eff_; }
+  /// @throws std::runtime_error for actuators without an absolute encoder.
+  const double* getAbsolutePositionPtr() const {
+    if (!hasAbsolutePosition()) {
+      throw std::runtime_error("Actuator does not support absolute encoders");
+    }
+    return absolute_pos_;
+  }
+  /// @throws std::runtime_error for actuators without a torque sensor.
+  const double* getTorqueSensorPtr() const {
+    if (!hasTorqueSensor()) {
+      throw std::runtime_error("Actuator does not support torque sensors");
+    }
+    return torque_sensor_;
+  }
+
+  bool hasAbsolutePosition() const { return absolute_pos_ != nullptr; }
+  bool hasTorqueSensor() const { return torque_sensor_ != nullptr; }
+
+ private:
+  const double* require(const double* data, const char* quantity) const {
+    if (data == nullptr) {
+      throw HardwareInterfaceException("Cannot create handle '" + name_ + "'. " + quantity +
+                                       " data pointer is null.");
+    }
+    return data;
+  }
+
+  std::string name_;
+  const double* pos_{nullptr};
+  const double* vel_{nullptr};
+  const double* eff_{nullptr};
+  const double* absolute_pos_{nullptr};
+  const double* torque_sensor_{nullptr};
+};
+
+/// States of actuators; any number of users may read them.
+class ActuatorStateInterface : public HardwareResourceManager<ActuatorStateHandle> {};
+
+}  // namespace hardware_interface

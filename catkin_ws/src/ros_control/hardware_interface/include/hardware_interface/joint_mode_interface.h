@@ -1,0 +1,83 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <hardware_interface/internal/hardware_resource_manager.h>
+
+#include <cassert>
+#include <string>
+
+namespace hardware_interface {
+
+/// What a joint's drive takes as its command. The values are fixed: drivers exchange them as ints.
+enum class JointCommandModes {
+  BEGIN = -1,
+  MODE_POSITION = 0,
+  MODE_VELOCITY = 1,
+  MODE_EFFORT = 2,
+  NOMODE = 3,
+  EMERGENCY_STOP = 4,
+  SWITCHING = 5,
+  ERROR = 6
+};
+
+/// Reads and asks for the mode of one joint's drive. Setting and getting the mode are safe in the
+/// control loop; the rest allocates.
+class JointModeHandle {
+ public:
+  JointModeHandle() = default;
+
+  /// @throws HardwareInterfaceException when `mode` is null.
+  JointModeHandle(std::string name, JointCommandModes* mode) : name_(name), mode_(mode) {
+    if (mode == nullptr) {
+      throw HardwareInterfaceException("Cannot create mode interface. Mode data pointer is null.");
+    }
+  }
+
+  std::string getName() const { return name_; }
+
+  void setMode(JointCommandModes mode) {
+    assert(mode_);
+    *mode_ = mode;
+  }
+  JointCommandModes getMode() const {
+    assert(mode_);
+    return *mode_;
+  }
+  const JointCommandModes* getModePtr() const {
+    assert(mode_);
+    return mode_;
+  }
+
+  /// A word for a mode, for messages; "unknown" for a value that is none of the enumeration.
+  static std::string getModeName(JointCommandModes mode) {
+    switch (mode) {
+      case JointCommandModes::BEGIN:
+        return "not_operational";
+      case JointCommandModes::MODE_POSITION:
+        return "position";
+      case JointCommandModes::MODE_VELOCITY:
+        return "velocity";
+      case JointCommandModes::MODE_EFFORT:
+        return "effort";
+      case JointCommandModes::NOMODE:
+        return "other";
+      case JointCommandModes::EMERGENCY_STOP:
+        return "emergency_stop";
+      case JointCommandModes::SWITCHING:
+        return "switching";
+      case JointCommandModes::ERROR:
+        return "error";
+    }
+    return "unknown";
+  }
+
+ private:
+  std::string name_;
+  JointCommandModes* mode_{nullptr};
+};
+
+/// Modes of joints; taking a handle claims nothing.
+class JointModeInterface : public HardwareResourceManager<JointModeHandle> {};
+
+}  // namespace hardware_interface
