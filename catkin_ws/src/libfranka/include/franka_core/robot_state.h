@@ -68,6 +68,8 @@ struct RobotState {
   std::array<double, 16> O_T_EE_c{};
   std::array<double, 6> O_dP_EE_c{}, O_ddP_EE_c{};
   std::array<double, 7> theta{}, dtheta{};
+  /// Protocol 10 only: readings of the sensors at the upper and lower side of six joints [m/s^2].
+  std::array<std::array<double, 3>, 6> accelerometer_top{}, accelerometer_bottom{};
   MotionGeneratorMode motion_generator_mode{MotionGeneratorMode::kIdle};
   ControllerMode controller_mode{ControllerMode::kOther};
   std::array<bool, kErrorCount> errors{}, reflex_reason{};

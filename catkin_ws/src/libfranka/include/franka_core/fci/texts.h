@@ -1,0 +1,62 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/fci/commands.h>
+
+#include <string>
+
+/// @file
+/// What the genuine client says to a person about a reply (fci.md 1.11), word for word. Not
+/// real-time safe: strings.
+
+namespace franka_core::fci {
+
+/// "Move", "Set EE to K", ...
+const char* commandName(Command command) noexcept;
+
+/// The mode's name without quotes: "Idle", "User stopped", ...
+const char* modeName(RobotMode mode) noexcept;
+
+/// What a status means to whoever asked.
+enum class Meaning : std::uint8_t {
+  kGood,      ///< success, or a motion has started
+  kRejected,  ///< nothing has happened: CommandException
+  kAborted,   ///< begun and ended early: ControlException in a control loop, else CommandException
+};
+Meaning meaning(Status status) noexcept;
+
+/// The text of the exception for a status that is not good, beginning with "libfranka: ". `mode` is
+/// the robot's mode when the reply came. For good statuses the text of unexpectedResponse.
+std::string statusText(Command command, Status status, RobotMode mode);
+
+/// "libfranka: Unexpected response while handling <name> command!", of a ProtocolException.
+std::string unexpectedResponse(Command command);
+
+/// What a text about a motion's end by reflex begins with when the client had already commanded the
+/// motion finished.
+constexpr const char* kStillMoving = "Motion finished commanded, but the robot is still moving!";
+
+/// Texts of connections.
+constexpr const char* kConnectionRefused =
+    "libfranka: Connection to FCI refused. Please install FCI feature or enable FCI mode in Desk.";
+constexpr const char* kConnectionTimeout =
+    "libfranka: Connection timeout. Please check your network connection or settings.";
+constexpr const char* kServerClosed = "libfranka: server closed connection";
+constexpr const char* kStateTimeout = "libfranka: UDP receive: Timeout";
+constexpr const char* kWrongObjectSize = "libfranka: incorrect object size";
+
+/// Texts of operations that clash.
+constexpr const char* kOtherOperationRunning =
+    "libfranka robot: Cannot perform this operation while another control or read operation is "
+    "running.";
+constexpr const char* kMultipleMotions = "libfranka robot: Attempted to start multiple motions!";
+
+/// Texts of the gripper ("libfranka gripper: ...") and the vacuum gripper ("libfranka vacuum
+/// gripper: ...") are kGripper or kVacuumGripper followed by one of the endings.
+constexpr const char* kGripper = "libfranka gripper: ";
+constexpr const char* kVacuumGripper = "libfranka vacuum gripper: ";
+constexpr const char* kGripperFailed = "Command failed!";
+constexpr const char* kGripperAborted = "Command aborted!";
+
+}  // namespace franka_core::fci
