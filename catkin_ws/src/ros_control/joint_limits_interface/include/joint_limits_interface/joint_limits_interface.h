@@ -1,0 +1,67 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <hardware_interface/internal/resource_manager.h>
+#include <joint_limits_interface/detail/effort_handles.h>
+#include <joint_limits_interface/detail/position_handles.h>
+#include <joint_limits_interface/detail/velocity_handles.h>
+#include <joint_limits_interface/joint_limits.h>
+#include <joint_limits_interface/joint_limits_interface_exception.h>
+#include <ros/duration.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace joint_limits_interface {
+
+/// Limits of many joints. A robot calls enforceLimits between its controllers' update and its
+/// write(): commands are changed in place. Controllers do not see these interfaces.
+/// @tparam HandleType one of the handles of this package
+template <class HandleType>
+class JointLimitsInterface : public hardware_interface::ResourceManager<HandleType> {
+ public:
+  /// A copy of the named handle.
+  /// @throws JointLimitsInterfaceException when there is none of that name.
+  HandleType getHandle(const std::string& name) {
+    try {
+      return hardware_interface::ResourceManager<HandleType>::getHandle(name);
+    } catch (const std::logic_error& error) {
+      throw JointLimitsInterfaceException(error.what());
+    }
+  }
+
+  /// Enforces the limits of all joints, in the order of their names. Safe in the control loop.
+  /// @param period since the commands before [s]
+  void enforceLimits(const ros::Duration& period) {
+    for (auto& resource : this->resource_map_) {
+      resource.second.enforceLimits(period);
+    }
+  }
+};
+
+/// The limits of joints that are commanded in position; they depend on the commands before.
+template <class HandleType>
+class PositionLimitsInterface : public JointLimitsInterface<HandleType> {
+ public:
+  /// Forgets the commands before, of all joints. To be called when controllers are switched. Safe
+  /// in the control loop.
+  void reset() {
+    for (auto& resource : this->resource_map_) {
+      resource.second.reset();
+    }
+  }
+};
+
+class PositionJointSaturationInterface
+    : public PositionLimitsInterface<PositionJointSaturationHandle> {};
+class PositionJointSoftLimitsInterface
+    : public PositionLimitsInterface<PositionJointSoftLimitsHandle> {};
+class EffortJointSaturationInterface : public JointLimitsInterface<EffortJointSaturationHandle> {};
+class EffortJointSoftLimitsInterface : public JointLimitsInterface<EffortJointSoftLimitsHandle> {};
+class VelocityJointSaturationInterface
+    : public JointLimitsInterface<VelocityJointSaturationHandle> {};
+class VelocityJointSoftLimitsInterface
+    : public JointLimitsInterface<VelocityJointSoftLimitsHandle> {};
+
+}  // namespace joint_limits_interface
