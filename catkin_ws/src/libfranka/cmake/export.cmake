@@ -9,6 +9,7 @@ install(TARGETS franka franka_core EXPORT FrankaTargets
         ARCHIVE DESTINATION ${franka_lib_destination}
         RUNTIME DESTINATION ${franka_bin_destination})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/franka ${PROJECT_SOURCE_DIR}/include/franka_core
+                  ${PROJECT_SOURCE_DIR}/include/research_interface
         DESTINATION ${franka_include_destination} FILES_MATCHING PATTERN "*.h")
 install(EXPORT FrankaTargets NAMESPACE Franka:: DESTINATION ${franka_config_destination})
 

@@ -1,0 +1,79 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/control_types.h>
+#include <franka/duration.h>
+#include <franka/robot_state.h>
+
+#include <optional>
+#include <utility>
+
+/// @file
+/// A motion that the program drives itself, one call a millisecond.
+
+namespace franka {
+
+/// A running motion without callbacks: read a state, answer it, and so on.
+///
+///   auto motion = robot.startTorqueControl();
+///   while (!finished) {
+///     auto [state, period] = motion->readOnce();
+///     motion->writeOnce(torques);
+///   }
+///
+/// Commands go out as they are given: nothing is filtered or rate limited. A command whose
+/// `motion_finished` is set ends the motion; destroying the object earlier stops the robot. Until
+/// then the Robot is busy: other motions and reads throw InvalidOperationException. To be used from
+/// one thread at a time; readOnce and writeOnce neither allocate nor lock while the motion runs.
+/// A robot of which no state arrives for a second ends readOnce with a NetworkException.
+class ActiveControlBase {
+ public:
+  virtual ~ActiveControlBase() = default;
+  ActiveControlBase(const ActiveControlBase&) = delete;
+  ActiveControlBase& operator=(const ActiveControlBase&) = delete;
+
+  /// Waits for the next state.
+  /// @returns the state, and the time since the state of the call before [ms]; 0 the first time.
+  /// @throws ControlException if the motion was aborted or has ended.
+  /// @throws NetworkException if the connection is lost.
+  virtual std::pair<RobotState, Duration> readOnce() = 0;
+
+  /// Answers the last state; which form fits depends on how the motion was started, the others
+  /// throw ControlException.
+  /// @param control_input torques [Nm].
+  /// @throws ControlException if the motion was aborted or has ended.
+  /// @throws NetworkException if the connection is lost.
+  /// @throws std::invalid_argument if a value is not finite, a matrix no transformation, or an
+  /// elbow's sign neither +1 nor -1.
+  virtual void writeOnce(const Torques& control_input) = 0;
+  /// @copydoc writeOnce(const Torques&)
+  /// @param motion_generator_input joint positions [rad].
+  virtual void writeOnce(const JointPositions& motion_generator_input,
+                         const std::optional<const Torques>& control_input) = 0;
+  /// @copydoc writeOnce(const Torques&)
+  /// @param motion_generator_input joint velocities [rad/s].
+  virtual void writeOnce(const JointVelocities& motion_generator_input,
+                         const std::optional<const Torques>& control_input) = 0;
+  /// @copydoc writeOnce(const Torques&)
+  /// @param motion_generator_input pose of EE in O.
+  virtual void writeOnce(const CartesianPose& motion_generator_input,
+                         const std::optional<const Torques>& control_input) = 0;
+  /// @copydoc writeOnce(const Torques&)
+  /// @param motion_generator_input twist of EE in O [m/s, rad/s].
+  virtual void writeOnce(const CartesianVelocities& motion_generator_input,
+                         const std::optional<const Torques>& control_input) = 0;
+  /// @copydoc writeOnce(const JointPositions&, const std::optional<const Torques>&)
+  virtual void writeOnce(const JointPositions& motion_generator_input) = 0;
+  /// @copydoc writeOnce(const JointVelocities&, const std::optional<const Torques>&)
+  virtual void writeOnce(const JointVelocities& motion_generator_input) = 0;
+  /// @copydoc writeOnce(const CartesianPose&, const std::optional<const Torques>&)
+  virtual void writeOnce(const CartesianPose& motion_generator_input) = 0;
+  /// @copydoc writeOnce(const CartesianVelocities&, const std::optional<const Torques>&)
+  virtual void writeOnce(const CartesianVelocities& motion_generator_input) = 0;
+
+ protected:
+  ActiveControlBase() = default;
+};
+
+}  // namespace franka

@@ -1,0 +1,35 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// @file
+/// What this library offers beyond the vendor's interface. Programs that stay away from this header
+/// and from Robot::setControlOptions compile against either library.
+///
+/// Besides: an address may name a port, `"192.168.0.1:1337"`, for robots behind a relay and
+/// simulated ones; without it the protocol's own port is used.
+
+namespace franka {
+
+/// Which callback of a motion with torques is called first in a cycle.
+enum class CallbackOrder {
+  kMotionFirst,  ///< libfranka up to 0.17; the default
+  kControlFirst  ///< libfranka from 0.18
+};
+
+/// What the first value of a JointPositions or CartesianPose motion is filtered and limited
+/// against.
+enum class FirstCycleReference {
+  kRobotState,  ///< q_d, O_T_EE_c of the state: libfranka up to 0.14; the default
+  kCommand      ///< the value itself, which thus passes unchanged: libfranka from 0.15
+};
+
+/// Where versions of libfranka differ in what a control loop does. The defaults are those of 0.9.2.
+/// (The third difference, `limit_rate`, true up to 0.9 and false since, is an argument of
+/// Robot::control.)
+struct ControlOptions {
+  CallbackOrder callback_order = CallbackOrder::kMotionFirst;
+  FirstCycleReference first_cycle_reference = FirstCycleReference::kRobotState;
+};
+
+}  // namespace franka
