@@ -29,7 +29,7 @@ struct StateField {
   std::size_t offset;  ///< [bytes] from the datagram's begin
 };
 
-constexpr std::size_t kStateFieldCount = 49;
+constexpr std::size_t kStateFieldCount = 48;
 
 /// The layout of one version: the first `count` of `fields`.
 struct StateLayout {
