@@ -1,0 +1,86 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/fci/decode_error.h>
+#include <franka_core/fci/protocol.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "network/endpoint.h"
+
+namespace franka::network {
+
+using Clock = std::chrono::steady_clock;
+
+/// The TCP connection to a robot or gripper: requests out, replies in.
+///
+/// Replies belong to requests by their id. They are kept until asked for, also when another thread
+/// reads them from the socket; two replies to one request queue up. Replies that nobody waits for
+/// (see expect, forget) are dropped. All functions may be called from any thread and end in bounded
+/// time; only closedByServer is for the 1 kHz loop.
+class CommandChannel {
+ public:
+  /// Finds the first message of the stream: its id and size (see fci::nextMessage).
+  using FindMessage = franka_core::fci::CodecError (*)(franka_core::fci::Bytes stream,
+                                                       std::uint32_t& id, std::size_t& size);
+  using Message = std::vector<std::uint8_t>;
+
+  /// How long one request may take to leave this machine.
+  static constexpr std::chrono::seconds kSendTimeout{5};
+
+  /// Connects. A server that dies or vanishes is noticed within 4 s (TCP keepalive).
+  /// @throws NetworkException if there is no connection by `deadline`.
+  CommandChannel(const Endpoint& endpoint, FindMessage find_message, Clock::time_point deadline);
+  ~CommandChannel();
+  CommandChannel(const CommandChannel&) = delete;
+  CommandChannel& operator=(const CommandChannel&) = delete;
+
+  /// A new request's id, 0 at first; its replies are kept from now on.
+  std::uint32_t expect();
+  /// Drops what came for this id and whatever else may come.
+  void forget(std::uint32_t id);
+  /// Sends one request.
+  /// @throws NetworkException if the connection is lost or takes no bytes for kSendTimeout.
+  void send(franka_core::fci::Bytes request);
+
+  /// The next reply to this request if it is there.
+  /// @throws NetworkException if the server has closed the connection and all replies are read.
+  /// @throws ProtocolException if the stream cannot be read.
+  std::optional<Message> tryReceive(std::uint32_t id);
+  /// Waits for the next reply to this request.
+  /// @param watch called every 10 ms while waiting; may throw to end the wait.
+  /// @returns nothing if none has come by `deadline`. @throws as tryReceive.
+  std::optional<Message> receive(std::uint32_t id, Clock::time_point deadline,
+                                 const std::function<void()>& watch = {});
+
+  /// Whether the server has closed the connection, as far as visible without reading what it sent
+  /// before. One system call; safe in the 1 kHz loop.
+  bool closedByServer() const noexcept;
+
+ private:
+  void readWhatIsThere();
+  void sortStream();
+  std::optional<Message> take(std::uint32_t id);
+
+  Descriptor socket_;
+  FindMessage find_message_;
+
+  std::mutex send_mutex_;
+  std::mutex receive_mutex_;
+  std::atomic<std::uint32_t> next_id_{0};
+  std::map<std::uint32_t, std::vector<Message>> replies_;  // one entry for each expected id
+  std::vector<std::uint8_t> stream_;
+  std::optional<franka_core::fci::CodecError> broken_;
+  bool closed_{false};
+};
+
+}  // namespace franka::network

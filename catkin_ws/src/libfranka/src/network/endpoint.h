@@ -1,0 +1,48 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <netinet/in.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace franka::network {
+
+/// Where a server listens.
+struct Endpoint {
+  std::string host;
+  std::uint16_t port;
+};
+
+/// Takes `host` or `host:port` apart.
+/// @param default_port port where none is named.
+/// @throws NetworkException with a sentence if the host is empty or the port no port.
+Endpoint parseEndpoint(const std::string& address, std::uint16_t default_port);
+
+/// The IPv4 address of an endpoint. May ask the system's name resolver.
+/// @throws NetworkException if there is none.
+sockaddr_in resolve(const Endpoint& endpoint);
+
+/// Owns a file descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) noexcept : fd_(fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  ~Descriptor();
+
+  int get() const noexcept { return fd_; }
+
+ private:
+  int fd_;
+};
+
+/// "libfranka: <what>: <what errno says>".
+std::string systemError(const char* what, int error);
+
+}  // namespace franka::network
