@@ -1,0 +1,8 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "../test_robot.h"
+
+// By the header's ROS 1 name, as users' robots include it.
+#include <pluginlib/class_list_macros.h>
+
+PLUGINLIB_EXPORT_CLASS(combined_robot_hw_test::Robot, hardware_interface::RobotHW)

@@ -1,0 +1,216 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <combined_robot_hw/combined_robot_hw.h>
+#include <gmock/gmock.h>
+#include <rt_guard/rt_guard.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "test_robot.h"
+
+using combined_robot_hw_test::Controllers;
+using combined_robot_hw_test::Robot;
+using hardware_interface::ControllerInfo;
+using hardware_interface::InterfaceResources;
+using testing::ElementsAre;
+using testing::IsEmpty;
+typedef hardware_interface::RobotHW::SwitchState State;
+
+namespace {
+
+const char* const kEffort = "hardware_interface::EffortJointInterface";
+const char* const kPosition = "hardware_interface::PositionJointInterface";
+
+/// Combines robots that a test made.
+class Combined : public combined_robot_hw::CombinedRobotHW {
+ public:
+  using CombinedRobotHW::filterControllerList;
+  Robot& add(const std::vector<std::string>& joints) {
+    const auto robot = std::make_shared<Robot>(joints);
+    robot_hw_list_.push_back(robot);
+    registerInterfaceManager(robot.get());
+    return *robot;
+  }
+  hardware_interface::RobotHWSharedPtr member(std::size_t i) { return robot_hw_list_[i]; }
+};
+
+ControllerInfo controller(const std::string& name,
+                          const std::vector<InterfaceResources>& claims = {}) {
+  ControllerInfo info;
+  info.name = name;
+  info.type = "test/" + name;
+  info.claimed_resources = claims;
+  return info;
+}
+
+ControllerInfo effort(const std::string& name, const std::set<std::string>& joints) {
+  return controller(name, {InterfaceResources(kEffort, joints)});
+}
+
+/// `name(interface: joints; ...)` of all controllers, for short comparisons.
+std::string text(const Controllers& list) {
+  std::string all;
+  for (const ControllerInfo& info : list) {
+    all += info.name + "(";
+    for (const InterfaceResources& claim : info.claimed_resources) {
+      all += claim.hardware_interface == kEffort ? "e:" : "p:";
+      for (const std::string& resource : claim.resources) {
+        all += " " + resource;
+      }
+      all += ";";
+    }
+    all += ")";
+  }
+  return all;
+}
+
+std::string text(const std::pair<Controllers, Controllers>& lists) {
+  return text(lists.first) + "|" + text(lists.second);
+}
+
+class Switching : public testing::Test {
+ protected:
+  Combined combined_;
+  Robot& left_{combined_.add({"l1", "l2"})};
+  Robot& right_{combined_.add({"r1", "r2"})};
+  const Controllers none_;
+};
+
+}  // namespace
+
+TEST_F(Switching, eachMemberHearsWhatConcernsIt) {
+  const Controllers list{
+      effort("both", {"l1", "r1", "nowhere"}),
+      controller("mixed", {{kEffort, {"r2"}}, {kPosition, {"l2"}}, {"other::Interface", {"l1"}}}),
+      controller("nothing"), controller("empty", {{kEffort, {}}}), effort("absent", {"x"})};
+  Controllers filtered{effort("left over", {})};
+  combined_.filterControllerList(list, filtered, combined_.member(0));
+  EXPECT_EQ("both(e: l1;)mixed(p: l2;)nothing()", text(filtered));
+  EXPECT_EQ("test/mixed", std::next(filtered.begin())->type);
+  combined_.filterControllerList(list, filtered, combined_.member(1));
+  EXPECT_EQ("both(e: r1;)mixed(e: r2;)nothing()", text(filtered));
+}
+
+TEST_F(Switching, prepareAndDoReachEveryMember) {
+  const Controllers start{effort("both", {"l1", "r1"})};
+  const Controllers stop{effort("old", {"r2"})};
+  ASSERT_TRUE(combined_.prepareSwitch(start, stop));
+  combined_.doSwitch(start, stop);
+  ASSERT_EQ(1u, left_.prepared.size());
+  EXPECT_EQ("both(e: l1;)|", text(left_.prepared[0]));
+  EXPECT_EQ("both(e: r1;)|old(e: r2;)", text(right_.prepared[0]));
+  EXPECT_EQ(1, left_.switches);
+  EXPECT_EQ("both(e: l1;)", text(*left_.last_start));
+  EXPECT_EQ("", text(*left_.last_stop));
+  EXPECT_EQ("both(e: r1;)", text(*right_.last_start));
+  EXPECT_EQ("old(e: r2;)", text(*right_.last_stop));
+
+  ASSERT_TRUE(combined_.prepareSwitch(none_, none_));
+  combined_.doSwitch(none_, none_);
+  EXPECT_EQ("|", text(left_.prepared[1]));
+  EXPECT_EQ(2, left_.switches) << "also when there is nothing to do";
+  EXPECT_EQ("", text(*right_.last_stop));
+}
+
+TEST_F(Switching, nobodyStaysPreparedWhenOneRefuses) {
+  Robot& third = combined_.add({"t1"});
+  const Controllers start{effort("new", {"l1", "r1", "t1"})};
+  const Controllers stop{effort("old", {"l2"})};
+  right_.agrees = false;
+  EXPECT_FALSE(combined_.prepareSwitch(start, stop));
+  ASSERT_EQ(2u, left_.prepared.size());
+  EXPECT_EQ("new(e: l1;)|old(e: l2;)", text(left_.prepared[0]));
+  EXPECT_EQ("old(e: l2;)|new(e: l1;)", text(left_.prepared[1])) << "the way back";
+  EXPECT_EQ(1u, right_.prepared.size());
+  EXPECT_THAT(third.prepared, IsEmpty()) << "not asked at all";
+}
+
+TEST_F(Switching, aMemberThatThrowsRefuses) {
+  right_.throws = true;
+  EXPECT_FALSE(combined_.prepareSwitch({effort("new", {"l1", "r1"})}, none_));
+  EXPECT_EQ(2u, left_.prepared.size());
+}
+
+TEST_F(Switching, aRefusedSwitchDoesNotDisturbThePlanBefore) {
+  const Controllers start{effort("good", {"l1"})};
+  ASSERT_TRUE(combined_.prepareSwitch(start, none_));
+  right_.agrees = false;
+  EXPECT_FALSE(combined_.prepareSwitch({effort("bad", {"l1", "r1"})}, none_));
+  combined_.doSwitch(start, none_);
+  EXPECT_EQ("good(e: l1;)", text(*left_.last_start));
+}
+
+TEST_F(Switching, aSwitchThatWasNotPreparedIsFilteredAllTheSame) {
+  ASSERT_TRUE(combined_.prepareSwitch({effort("one", {"l1"})}, none_));
+  combined_.doSwitch({effort("other", {"l2", "r2"})}, none_);
+  EXPECT_EQ("other(e: l2;)", text(*left_.last_start));
+  EXPECT_EQ("other(e: r2;)", text(*right_.last_start));
+}
+
+TEST_F(Switching, theWorstResultCounts) {
+  const Controllers start{effort("both", {"l1", "r1"}), effort("left", {"l2"})};
+  ASSERT_TRUE(combined_.prepareSwitch(start, none_));
+  combined_.doSwitch(start, none_);
+  for (const State left : {State::DONE, State::ONGOING, State::ERROR}) {
+    for (const State right : {State::DONE, State::ONGOING, State::ERROR}) {
+      left_.result = left;
+      right_.result = right;
+      const State worst = left == State::ERROR || right == State::ERROR       ? State::ERROR
+                          : left == State::ONGOING || right == State::ONGOING ? State::ONGOING
+                                                                              : State::DONE;
+      EXPECT_EQ(worst, combined_.switchResult());
+      EXPECT_EQ(worst, combined_.switchResult(start.front()));
+      EXPECT_EQ(left, combined_.switchResult(start.back())) << "the right arm is not concerned";
+    }
+  }
+  EXPECT_EQ(1u, right_.asked_claims);
+  left_.result = State::ERROR;
+  EXPECT_EQ(State::DONE, combined_.switchResult(effort("not of this switch", {"l1"})));
+}
+
+TEST_F(Switching, theLoopNeitherAllocatesNorLocks) {
+  const Controllers start{effort("a controller with quite a long name", {"l1", "r1"})};
+  const Controllers stop{effort("another controller with quite a long name", {"l2"})};
+  ASSERT_TRUE(combined_.prepareSwitch(start, stop));
+  const ros::Time time(1.0);
+  const ros::Duration period(0.001);
+  int done = 0;
+  rt_guard::Scope scope;
+  for (int i = 0; i < 100; ++i) {
+    combined_.read(time, period);
+    combined_.doSwitch(start, stop);
+    done += combined_.switchResult() == State::DONE;
+    done += combined_.switchResult(start.front()) == State::DONE;
+    combined_.write(time, period);
+  }
+  EXPECT_EQ(0u, scope.allocations());
+  EXPECT_EQ(0u, scope.locks());
+  EXPECT_EQ(200, done);
+}
+
+TEST_F(Switching, conflictsAreJudgedByTheMemberConcerned) {
+  const Controllers clash{effort("a", {"l1", "r1"}), effort("b", {"l1"})};
+  EXPECT_TRUE(combined_.checkForConflict(clash));
+  EXPECT_EQ("a(e: l1;)b(e: l1;)", text(left_.judged));
+  EXPECT_EQ("a(e: r1;)", text(right_.judged));
+  EXPECT_FALSE(combined_.checkForConflict({effort("a", {"l1"}), effort("b", {"l2", "r1"})}));
+
+  left_.lenient = true;
+  EXPECT_FALSE(combined_.checkForConflict(clash)) << "the left arm allows it";
+  EXPECT_TRUE(combined_.checkForConflict({effort("a", {"r1"}), effort("b", {"r1"})}));
+}
+
+TEST_F(Switching, resourcesOfNoMemberOrOfSeveralKeepTheCommonRule) {
+  left_.lenient = right_.lenient = true;
+  const auto own = [](const std::string& name) {
+    return controller(name, {{"other::Interface", {"lamp"}}});
+  };
+  EXPECT_TRUE(combined_.checkForConflict({own("a"), own("b")}));
+  EXPECT_FALSE(combined_.checkForConflict({own("a")}));
+  Robot& third = combined_.add({"l1"});
+  third.lenient = true;
+  EXPECT_TRUE(combined_.checkForConflict({effort("a", {"l1"}), effort("b", {"l1"})}));
+}
