@@ -1,0 +1,88 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every decoder of the codec under libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer.
+
+A few seconds each; an hour each with FRANKA_TEST_LONG=1 (decision 39). Needs clang-14 and
+libclang-rt-14-dev.
+"""
+
+import os
+import shutil
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+PACKAGE = HERE.parent
+FUZZERS = HERE / "fuzz"
+TARGETS = ["command", "gripper", "reply", "request", "state", "vacuum"]
+SECONDS = 3600 if os.environ.get("FRANKA_TEST_LONG") == "1" else 5
+FLAGS = [
+    "-std=c++17",
+    "-O1",
+    "-g",
+    "-fsanitize=address,undefined",
+    "-fno-sanitize-recover=all",
+    f"-I{PACKAGE / 'include'}",
+]
+
+
+def run(command, **arguments):
+    return subprocess.run(
+        [str(word) for word in command],
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        **arguments,
+    )
+
+
+def compile_object(compiler, source, build):
+    result = build / (source.stem + ".o")
+    done = run([compiler, *FLAGS, "-fsanitize=fuzzer-no-link", "-c", source, "-o", result], timeout=300)
+    assert done.returncode == 0, done.stdout
+    return result
+
+
+@pytest.fixture(scope="module")
+def codec(tmp_path_factory):
+    """The codec's objects and the compiler, built once for all targets."""
+    compiler = shutil.which("clang++-14") or shutil.which("clang++")
+    assert compiler, "No clang++-14: install the Debian packages clang-14 and libclang-rt-14-dev."
+    build = tmp_path_factory.mktemp("fuzz")
+    sources = [*sorted((PACKAGE / "src" / "fci").glob("*.cpp")), PACKAGE / "src" / "core" / "payload.cpp"]
+    with ThreadPoolExecutor(2) as pool:
+        objects = list(pool.map(lambda source: compile_object(compiler, source, build), sources))
+    return compiler, objects, build
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_decoder(codec, target):
+    compiler, objects, build = codec
+    program = build / f"{target}_fuzzer"
+    source = FUZZERS / f"{target}_fuzzer.cpp"
+    built = run([compiler, *FLAGS, "-fsanitize=fuzzer", source, *objects, "-o", program], timeout=300)
+    assert built.returncode == 0, built.stdout
+    corpus = build / f"{target}_corpus"
+    shutil.copytree(FUZZERS / "corpus" / target, corpus)
+    fuzzed = run(
+        [
+            program,
+            f"-max_total_time={SECONDS}",
+            "-timeout=10",
+            "-max_len=4096",
+            f"-artifact_prefix={build}/",
+            corpus,
+        ],
+        timeout=SECONDS + 120,
+    )
+    assert fuzzed.returncode == 0, fuzzed.stdout[-6000:]
+    inputs = sum(1 for _ in (FUZZERS / "corpus" / target).iterdir())
+    assert "DONE" in fuzzed.stdout and inputs > 0, fuzzed.stdout[-2000:]
+
+
+def test_every_fuzzer_is_a_target():
+    assert sorted(path.name for path in FUZZERS.glob("*_fuzzer.cpp")) == [f"{t}_fuzzer.cpp" for t in TARGETS]
+    assert sorted(path.name for path in (FUZZERS / "corpus").iterdir()) == TARGETS
