@@ -36,10 +36,13 @@ class ActiveControl : public ActiveControlBase {
 
  protected:
   /// The motion on the robot: shares the connection, so that it outlives the Robot.
-  struct Motion;
+  class Motion;
   explicit ActiveControl(std::unique_ptr<Motion> motion);
 
   std::unique_ptr<Motion> motion_;
+
+ private:
+  friend class Robot;
 };
 
 }  // namespace franka

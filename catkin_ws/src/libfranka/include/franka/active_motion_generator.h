@@ -4,6 +4,9 @@
 
 #include <franka/active_control.h>
 
+#include <memory>
+#include <utility>
+
 /// @file
 /// Motion generators driven by the program.
 
@@ -24,7 +27,8 @@ class ActiveMotionGenerator : public ActiveControl {
 
  private:
   friend class Robot;
-  using ActiveControl::ActiveControl;
+  explicit ActiveMotionGenerator(std::unique_ptr<Motion> motion)
+      : ActiveControl(std::move(motion)) {}
 };
 
 extern template class ActiveMotionGenerator<JointPositions>;

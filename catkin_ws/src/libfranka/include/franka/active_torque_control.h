@@ -4,6 +4,9 @@
 
 #include <franka/active_control.h>
 
+#include <memory>
+#include <utility>
+
 /// @file
 /// Torque control driven by the program.
 
@@ -17,7 +20,7 @@ class ActiveTorqueControl : public ActiveControl {
 
  private:
   friend class Robot;
-  using ActiveControl::ActiveControl;
+  explicit ActiveTorqueControl(std::unique_ptr<Motion> motion) : ActiveControl(std::move(motion)) {}
 };
 
 }  // namespace franka

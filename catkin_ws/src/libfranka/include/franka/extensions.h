@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+
 /// @file
 /// What this library offers beyond the vendor's interface. Programs that stay away from this header
 /// and from Robot::setControlOptions compile against either library.
@@ -31,5 +33,26 @@ struct ControlOptions {
   CallbackOrder callback_order = CallbackOrder::kMotionFirst;
   FirstCycleReference first_cycle_reference = FirstCycleReference::kRobotState;
 };
+
+/// How long a Robot waits before it gives up with a NetworkException. Each must be positive.
+struct Timeouts {
+  /// To connect: all attempts together, and again for the first state and the description.
+  std::chrono::milliseconds connect{5000};
+  /// For the next state, while one is waited for.
+  std::chrono::milliseconds state{1000};
+  /// For the answer to a command.
+  std::chrono::milliseconds command{10000};
+  /// For the answer to a command that may take the robot long: recovery, stop, the end of a motion,
+  /// the download of a model. States must go on arriving meanwhile, at the latest every
+  /// `silence`.
+  std::chrono::milliseconds long_command{60000};
+  /// Without a state for so long a robot counts as gone while the answer to a command is awaited.
+  std::chrono::milliseconds silence{5000};
+};
+
+/// The timeouts of the Robots constructed from now on in this process. Any thread.
+void setTimeouts(const Timeouts& timeouts);
+/// What setTimeouts set, or the defaults. Any thread.
+Timeouts timeouts();
 
 }  // namespace franka

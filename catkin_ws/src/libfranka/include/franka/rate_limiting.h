@@ -44,7 +44,7 @@ constexpr std::array<double, 7> withMargin(const std::array<double, 7>& velociti
   }
   return result;
 }
-constexpr const franka_core::ArmLimits& kFer = franka_core::kFerLimits;
+inline constexpr const franka_core::ArmLimits& kFer = franka_core::kFerLimits;
 }  // namespace rate_limiting_detail
 
 /// Torque rate [Nm/s].

@@ -44,10 +44,11 @@ class Model;
 /// thread that calls control or start...Control is given the highest priority of SCHED_FIFO and,
 /// with RealtimeConfig::kEnforce, memory is locked as far as allowed.
 ///
-/// **Time.** No call waits for ever. Connecting takes at most 10 s. A running connection is given
-/// up with a NetworkException when no state arrives for 1 s, and a command when its answer does not
-/// come within 10 s; 60 s for automaticErrorRecovery, stop, the end of a motion and the download of
-/// a model, which may take the robot long.
+/// **Time.** No call waits for ever. Unless franka/extensions.h sets other bounds: connecting takes
+/// at most 5 s; a motion or read is given up with a NetworkException when no state arrives for 1 s,
+/// a command when its answer does not come within 10 s, or, where it may take the robot long
+/// (automaticErrorRecovery, stop, the end of a motion, the download of a model), within 60 s or
+/// with no state arriving for 5 s.
 ///
 /// Every member function may throw NetworkException when the connection is lost, and
 /// ProtocolException when the robot answers what the protocol does not allow.

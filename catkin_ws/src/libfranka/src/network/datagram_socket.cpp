@@ -10,16 +10,17 @@
 
 namespace franka::network {
 
-DatagramSocket::DatagramSocket() : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+DatagramSocket::DatagramSocket(std::chrono::milliseconds timeout)
+    : timeout_(timeout), socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_ANY);
   socklen_t size = sizeof(address);
-  const timeval timeout{kTimeout.count(), 0};
+  const timeval wait{timeout.count() / 1000, timeout.count() % 1000 * 1000};
   if (socket_.get() < 0 ||
       bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
       getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
-      setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout)) != 0) {
+      setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof(wait)) != 0) {
     throw NetworkException(systemError("No UDP socket", errno));
   }
   port_ = ntohs(address.sin_port);
@@ -39,7 +40,7 @@ DatagramSocket::Received DatagramSocket::receiveFromRobot(std::uint8_t* buffer,
                                                           std::size_t capacity,
                                                           int flags) noexcept {
   // A signal, or a stranger's datagram, does not end the wait, but does not prolong it for ever.
-  const auto deadline = std::chrono::steady_clock::now() + kTimeout;
+  const auto deadline = std::chrono::steady_clock::now() + timeout_;
   do {
     socklen_t address_size = sizeof(last_sender_);
     const ssize_t size = recvfrom(socket_.get(), buffer, capacity, flags | MSG_TRUNC,

@@ -19,9 +19,6 @@ namespace franka::network {
 /// the 1 kHz loop.
 class DatagramSocket {
  public:
-  /// How long receive waits for a datagram (fci.md 1.8).
-  static constexpr std::chrono::seconds kTimeout{1};
-
   /// One datagram, or none.
   struct Received {
     bool any;          ///< false: nothing there, or nothing came in time
@@ -29,14 +26,15 @@ class DatagramSocket {
   };
 
   /// Listens on all addresses of this machine, on a port the system chooses.
+  /// @param timeout how long receive waits for a datagram; a second in the genuine client.
   /// @throws NetworkException if there is no such socket.
-  DatagramSocket();
+  explicit DatagramSocket(std::chrono::milliseconds timeout = std::chrono::seconds(1));
 
   std::uint16_t port() const noexcept { return port_; }
 
   /// The oldest datagram that waits, without waiting for one.
   Received tryReceive(std::uint8_t* buffer, std::size_t capacity) noexcept;
-  /// The same, waiting up to kTimeout.
+  /// The same, waiting up to the timeout.
   Received receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
   /// Says that the datagram received last came from the robot.
   void accept() noexcept;
@@ -47,6 +45,7 @@ class DatagramSocket {
  private:
   Received receiveFromRobot(std::uint8_t* buffer, std::size_t capacity, int flags) noexcept;
 
+  std::chrono::milliseconds timeout_;
   Descriptor socket_;
   std::uint16_t port_{0};
   sockaddr_in last_sender_{};

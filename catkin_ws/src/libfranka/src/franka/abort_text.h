@@ -1,0 +1,22 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/robot_state.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "franka/motion_log.h"
+
+namespace franka {
+
+/// What a person reads about a motion that ended by reflex: the genuine client's text word for word
+/// (fci.md 1.11), then, on lines of their own, what the log tells about the cause.
+/// @param text what happened. @param state the newest one, whose reflex_reason says why.
+/// @param log the last states and commands, oldest first. @param version the robot's protocol.
+std::string reflexText(const std::string& text, const franka_core::RobotState& state,
+                       const std::vector<MotionLog::Entry>& log, std::uint16_t version);
+
+}  // namespace franka

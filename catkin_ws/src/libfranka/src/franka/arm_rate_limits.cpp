@@ -1,0 +1,156 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "franka/arm_rate_limits.h"
+
+#include <franka/rate_limiting.h>
+#include <franka_core/fci/protocol.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+
+namespace franka {
+
+namespace {
+
+using Joints = ArmRateLimits::Joints;
+
+// An FR3 tolerates no lost packets on top (kTolNumberPacketsLost of its client is 0).
+constexpr double withoutPackets(double velocity) { return velocity - kLimitEps; }
+
+franka_core::DerivativeLimits withMargin(const franka_core::DerivativeLimits& limits) {
+  return {withoutPackets(limits.velocity), limits.acceleration - kLimitEps,
+          limits.jerk - kLimitEps};
+}
+
+ArmRateLimits pandaLimits() {
+  return {kMaxTorqueRate,
+          kMaxJointAcceleration,
+          kMaxJointJerk,
+          kMaxJointVelocity,
+          std::nullopt,
+          0.0,
+          {kMaxTranslationalVelocity, kMaxTranslationalAcceleration, kMaxTranslationalJerk},
+          {kMaxRotationalVelocity, kMaxRotationalAcceleration, kMaxRotationalJerk},
+          {kMaxElbowVelocity, kMaxElbowAcceleration, kMaxElbowJerk}};
+}
+
+ArmRateLimits fr3Limits() {
+  const franka_core::ArmLimits& arm = franka_core::kFr3Limits;
+  return {rate_limiting_detail::withMargin(arm.dtau),
+          rate_limiting_detail::withMargin(arm.ddq),
+          rate_limiting_detail::withMargin(arm.dddq),
+          Joints{},
+          franka_core::kFr3PositionVelocityLimits,
+          kLimitEps,
+          withMargin(arm.translation),
+          withMargin(arm.rotation),
+          withMargin(arm.elbow)};
+}
+
+// The limiter of franka/rate_limiting.h with two different ends.
+double limitVelocity(double lowest, double highest, double max_acceleration, double max_jerk,
+                     double velocity, double last_velocity, double last_acceleration) {
+  const double jerk = ((velocity - last_velocity) / kDeltaT - last_acceleration) / kDeltaT;
+  const double acceleration = last_acceleration + std::clamp(jerk, -max_jerk, max_jerk) * kDeltaT;
+  const double stiffness = max_jerk / max_acceleration;
+  const double up = std::min(stiffness * (highest - last_velocity), max_acceleration);
+  const double down = std::max(stiffness * (lowest - last_velocity), -max_acceleration);
+  return last_velocity + std::max(std::min(acceleration, up), down) * kDeltaT;
+}
+
+const tinyxml2::XMLElement* findJoint(const tinyxml2::XMLElement& robot, const std::string& name) {
+  const tinyxml2::XMLElement* similar = nullptr;
+  for (const auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    const char* text = joint->Attribute("name");
+    const std::string its_name = text != nullptr ? text : "";
+    if (its_name == name) {
+      return joint;
+    }
+    if (similar == nullptr && its_name.find(name) != std::string::npos) {
+      similar = joint;
+    }
+  }
+  return similar;
+}
+
+bool readAttribute(const tinyxml2::XMLElement* element, const char* name, double& value) {
+  return element != nullptr && element->QueryDoubleAttribute(name, &value) == tinyxml2::XML_SUCCESS;
+}
+
+}  // namespace
+
+Joints ArmRateLimits::upperJointVelocity(const Joints& q) const noexcept {
+  Joints limits = joint_velocity;
+  for (std::size_t i = 0; position_velocity && i < 7; i++) {
+    limits[i] = franka_core::upperVelocityLimit(*position_velocity, i, q[i]) - velocity_margin;
+  }
+  return limits;
+}
+
+Joints ArmRateLimits::lowerJointVelocity(const Joints& q) const noexcept {
+  Joints limits{};
+  for (std::size_t i = 0; i < 7; i++) {
+    limits[i] = position_velocity
+                    ? franka_core::lowerVelocityLimit(*position_velocity, i, q[i]) + velocity_margin
+                    : -joint_velocity[i];
+  }
+  return limits;
+}
+
+Joints ArmRateLimits::limitVelocities(const Joints& q, const Joints& velocities,
+                                      const Joints& last_velocities,
+                                      const Joints& last_accelerations) const noexcept {
+  const Joints lowest = lowerJointVelocity(q);
+  const Joints highest = upperJointVelocity(q);
+  Joints limited{};
+  for (std::size_t i = 0; i < 7; i++) {
+    limited[i] = limitVelocity(lowest[i], highest[i], joint_acceleration[i], joint_jerk[i],
+                               velocities[i], last_velocities[i], last_accelerations[i]);
+  }
+  return limited;
+}
+
+Joints ArmRateLimits::limitPositions(const Joints& positions, const Joints& last_positions,
+                                     const Joints& last_velocities,
+                                     const Joints& last_accelerations) const noexcept {
+  Joints velocities{};
+  for (std::size_t i = 0; i < 7; i++) {
+    velocities[i] = (positions[i] - last_positions[i]) / kDeltaT;
+  }
+  Joints limited = limitVelocities(last_positions, velocities, last_velocities, last_accelerations);
+  for (std::size_t i = 0; i < 7; i++) {
+    limited[i] = last_positions[i] + limited[i] * kDeltaT;
+  }
+  return limited;
+}
+
+ArmRateLimits rateLimitsOfProtocol(std::uint16_t version) {
+  return franka_core::fci::isPandaVersion(version) ? pandaLimits() : fr3Limits();
+}
+
+std::optional<franka_core::PositionVelocityLimits> velocityLimitsFromUrdf(const std::string& urdf) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) {
+    return std::nullopt;
+  }
+  const tinyxml2::XMLElement* robot = document.FirstChildElement("robot");
+  franka_core::PositionVelocityLimits limits{};
+  for (std::size_t i = 0; robot != nullptr && i < 7; i++) {
+    const auto* joint = findJoint(*robot, "joint" + std::to_string(i + 1));
+    const auto* limit = joint != nullptr ? joint->FirstChildElement("limit") : nullptr;
+    const auto* by_position =
+        joint != nullptr ? joint->FirstChildElement("position_based_velocity_limits") : nullptr;
+    if (!readAttribute(limit, "lower", limits.q_min[i]) ||
+        !readAttribute(limit, "upper", limits.q_max[i]) ||
+        !readAttribute(limit, "velocity", limits.velocity[i]) ||
+        !readAttribute(by_position, "velocity_offset", limits.offset[i]) ||
+        !readAttribute(by_position, "deceleration_limit", limits.deceleration[i])) {
+      return std::nullopt;
+    }
+    limits.deceleration[i] *= 2.0;  // the table holds the factor under the root
+  }
+  return robot != nullptr ? std::make_optional(limits) : std::nullopt;
+}
+
+}  // namespace franka

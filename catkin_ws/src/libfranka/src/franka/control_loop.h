@@ -1,0 +1,58 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/control_types.h>
+#include <franka/duration.h>
+#include <franka/robot_state.h>
+
+#include <functional>
+
+#include "franka/robot_impl.h"
+
+namespace franka {
+
+/// A callback that returns one kind of command.
+template <typename Value>
+using Callback = std::function<Value(const RobotState&, Duration)>;
+
+/// What the user chose for one motion.
+struct LoopSettings {
+  bool limit_rate;
+  double cutoff_frequency;  ///< [Hz]
+};
+
+/// Runs a motion that torques alone move, until a callback ends it.
+/// @throws as Robot::control.
+void runTorqueLoop(Robot::Impl& robot, const Callback<Torques>& control_callback,
+                   const LoopSettings& settings);
+
+/// Runs a motion of one of the four motion generators.
+/// @param controller the robot's controller, or kExternalController.
+/// @param control_callback for the external controller; null otherwise.
+template <typename Value>
+void runMotionLoop(Robot::Impl& robot, franka_core::ControllerMode controller,
+                   const Callback<Value>& motion_callback,
+                   const Callback<Torques>* control_callback, const LoopSettings& settings);
+
+/// The motion generator that a kind of command drives.
+template <typename Value>
+constexpr franka_core::MotionGeneratorMode kGeneratorOf = franka_core::MotionGeneratorMode::kNone;
+template <>
+constexpr auto kGeneratorOf<JointPositions> = franka_core::MotionGeneratorMode::kJointPosition;
+template <>
+constexpr auto kGeneratorOf<JointVelocities> = franka_core::MotionGeneratorMode::kJointVelocity;
+template <>
+constexpr auto kGeneratorOf<CartesianPose> = franka_core::MotionGeneratorMode::kCartesianPosition;
+template <>
+constexpr auto kGeneratorOf<CartesianVelocities> =
+    franka_core::MotionGeneratorMode::kCartesianVelocity;
+
+/// The motion that carries torques alone. Before version 10 there is none without a motion
+/// generator: joint velocities that stay zero stand in.
+constexpr franka_core::MotionGeneratorMode torqueGeneratorOf(std::uint16_t version) noexcept {
+  return version >= 10 ? franka_core::MotionGeneratorMode::kNone
+                       : franka_core::MotionGeneratorMode::kJointVelocity;
+}
+
+}  // namespace franka

@@ -1,0 +1,348 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "franka/robot_impl.h"
+
+#include <franka_core/fci/command_codec.h>
+#include <franka_core/fci/reply_codec.h>
+#include <franka_core/fci/texts.h>
+#include <franka_core/to_franka.h>
+
+#include <mutex>
+#include <thread>
+
+namespace franka {
+
+namespace {
+
+namespace fci = franka_core::fci;
+using franka_core::MotionGeneratorMode;
+
+// More datagrams than this in one go are left for the next look; nobody sends so many in earnest.
+constexpr int kDatagramsAtOnce = 4096;
+
+fci::CodecError findMessage(fci::Bytes stream, std::uint32_t& id, std::size_t& size) {
+  fci::Header header;
+  const fci::CodecError error = fci::nextMessage(stream, fci::kMaxReplySize, header);
+  id = header.command_id;
+  size = header.size;
+  return error;
+}
+
+std::string inSeconds(std::chrono::milliseconds time) {
+  std::string text = std::to_string(std::chrono::duration<double>(time).count());
+  text.erase(text.find_last_not_of('0') + 1);
+  return text + (text.back() == '.' ? "0 s" : " s");
+}
+
+std::mutex timeouts_mutex;
+Timeouts process_timeouts;
+
+}  // namespace
+
+void setTimeouts(const Timeouts& timeouts) {
+  for (auto time : {timeouts.connect, timeouts.state, timeouts.command, timeouts.long_command,
+                    timeouts.silence}) {
+    if (time <= std::chrono::milliseconds(0)) {
+      throw std::invalid_argument("libfranka: A timeout must be positive.");
+    }
+  }
+  const std::lock_guard<std::mutex> lock(timeouts_mutex);
+  process_timeouts = timeouts;
+}
+
+Timeouts timeouts() {
+  const std::lock_guard<std::mutex> lock(timeouts_mutex);
+  return process_timeouts;
+}
+
+Robot::Impl::Operation::Operation(Impl& robot) : robot_(robot) {
+  if (robot_.busy_.test_and_set(std::memory_order_acquire)) {
+    throw InvalidOperationException(fci::kOtherOperationRunning);
+  }
+  // A thread that waits for a reply may be looking for states just now; it never does so for long.
+  while (robot_.states_in_use_.test_and_set(std::memory_order_acquire)) {
+    std::this_thread::yield();
+  }
+}
+
+Robot::Impl::Operation::~Operation() {
+  robot_.states_in_use_.clear(std::memory_order_release);
+  robot_.busy_.clear(std::memory_order_release);
+}
+
+Robot::Impl::Impl(const std::string& address, RealtimeConfig realtime_config, std::size_t log_size)
+    : realtime_config_(realtime_config),
+      log_size_(log_size),
+      timeouts_(timeouts()),
+      datagrams_(timeouts_.state) {
+  connect(address);
+  limits_ = rateLimitsOfProtocol(version_);
+  {
+    const Operation operation(*this);
+    receiveState();
+  }
+  if (version_ >= 10) {
+    readLimits();
+  }
+}
+
+void Robot::Impl::connect(const std::string& address) {
+  const network::Endpoint endpoint = network::parseEndpoint(address, fci::kRobotPort);
+  const Clock::time_point deadline = Clock::now() + timeouts_.connect;
+  const std::optional<std::uint16_t> wanted = offer(endpoint, fci::kNewestRobotVersion, deadline);
+  if (!wanted) {
+    return;
+  }
+  // A robot takes only its own version (fci.md 1.8), and says which that is.
+  if (!fci::isRobotVersion(*wanted) || *wanted == fci::kNewestRobotVersion ||
+      offer(endpoint, *wanted, deadline)) {
+    throw IncompatibleVersionException(*wanted, fci::kNewestRobotVersion);
+  }
+}
+
+std::optional<std::uint16_t> Robot::Impl::offer(const network::Endpoint& endpoint,
+                                                std::uint16_t version, Clock::time_point deadline) {
+  channel_.reset();
+  channel_ = std::make_unique<network::CommandChannel>(endpoint, findMessage, deadline);
+  version_ = version;
+  const std::uint32_t id = send(fci::ConnectRequest{version, datagrams_.port()});
+  const auto message = channel_->receive(id, deadline);
+  channel_->forget(id);
+  if (!message) {
+    throw NetworkException(std::string(fci::kConnectionTimeout) + " " + endpoint.host +
+                           " accepted the connection but "
+                           "did not answer within " +
+                           inSeconds(timeouts_.connect) +
+                           ". Please check that no other program is connected to the robot.");
+  }
+  fci::Bytes model;
+  const Reply reply = decode(Command::kConnect, *message, model);
+  if (reply.status != fci::Status::kSuccess) {
+    return reply.server_version;
+  }
+  // The robot knows best what it will send.
+  if (fci::isRobotVersion(reply.server_version)) {
+    version_ = reply.server_version;
+  }
+  return std::nullopt;
+}
+
+void Robot::Impl::readLimits() {
+  try {
+    const std::vector<std::uint8_t> urdf = download(fci::GetRobotModelRequest{}, timeouts_.connect);
+    const auto limits = velocityLimitsFromUrdf(std::string(urdf.begin(), urdf.end()));
+    // A description without limits leaves those of the FR3's published table, the stricter ones.
+    if (limits) {
+      limits_.position_velocity = limits;
+    }
+  } catch (const CommandException&) {
+    // So does a robot that gives none.
+  }
+}
+
+namespace {
+
+// Replies to a request are kept only as long as somebody waits for them.
+struct Forget {
+  Robot::Impl& robot;
+  std::uint32_t id;
+  ~Forget() { robot.forget(id); }
+};
+
+}  // namespace
+
+Robot::Impl::Reply Robot::Impl::execute(const Request& request) {
+  const Command command = fci::commandOf(request);
+  const bool takes_long =
+      command == Command::kAutomaticErrorRecovery || command == Command::kStopMove;
+  const std::uint32_t id = send(request);
+  const Forget forget_at_end{*this, id};
+  const Reply reply =
+      receive(command, id, takes_long ? timeouts_.long_command : timeouts_.command, false);
+  if (reply.status != fci::Status::kSuccess) {
+    throw CommandException(fci::statusText(command, reply.status, mode()));
+  }
+  return reply;
+}
+
+std::vector<std::uint8_t> Robot::Impl::download(const Request& request,
+                                                std::chrono::milliseconds bound) {
+  const Command command = fci::commandOf(request);
+  const std::uint32_t id = send(request);
+  const Forget forget_at_end{*this, id};
+  const auto message = receiveMessage(command, id, bound, false);
+  fci::Bytes model;
+  const Reply reply = decode(command, message, model);
+  if (reply.status == fci::Status::kError) {
+    throw ModelException("libfranka: The robot cannot give its model library.");
+  }
+  if (reply.status != fci::Status::kSuccess) {
+    throw CommandException(fci::statusText(command, reply.status, mode()));
+  }
+  return {model.data, model.data + model.size};
+}
+
+std::uint32_t Robot::Impl::send(const Request& request) {
+  const Command command = fci::commandOf(request);
+  const std::uint32_t id = channel_->expect();
+  fci::RequestMessage message;
+  const fci::CodecError error = fci::encodeRequest(version_, id, request, message);
+  if (error != fci::CodecError::kNone) {
+    channel_->forget(id);
+    throw CommandException(std::string("libfranka: ") + fci::commandName(command) +
+                           " command rejected: this robot speaks protocol version " +
+                           std::to_string(version_) + ", which has no such command or mode.");
+  }
+  channel_->send(message.bytes());
+  return id;
+}
+
+std::optional<Robot::Impl::Reply> Robot::Impl::tryReceive(Command command, std::uint32_t id) {
+  const auto message = channel_->tryReceive(id);
+  fci::Bytes model;
+  return message ? std::make_optional(decode(command, *message, model)) : std::nullopt;
+}
+
+Robot::Impl::Reply Robot::Impl::receive(Command command, std::uint32_t id,
+                                        std::chrono::milliseconds bound, bool owns_states) {
+  fci::Bytes model;
+  return decode(command, receiveMessage(command, id, bound, owns_states), model);
+}
+
+std::vector<std::uint8_t> Robot::Impl::receiveMessage(Command command, std::uint32_t id,
+                                                      std::chrono::milliseconds bound,
+                                                      bool owns_states) {
+  Clock::time_point last_state = Clock::now();
+  const auto watch = [&] {
+    const bool news = owns_states ? takeStates() : takeStatesUnlessInUse();
+    const Clock::time_point now = Clock::now();
+    if (news) {
+      last_state = now;
+    }
+    if (now - last_state > timeouts_.silence) {
+      throw NetworkException(std::string(fci::kStateTimeout) + ". No state has arrived for " +
+                             inSeconds(timeouts_.silence) + " while the answer to " +
+                             fci::commandName(command) + " was awaited.");
+    }
+  };
+  auto message = channel_->receive(id, Clock::now() + bound, watch);
+  if (!message) {
+    throw NetworkException(std::string(fci::kConnectionTimeout) +
+                           " The robot has not answered the command " + fci::commandName(command) +
+                           " within " + inSeconds(bound) + ".");
+  }
+  return std::move(*message);
+}
+
+Robot::Impl::Reply Robot::Impl::decode(Command command, const std::vector<std::uint8_t>& message,
+                                       fci::Bytes& model) const {
+  fci::Header header;
+  Reply reply;
+  const fci::CodecError error =
+      fci::decodeReply(version_, command, {message.data(), message.size()}, header, reply, model);
+  if (error != fci::CodecError::kNone) {
+    throw ProtocolException(fci::unexpectedResponse(command) + " " +
+                            fci::sentence(error,
+                                          "reply to " + std::string(fci::commandName(command)) +
+                                              " of protocol version " + std::to_string(version_),
+                                          message.size(), fci::replySize(version_, command)));
+  }
+  return reply;
+}
+
+void Robot::Impl::read(const std::function<bool(const RobotState&)>& callback) {
+  const Operation operation(*this);
+  RobotState state;
+  do {
+    franka_core::toFranka(receiveState(), state);
+  } while (callback(state));
+}
+
+RobotState Robot::Impl::readOnce() {
+  const Operation operation(*this);
+  takeStates();
+  RobotState state;
+  franka_core::toFranka(receiveState(), state);
+  return state;
+}
+
+const franka_core::RobotState& Robot::Impl::receiveState() {
+  if (channel_->closedByServer()) {
+    throw NetworkException(fci::kServerClosed);
+  }
+  const Clock::time_point deadline = Clock::now() + timeouts_.state;
+  bool news = takeStates();
+  while (!news) {
+    const Datagram datagram = datagrams_.receive(buffer_.data(), buffer_.size());
+    news = datagram.any && accept(datagram);
+    // What came right behind it is newer still.
+    news = takeStates() || news;
+    if (!news && (!datagram.any || Clock::now() >= deadline)) {
+      throw NetworkException(channel_->closedByServer() ? fci::kServerClosed : fci::kStateTimeout);
+    }
+  }
+  return state();
+}
+
+bool Robot::Impl::takeStates() {
+  bool news = false;
+  for (int i = 0; i < kDatagramsAtOnce; i++) {
+    const Datagram datagram = datagrams_.tryReceive(buffer_.data(), buffer_.size());
+    if (!datagram.any) {
+      break;
+    }
+    news = accept(datagram) || news;
+  }
+  return news;
+}
+
+bool Robot::Impl::takeStatesUnlessInUse() {
+  if (states_in_use_.test_and_set(std::memory_order_acquire)) {
+    return true;  // who uses them has a timeout of its own
+  }
+  struct Release {
+    std::atomic_flag& flag;
+    ~Release() { flag.clear(std::memory_order_release); }
+  } release{states_in_use_};
+  return takeStates();
+}
+
+bool Robot::Impl::accept(const Datagram& datagram) {
+  franka_core::RobotState& next = states_[1 - newest_];
+  const fci::CodecError error =
+      datagram.size > buffer_.size()
+          ? fci::CodecError::kWrongSize
+          : fci::decodeState(version_, {buffer_.data(), datagram.size}, next);
+  if (error != fci::CodecError::kNone) {
+    throw ProtocolException(
+        (error == fci::CodecError::kWrongSize ? std::string(fci::kWrongObjectSize) + ". "
+                                              : std::string("libfranka: ")) +
+        fci::sentence(error, "robot state of protocol version " + std::to_string(version_),
+                      datagram.size, fci::stateSize(version_)));
+  }
+  datagrams_.accept();
+  if (next.message_id <= state().message_id) {
+    return false;
+  }
+  newest_ = 1 - newest_;
+  mode_.store(next.robot_mode, std::memory_order_relaxed);
+  return true;
+}
+
+void Robot::Impl::sendCommand(franka_core::RobotCommand& command) {
+  command.message_id = state().message_id;
+  fci::CommandBuffer buffer;
+  fci::encodeCommand(version_, command, buffer);
+  const int error = datagrams_.answer({buffer.data(), fci::commandSize(version_)});
+  if (error != 0) {
+    throw NetworkException(network::systemError("UDP send", error));
+  }
+}
+
+bool Robot::Impl::isMoving() const noexcept {
+  return (state().motion_generator_mode != MotionGeneratorMode::kIdle &&
+          state().motion_generator_mode != MotionGeneratorMode::kNone) ||
+         state().controller_mode == franka_core::ControllerMode::kExternalController;
+}
+
+}  // namespace franka

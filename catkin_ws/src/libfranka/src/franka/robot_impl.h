@@ -1,0 +1,140 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/exception.h>
+#include <franka/robot.h>
+#include <franka_core/fci/commands.h>
+#include <franka_core/fci/state_codec.h>
+#include <franka_core/robot_state.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "franka/arm_rate_limits.h"
+#include "network/command_channel.h"
+#include "network/datagram_socket.h"
+
+namespace franka {
+
+/// The connection itself: requests and replies over TCP, states and commands over UDP, in whatever
+/// version the robot speaks.
+///
+/// Two kinds of functions: those about requests may be called from any thread; those about states
+/// only by who holds an Operation. The latter neither allocate nor lock.
+class Robot::Impl {
+ public:
+  using Clock = network::Clock;
+  using Request = franka_core::fci::Request;
+  using Command = franka_core::fci::Command;
+  using Reply = franka_core::fci::Reply;
+
+  Impl(const std::string& address, RealtimeConfig realtime_config, std::size_t log_size);
+
+  std::uint16_t version() const noexcept { return version_; }
+  RealtimeConfig realtimeConfig() const noexcept { return realtime_config_; }
+  std::size_t logSize() const noexcept { return log_size_; }
+  const ArmRateLimits& limits() const noexcept { return limits_; }
+  const Timeouts& bounds() const noexcept { return timeouts_; }
+  std::atomic<ControlOptions>& options() noexcept { return options_; }
+
+  /// The exclusive right to receive states: one motion or read at a time.
+  class Operation {
+   public:
+    /// @throws InvalidOperationException if another one lives.
+    explicit Operation(Impl& robot);
+    ~Operation();
+    Operation(const Operation&) = delete;
+    Operation& operator=(const Operation&) = delete;
+
+   private:
+    Impl& robot_;
+  };
+
+  /// As Robot::read and Robot::readOnce.
+  void read(const std::function<bool(const RobotState&)>& callback);
+  RobotState readOnce();
+
+  /// @name Requests
+  /// @{
+
+  /// Sends a request and waits for its reply.
+  /// @throws CommandException unless the robot agrees, or if it knows no such command.
+  Reply execute(const Request& request);
+  /// A request whose reply carries a model. @throws CommandException likewise; for
+  /// LoadModelLibrary ModelException.
+  std::vector<std::uint8_t> download(const Request& request) {
+    return download(request, timeouts_.long_command);
+  }
+
+  /// Sends a request; its replies are kept until forget. @throws CommandException if this version
+  /// of the protocol has no such request.
+  std::uint32_t send(const Request& request);
+  void forget(std::uint32_t id) { channel_->forget(id); }
+  /// The next reply if it is there.
+  std::optional<Reply> tryReceive(Command command, std::uint32_t id);
+  /// Waits for the next reply. @param owns_states whether the caller holds an Operation.
+  /// @throws NetworkException after `bound`, or Timeouts::silence without a state.
+  Reply receive(Command command, std::uint32_t id, std::chrono::milliseconds bound,
+                bool owns_states);
+  /// The newest mode known.
+  franka_core::RobotMode mode() const noexcept { return mode_.load(std::memory_order_relaxed); }
+  /// @}
+
+  /// @name States: for the holder of an Operation
+  /// @{
+
+  /// The newest state.
+  const franka_core::RobotState& state() const noexcept { return states_[newest_]; }
+  /// Waits for a newer state. Older and repeated ones are dropped.
+  /// @throws NetworkException after Timeouts::state, or if the connection is closed.
+  /// @throws ProtocolException for a datagram that is no state.
+  const franka_core::RobotState& receiveState();
+  /// Takes in what has arrived, without waiting. @returns whether there was a newer state.
+  bool takeStates();
+  /// Sends a command in answer to the newest state. @throws NetworkException if it cannot be sent.
+  void sendCommand(franka_core::RobotCommand& command);
+
+  /// Whether the newest state shows a motion generator or the external controller at work.
+  bool isMoving() const noexcept;
+  /// @}
+
+ private:
+  using Datagram = network::DatagramSocket::Received;
+
+  void connect(const std::string& address);
+  /// Offers a version. @returns the version the robot wants instead, or nothing if it agrees.
+  std::optional<std::uint16_t> offer(const network::Endpoint& endpoint, std::uint16_t version,
+                                     Clock::time_point deadline);
+  void readLimits();
+  std::vector<std::uint8_t> download(const Request& request, std::chrono::milliseconds bound);
+  std::vector<std::uint8_t> receiveMessage(Command command, std::uint32_t id,
+                                           std::chrono::milliseconds bound, bool owns_states);
+  Reply decode(Command command, const std::vector<std::uint8_t>& message,
+               franka_core::fci::Bytes& model) const;
+  bool takeStatesUnlessInUse();
+  bool accept(const Datagram& datagram);
+
+  const RealtimeConfig realtime_config_;
+  const std::size_t log_size_;
+  const Timeouts timeouts_;
+  std::atomic<ControlOptions> options_{ControlOptions{}};
+
+  std::uint16_t version_{franka_core::fci::kNewestRobotVersion};
+  ArmRateLimits limits_;
+  std::unique_ptr<network::CommandChannel> channel_;
+
+  std::atomic_flag busy_ = ATOMIC_FLAG_INIT;           // an Operation lives
+  std::atomic_flag states_in_use_ = ATOMIC_FLAG_INIT;  // guards what follows
+  network::DatagramSocket datagrams_;
+  franka_core::fci::StateBuffer buffer_{};
+  std::array<franka_core::RobotState, 2> states_;  // the newest, and room for the next
+  std::size_t newest_{0};
+  std::atomic<franka_core::RobotMode> mode_{franka_core::RobotMode::kOther};
+};
+
+}  // namespace franka

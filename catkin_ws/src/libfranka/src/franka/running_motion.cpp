@@ -1,0 +1,165 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "franka/running_motion.h"
+
+#include <franka_core/fci/texts.h>
+
+#include "franka/abort_text.h"
+
+namespace franka {
+
+namespace {
+
+namespace fci = franka_core::fci;
+
+}  // namespace
+
+RunningMotion::RunningMotion(Robot::Impl& robot, const fci::MoveRequest& request)
+    : robot_(robot), request_(request), log_(robot.logSize()) {
+  robot_.takeStates();
+  if (robot_.isMoving()) {
+    throw ControlException(fci::kMultipleMotions);
+  }
+  id_ = robot_.send(request_);
+  try {
+    start();
+  } catch (const NetworkException&) {
+    // The robot may be moving by now, unheard.
+    connection_lost_ = true;
+    cancel();
+    robot_.forget(id_);
+    throw;
+  } catch (...) {
+    robot_.forget(id_);
+    throw;
+  }
+}
+
+RunningMotion::~RunningMotion() { robot_.forget(id_); }
+
+void RunningMotion::start() {
+  const Reply reply =
+      robot_.receive(fci::Command::kMove, id_, robot_.bounds().command, /*owns_states=*/true);
+  if (fci::meaning(reply.status) != fci::Meaning::kGood) {
+    throw CommandException(fci::statusText(fci::Command::kMove, reply.status, robot_.mode()));
+  }
+  awaitStart();
+}
+
+void RunningMotion::awaitStart() {
+  const auto deadline = Robot::Impl::Clock::now() + robot_.bounds().command;
+  while (!isShown()) {
+    const std::optional<Reply> reply = robot_.tryReceive(fci::Command::kMove, id_);
+    if (reply && reply->status == fci::Status::kSuccess) {
+      early_end_ = reply;
+      return;
+    }
+    if (reply && reply->status != fci::Status::kMotionStarted) {
+      throwEnd(*reply, nullptr);
+    }
+    if (Robot::Impl::Clock::now() > deadline) {
+      throw NetworkException(std::string(fci::kConnectionTimeout) +
+                             " The robot has accepted the motion, but its states do not show it.");
+    }
+    receiveState();
+  }
+}
+
+bool RunningMotion::isShown() const noexcept {
+  return robot_.state().motion_generator_mode == request_.motion_generator_mode &&
+         robot_.state().controller_mode == request_.controller_mode;
+}
+
+void RunningMotion::send(const franka_core::RobotCommand& command) {
+  sent_ = command;
+  robot_.sendCommand(sent_);
+}
+
+void RunningMotion::receiveState() {
+  try {
+    robot_.receiveState();
+  } catch (const NetworkException&) {
+    connection_lost_ = true;
+    throw;
+  }
+  log_.add(robot_.state(), sent_);
+}
+
+const franka_core::RobotState& RunningMotion::receive() {
+  receiveState();
+  if (robot_.state().robot_mode != franka_core::RobotMode::kMove || !isShown()) {
+    const Reply reply = lastReply();
+    if (reply.status == fci::Status::kSuccess) {
+      throw ProtocolException(fci::unexpectedResponse(fci::Command::kMove) +
+                              " The robot ended the motion unasked, and calls that a success.");
+    }
+    throwEnd(reply, nullptr);
+  }
+  return robot_.state();
+}
+
+void RunningMotion::finish(franka_core::RobotCommand command) {
+  (isTorqueOnly() ? command.torque_command_finished : command.motion_generation_finished) = true;
+  const auto deadline = Robot::Impl::Clock::now() + robot_.bounds().long_command;
+  do {
+    send(command);
+    receiveState();
+    if (Robot::Impl::Clock::now() > deadline) {
+      throw NetworkException(std::string(fci::kConnectionTimeout) +
+                             " The robot does not end the motion, although its end is commanded.");
+    }
+  } while (robot_.isMoving());
+  const Reply reply = lastReply();
+  if (reply.status != fci::Status::kSuccess) {
+    throwEnd(reply, fci::kStillMoving);
+  }
+}
+
+RunningMotion::Reply RunningMotion::lastReply() {
+  if (early_end_) {
+    return *early_end_;
+  }
+  const auto bound = robot_.bounds().long_command;
+  Reply reply = robot_.receive(fci::Command::kMove, id_, bound, /*owns_states=*/true);
+  if (reply.status == fci::Status::kMotionStarted) {
+    // The first reply, repeated, says nothing new.
+    reply = robot_.receive(fci::Command::kMove, id_, bound, /*owns_states=*/true);
+  }
+  if (reply.status == fci::Status::kMotionStarted) {
+    throw ProtocolException(fci::unexpectedResponse(fci::Command::kMove));
+  }
+  return reply;
+}
+
+void RunningMotion::throwEnd(const Reply& reply, const char* reflex_text) {
+  const std::vector<MotionLog::Entry> entries = log_.entries();
+  std::string text = fci::statusText(fci::Command::kMove, reply.status, robot_.mode());
+  if (reply.status == fci::Status::kReflexAborted) {
+    text = reflexText(reflex_text != nullptr ? reflex_text : text, robot_.state(), entries,
+                      robot_.version());
+  }
+  throw ControlException(text, toRecords(entries));
+}
+
+void RunningMotion::cancel() noexcept {
+  std::optional<std::uint32_t> id;
+  try {
+    id = robot_.send(fci::StopMoveRequest{});
+    if (!connection_lost_) {
+      const auto bound = robot_.bounds().long_command;
+      const auto deadline = Robot::Impl::Clock::now() + bound;
+      const Reply reply = robot_.receive(fci::Command::kStopMove, *id, bound, /*owns_states=*/true);
+      while (reply.status == fci::Status::kSuccess && robot_.isMoving() &&
+             Robot::Impl::Clock::now() < deadline) {
+        robot_.receiveState();
+      }
+    }
+  } catch (...) {
+    // What made us stop the robot is told; that it does not answer any more follows from it.
+  }
+  if (id) {
+    robot_.forget(*id);
+  }
+}
+
+}  // namespace franka
