@@ -70,6 +70,8 @@ TEST(InterfaceManager, resourcesAreThoseOfTheMomentOfRegistration) {
   manager.registerInterface(registered.get());
   registered->registerHandle(Tag("later", 1));
   EXPECT_THAT(manager.getInterfaceResources(kTags), ElementsAre("a", "b"));
+  manager.registerInterface(registered.get());
+  EXPECT_THAT(manager.getInterfaceResources(kTags), ElementsAre("a", "b", "later"));
 }
 
 TEST(InterfaceManager, findsInterfacesOfChildrenAndGrandchildren) {

@@ -141,8 +141,3 @@ TEST(TransmissionParser, anEmptyNameOrNoInterfaceVoidsOnlyThatPart) {
   ASSERT_EQ(1u, infos[0].actuators_.size());
   EXPECT_EQ("m1", infos[0].actuators_[0].name_);
 }
-
-int main(int argc, char** argv) {
-  testing::InitGoogleMock(&argc, argv);
-  return RUN_ALL_TESTS();
-}

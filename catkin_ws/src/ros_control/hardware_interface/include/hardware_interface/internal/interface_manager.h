@@ -35,12 +35,14 @@ class InterfaceManager {
  public:
   virtual ~InterfaceManager() = default;
 
-  /// Makes an interface known under its type. One of the same type is replaced, with a warning.
-  /// getInterfaceResources will list the handles it has at this moment.
+  /// Makes an interface known under its type. Another one of the same type is replaced, with a
+  /// warning. getInterfaceResources will list the handles it has at this moment; registering the
+  /// same interface again brings that list up to date.
   template <class T>
   void registerInterface(T* iface) {
     const std::string type = internal::demangledTypeName<T>();
-    if (interfaces_.find(type) != interfaces_.end()) {
+    const auto known = interfaces_.find(type);
+    if (known != interfaces_.end() && known->second != iface) {
       ROS_WARN_STREAM("Replacing previously registered interface '" << type << "'.");
     }
     interfaces_[type] = iface;

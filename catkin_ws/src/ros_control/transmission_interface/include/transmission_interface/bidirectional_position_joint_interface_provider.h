@@ -1,0 +1,14 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <transmission_interface/detail/joint_command_interface_provider.h>
+
+namespace transmission_interface {
+
+/// Provides what PositionJointInterfaceProvider does, and maps for the opposite direction: states
+/// from joints to actuators, position commands from actuators to joints.
+class BiDirectionalPositionJointInterfaceProvider
+    : public internal::BiDirectionalInterfaceProvider<internal::PositionCommand> {};
+
+}  // namespace transmission_interface

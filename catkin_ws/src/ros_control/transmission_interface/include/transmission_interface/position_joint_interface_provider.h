@@ -1,0 +1,14 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <transmission_interface/detail/joint_command_interface_provider.h>
+
+namespace transmission_interface {
+
+/// Provides PositionJointInterface and JointStateInterface: position commands of joints are mapped
+/// to the actuators, the states of actuators to the joints.
+class PositionJointInterfaceProvider
+    : public internal::JointCommandInterfaceProvider<internal::PositionCommand> {};
+
+}  // namespace transmission_interface

@@ -1,0 +1,129 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/joint_state_interface.h>
+#include <hardware_interface/robot_hw.h>
+#include <transmission_interface/robot_transmissions.h>
+#include <transmission_interface/transmission.h>
+#include <transmission_interface/transmission_info.h>
+#include <transmission_interface/transmission_interface.h>
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace transmission_interface {
+
+/// The values of one joint; not a number until something writes them. Units: [rad] or [m], [rad/s]
+/// or [m/s], [Nm] or [N].
+struct RawJointData {
+  double position{std::numeric_limits<double>::quiet_NaN()};
+  double velocity{std::numeric_limits<double>::quiet_NaN()};
+  double effort{std::numeric_limits<double>::quiet_NaN()};
+  double position_cmd{std::numeric_limits<double>::quiet_NaN()};
+  double velocity_cmd{std::numeric_limits<double>::quiet_NaN()};
+  double effort_cmd{std::numeric_limits<double>::quiet_NaN()};
+  double absolute_position{std::numeric_limits<double>::quiet_NaN()};
+  double torque_sensor{std::numeric_limits<double>::quiet_NaN()};
+  bool hasAbsolutePosition{false};
+  bool hasTorqueSensor{false};
+};
+
+typedef std::map<std::string, RawJointData> RawJointDataMap;
+
+/// Interfaces of joints, for robots that have none of that type yet.
+struct JointInterfaces {
+  hardware_interface::JointStateInterface joint_state_interface;
+  hardware_interface::PositionJointInterface position_joint_interface;
+  hardware_interface::VelocityJointInterface velocity_joint_interface;
+  hardware_interface::EffortJointInterface effort_joint_interface;
+};
+
+/// From the actuators' states to the joints, from the joints' commands to the actuators.
+struct ForwardTransmissionInterfaces {
+  ActuatorToJointStateInterface act_to_jnt_state;
+  JointToActuatorPositionInterface jnt_to_act_pos_cmd;
+  JointToActuatorVelocityInterface jnt_to_act_vel_cmd;
+  JointToActuatorEffortInterface jnt_to_act_eff_cmd;
+};
+
+/// The opposite, as simulations need it that move joints and not actuators.
+struct InverseTransmissionInterfaces {
+  JointToActuatorStateInterface jnt_to_act_state;
+  ActuatorToJointPositionInterface act_to_jnt_pos_cmd;
+  ActuatorToJointVelocityInterface act_to_jnt_vel_cmd;
+  ActuatorToJointEffortInterface act_to_jnt_eff_cmd;
+};
+
+/// All that a TransmissionInterfaceLoader makes. Addresses stay the same while it grows.
+struct TransmissionLoaderData {
+  hardware_interface::RobotHW* robot_hw{nullptr};
+  RobotTransmissions* robot_transmissions{nullptr};
+  JointInterfaces joint_interfaces;
+  RawJointDataMap raw_joint_data_map;
+  ForwardTransmissionInterfaces forward_transmission_interfaces;
+  InverseTransmissionInterfaces inverse_transmission_interfaces;
+  std::vector<TransmissionSharedPtr> transmission_data;
+};
+
+/// Base of the plugins that provide one interface of the joints: the joints' handles, and the maps
+/// between these and the actuators. A provider keeps no state; it runs at start-up, and logs what
+/// it cannot do.
+class RequisiteProvider {
+ public:
+  virtual ~RequisiteProvider() = default;
+
+  /// Registers handles for the joints of a transmission with the robot.
+  /// @param[in,out] raw_joint_data_map gets the values that the handles point at
+  /// @returns false, with a sentence, if that fails.
+  virtual bool updateJointInterfaces(const TransmissionInfo& transmission_info,
+                                     hardware_interface::RobotHW* robot_hw,
+                                     JointInterfaces& joint_interfaces,
+                                     RawJointDataMap& raw_joint_data_map) = 0;
+
+  /// Registers the maps of a transmission. After updateJointInterfaces.
+  /// @returns false, with a sentence, if that fails.
+  bool loadTransmissionMaps(const TransmissionInfo& transmission_info,
+                            TransmissionLoaderData& loader_data,
+                            TransmissionSharedPtr transmission);
+
+  /// Whether the robot has all the actuators that the provider would need; if not, a sentence.
+  /// Changes nothing.
+  bool findsActuators(const TransmissionInfo& transmission_info,
+                      hardware_interface::RobotHW* robot_hw);
+
+ protected:
+  /// What a handle on a transmission is made of.
+  struct TransmissionHandleData {
+    std::string name;
+    ActuatorData act_state_data;
+    ActuatorData act_cmd_data;
+    JointData jnt_state_data;
+    JointData jnt_cmd_data;
+    TransmissionSharedPtr transmission;
+  };
+
+  virtual bool getJointStateData(const TransmissionInfo& transmission_info,
+                                 const RawJointDataMap& raw_joint_data_map,
+                                 JointData& jnt_state_data) = 0;
+  virtual bool getJointCommandData(const TransmissionInfo& transmission_info,
+                                   const RawJointDataMap& raw_joint_data_map,
+                                   JointData& jnt_cmd_data) = 0;
+  virtual bool getActuatorStateData(const TransmissionInfo& transmission_info,
+                                    hardware_interface::RobotHW* robot_hw,
+                                    ActuatorData& act_state_data) = 0;
+  virtual bool getActuatorCommandData(const TransmissionInfo& transmission_info,
+                                      hardware_interface::RobotHW* robot_hw,
+                                      ActuatorData& act_cmd_data) = 0;
+  /// @throws TransmissionInterfaceException for data that do not fit the transmission.
+  virtual bool registerTransmission(TransmissionLoaderData& loader_data,
+                                    TransmissionHandleData& handle_data) = 0;
+};
+
+typedef std::shared_ptr<RequisiteProvider> RequisiteProviderPtr;
+
+}  // namespace transmission_interface

@@ -1,0 +1,66 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace transmission_interface {
+
+/// Where the values of a transmission's actuators are. Each vector has one pointer for each
+/// actuator or is empty. Units: [rad] or [m], [rad/s] or [m/s], [Nm] or [N].
+struct ActuatorData {
+  std::vector<double*> position;
+  std::vector<double*> velocity;
+  std::vector<double*> effort;
+  std::vector<double*> absolute_position;
+  std::vector<double*> torque_sensor;
+};
+
+/// Where the values of a transmission's joints are, one pointer for each joint. Units as above.
+struct JointData {
+  std::vector<double*> position;
+  std::vector<double*> velocity;
+  std::vector<double*> effort;
+  std::vector<double*> absolute_position;
+  std::vector<double*> torque_sensor;
+};
+
+/// The mechanics between actuators and joints: maps each kind of value from one side to the other.
+/// A map reads and writes only the vectors of its kind, which must have the transmission's size and
+/// hold no null pointer (asserted). All maps are safe in the control loop, and const in effect.
+class Transmission {
+ public:
+  virtual ~Transmission() = default;
+
+  virtual void actuatorToJointEffort(const ActuatorData& act_data, JointData& jnt_data) = 0;
+  virtual void actuatorToJointVelocity(const ActuatorData& act_data, JointData& jnt_data) = 0;
+  virtual void actuatorToJointPosition(const ActuatorData& act_data, JointData& jnt_data) = 0;
+
+  /// @throws std::runtime_error unless hasActuatorToJointAbsolutePosition
+  virtual void actuatorToJointAbsolutePosition(const ActuatorData& /*act_data*/,
+                                               JointData& /*jnt_data*/) {
+    throw std::runtime_error("transmission does not support actuator to joint absolute position");
+  }
+  /// @throws std::runtime_error unless hasActuatorToJointTorqueSensor
+  virtual void actuatorToJointTorqueSensor(const ActuatorData& /*act_data*/,
+                                           JointData& /*jnt_data*/) {
+    throw std::runtime_error("transmission does not support actuator to joint torque sensor");
+  }
+
+  virtual void jointToActuatorEffort(const JointData& jnt_data, ActuatorData& act_data) = 0;
+  virtual void jointToActuatorVelocity(const JointData& jnt_data, ActuatorData& act_data) = 0;
+  virtual void jointToActuatorPosition(const JointData& jnt_data, ActuatorData& act_data) = 0;
+
+  virtual std::size_t numActuators() const = 0;
+  virtual std::size_t numJoints() const = 0;
+
+  virtual bool hasActuatorToJointAbsolutePosition() const { return false; }
+  virtual bool hasActuatorToJointTorqueSensor() const { return false; }
+};
+
+typedef std::shared_ptr<Transmission> TransmissionSharedPtr;
+
+}  // namespace transmission_interface

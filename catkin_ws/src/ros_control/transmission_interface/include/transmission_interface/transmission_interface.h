@@ -1,0 +1,180 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <hardware_interface/internal/resource_manager.h>
+#include <transmission_interface/detail/transmission_handle.h>
+#include <transmission_interface/transmission.h>
+#include <transmission_interface/transmission_interface_exception.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace transmission_interface {
+
+/// Maps positions, velocities and efforts of actuators to the joints; absolute positions and torque
+/// sensors as well where there are data and the transmission can.
+class ActuatorToJointStateHandle : public TransmissionHandle {
+ public:
+  /// @throws TransmissionInterfaceException when data are missing or do not fit; so do all handles.
+  ActuatorToJointStateHandle(const std::string& name, Transmission* transmission,
+                             const ActuatorData& actuator_data, const JointData& joint_data)
+      : TransmissionHandle(name, transmission, actuator_data, joint_data) {
+    require(actuator_data.position, joint_data.position, "positions");
+    require(actuator_data.velocity, joint_data.velocity, "velocities");
+    require(actuator_data.effort, joint_data.effort, "efforts");
+    maps_absolute_position_ = transmission->hasActuatorToJointAbsolutePosition() &&
+                              !actuator_data.absolute_position.empty() &&
+                              !joint_data.absolute_position.empty();
+    maps_torque_sensor_ = transmission->hasActuatorToJointTorqueSensor() &&
+                          !actuator_data.torque_sensor.empty() && !joint_data.torque_sensor.empty();
+  }
+
+  void propagate() {
+    transmission_->actuatorToJointPosition(actuator_data_, joint_data_);
+    transmission_->actuatorToJointVelocity(actuator_data_, joint_data_);
+    transmission_->actuatorToJointEffort(actuator_data_, joint_data_);
+    if (maps_absolute_position_) {
+      transmission_->actuatorToJointAbsolutePosition(actuator_data_, joint_data_);
+    }
+    if (maps_torque_sensor_) {
+      transmission_->actuatorToJointTorqueSensor(actuator_data_, joint_data_);
+    }
+  }
+
+ private:
+  bool maps_absolute_position_{false};
+  bool maps_torque_sensor_{false};
+};
+
+/// Maps positions, velocities and efforts of joints to the actuators.
+class JointToActuatorStateHandle : public TransmissionHandle {
+ public:
+  JointToActuatorStateHandle(const std::string& name, Transmission* transmission,
+                             const ActuatorData& actuator_data, const JointData& joint_data)
+      : TransmissionHandle(name, transmission, actuator_data, joint_data) {
+    require(actuator_data.position, joint_data.position, "positions");
+    require(actuator_data.velocity, joint_data.velocity, "velocities");
+    require(actuator_data.effort, joint_data.effort, "efforts");
+  }
+
+  void propagate() {
+    transmission_->jointToActuatorPosition(joint_data_, actuator_data_);
+    transmission_->jointToActuatorVelocity(joint_data_, actuator_data_);
+    transmission_->jointToActuatorEffort(joint_data_, actuator_data_);
+  }
+};
+
+/// Maps positions of actuators to the joints.
+class ActuatorToJointPositionHandle : public TransmissionHandle {
+ public:
+  ActuatorToJointPositionHandle(const std::string& name, Transmission* transmission,
+                                const ActuatorData& actuator_data, const JointData& joint_data)
+      : TransmissionHandle(name, transmission, actuator_data, joint_data) {
+    require(actuator_data.position, joint_data.position, "positions");
+  }
+
+  void propagate() { transmission_->actuatorToJointPosition(actuator_data_, joint_data_); }
+};
+
+/// Maps velocities of actuators to the joints.
+class ActuatorToJointVelocityHandle : public TransmissionHandle {
+ public:
+  ActuatorToJointVelocityHandle(const std::string& name, Transmission* transmission,
+                                const ActuatorData& actuator_data, const JointData& joint_data)
+      : TransmissionHandle(name, transmission, actuator_data, joint_data) {
+    require(actuator_data.velocity, joint_data.velocity, "velocities");
+  }
+
+  void propagate() { transmission_->actuatorToJointVelocity(actuator_data_, joint_data_); }
+};
+
+/// Maps efforts of actuators to the joints.
+class ActuatorToJointEffortHandle : public TransmissionHandle {
+ public:
+  ActuatorToJointEffortHandle(const std::string& name, Transmission* transmission,
+                              const ActuatorData& actuator_data, const JointData& joint_data)
+      : TransmissionHandle(name, transmission, actuator_data, joint_data) {
+    require(actuator_data.effort, joint_data.effort, "efforts");
+  }
+
+  void propagate() { transmission_->actuatorToJointEffort(actuator_data_, joint_data_); }
+};
+
+/// Maps positions of joints to the actuators.
+class JointToActuatorPositionHandle : public TransmissionHandle {
+ public:
+  JointToActuatorPositionHandle(const std::string& name, Transmission* transmission,
+                                const ActuatorData& actuator_data, const JointData& joint_data)
+      : TransmissionHandle(name, transmission, actuator_data, joint_data) {
+    require(actuator_data.position, joint_data.position, "positions");
+  }
+
+  void propagate() { transmission_->jointToActuatorPosition(joint_data_, actuator_data_); }
+};
+
+/// Maps velocities of joints to the actuators.
+class JointToActuatorVelocityHandle : public TransmissionHandle {
+ public:
+  JointToActuatorVelocityHandle(const std::string& name, Transmission* transmission,
+                                const ActuatorData& actuator_data, const JointData& joint_data)
+      : TransmissionHandle(name, transmission, actuator_data, joint_data) {
+    require(actuator_data.velocity, joint_data.velocity, "velocities");
+  }
+
+  void propagate() { transmission_->jointToActuatorVelocity(joint_data_, actuator_data_); }
+};
+
+/// Maps efforts of joints to the actuators.
+class JointToActuatorEffortHandle : public TransmissionHandle {
+ public:
+  JointToActuatorEffortHandle(const std::string& name, Transmission* transmission,
+                              const ActuatorData& actuator_data, const JointData& joint_data)
+      : TransmissionHandle(name, transmission, actuator_data, joint_data) {
+    require(actuator_data.effort, joint_data.effort, "efforts");
+  }
+
+  void propagate() { transmission_->jointToActuatorEffort(joint_data_, actuator_data_); }
+};
+
+/// Handles of one kind, those of a robot's transmissions. Filled at start-up; not thread-safe.
+/// @tparam HandleType one of the handles above
+template <class HandleType>
+class TransmissionInterface : public hardware_interface::ResourceManager<HandleType> {
+ public:
+  typedef HandleType ResourceHandleType;
+
+  /// A copy of the named handle.
+  /// @throws TransmissionInterfaceException when there is none of that name.
+  HandleType getHandle(const std::string& name) {
+    try {
+      return hardware_interface::ResourceManager<HandleType>::getHandle(name);
+    } catch (const std::logic_error& error) {
+      throw TransmissionInterfaceException(error.what());
+    }
+  }
+
+  /// Lets all handles map, in the order of their names. Safe in the control loop.
+  void propagate() {
+    for (auto& resource : this->resource_map_) {
+      resource.second.propagate();
+    }
+  }
+};
+
+// A robot propagates the states of its actuators to the joints after it has read them, and the
+// commands of its joints to the actuators before it writes them; a simulation does the opposite.
+class ActuatorToJointStateInterface : public TransmissionInterface<ActuatorToJointStateHandle> {};
+class ActuatorToJointPositionInterface
+    : public TransmissionInterface<ActuatorToJointPositionHandle> {};
+class ActuatorToJointVelocityInterface
+    : public TransmissionInterface<ActuatorToJointVelocityHandle> {};
+class ActuatorToJointEffortInterface : public TransmissionInterface<ActuatorToJointEffortHandle> {};
+class JointToActuatorStateInterface : public TransmissionInterface<JointToActuatorStateHandle> {};
+class JointToActuatorPositionInterface
+    : public TransmissionInterface<JointToActuatorPositionHandle> {};
+class JointToActuatorVelocityInterface
+    : public TransmissionInterface<JointToActuatorVelocityHandle> {};
+class JointToActuatorEffortInterface : public TransmissionInterface<JointToActuatorEffortHandle> {};
+
+}  // namespace transmission_interface
