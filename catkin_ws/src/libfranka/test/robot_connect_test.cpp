@@ -1,0 +1,248 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Connecting: versions, addresses, and robots that do not answer.
+#include <franka_core/limits.h>
+#include <franka_core/robot_versions.h>
+
+#include <cmath>
+
+#include "network/endpoint.h"
+#include "robot_fixture.h"
+
+namespace franka_test {
+namespace {
+
+using franka::NetworkException;
+using franka::Robot;
+
+using Connect = EveryVersion;
+
+TEST_P(Connect, StepsDownToTheRobotsVersion) {
+  const auto robot = connect(fake);
+  EXPECT_EQ(GetParam(), robot->serverVersion());
+  // The newest version is offered first; what the robot names second.
+  const auto requests = fake.requests();
+  const auto& first = std::get<franka_core::fci::ConnectRequest>(requests[0]);
+  EXPECT_EQ(10, first.version);
+  EXPECT_EQ(GetParam() == 10 ? 1 : 2, fake.connections());
+  EXPECT_EQ(GetParam() == 10 ? 1 : 0, fake.count(Command::kGetRobotModel));
+}
+
+TEST_P(Connect, ReadsStatesAsTheRobotHasThem) {
+  fake.change([](franka_core::RobotState& s) {
+    s.q = {0.5, -0.25, 1.5, -2.0, 0.125, 2.5, -0.75};
+    s.m_ee = 0.75;
+    s.m_load = 0.25;
+    s.F_x_Cee = {0.0, 0.0, 0.5};
+    s.F_x_Cload = {0.0, 0.5, 0.0};
+    s.robot_mode = franka_core::RobotMode::kGuiding;
+    s.errors[3] = true;
+  });
+  const auto robot = connect(fake);
+  const franka::RobotState state = robot->readOnce();
+  EXPECT_EQ((std::array<double, 7>{0.5, -0.25, 1.5, -2.0, 0.125, 2.5, -0.75}), state.q);
+  EXPECT_EQ(1.0, state.m_total);
+  EXPECT_EQ((std::array<double, 3>{0.0, 0.125, 0.375}), state.F_x_Ctotal);
+  EXPECT_EQ(franka::RobotMode::kGuiding, state.robot_mode);
+  EXPECT_TRUE(state.current_errors.joint_velocity_violation);
+  EXPECT_FALSE(state.last_motion_errors);
+  uint64_t last = state.time.toMSec();
+  int count = 0;
+  robot->read([&](const franka::RobotState& s) {
+    EXPECT_GT(s.time.toMSec(), last);
+    last = s.time.toMSec();
+    return ++count < 20;
+  });
+  EXPECT_EQ(20, count);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Connect, ::testing::ValuesIn(kVersions), versionName);
+
+TEST(ConnectVersion, OutsideOfTheTableIsRefusedInWords) {
+  for (std::uint16_t version : {std::uint16_t{2}, std::uint16_t{11}}) {
+    FakeRobot fake(5);
+    fake.script([version](FakeRobot::Script& s) { s.reported_version = version; });
+    try {
+      connect(fake);
+      FAIL() << "no exception";
+    } catch (const franka::IncompatibleVersionException& error) {
+      EXPECT_EQ(version, error.server_version);
+      EXPECT_EQ(10, error.library_version);
+      const std::string text = error.what();
+      EXPECT_NE(std::string::npos, text.find("(server version: " + std::to_string(version) +
+                                             ", library version: 10)"));
+      EXPECT_NE(std::string::npos, text.find(version == 2 ? "older" : "newer")) << text;
+      EXPECT_NE(std::string::npos, text.find("system")) << text;
+    }
+    EXPECT_EQ(1, fake.connections());
+  }
+}
+
+TEST(ConnectVersion, ARobotThatRefusesItsOwnVersionIsNotAskedForEver) {
+  FakeRobot fake(7);
+  fake.script([](FakeRobot::Script& s) {
+    s.replies[Command::kConnect] = Status::kIncompatibleLibraryVersion;
+  });
+  const std::string text = textOf<franka::IncompatibleVersionException>([&] { connect(fake); });
+  EXPECT_NE(std::string::npos, text.find("FR3 with system 5.5.0")) << text;
+  EXPECT_EQ(2, fake.connections());
+}
+
+TEST(ConnectVersion, TheTableIsWhole) {
+  for (std::uint16_t version : kVersions) {
+    ASSERT_NE(nullptr, franka_core::findRobotVersion(version));
+    EXPECT_EQ(std::string(version <= 5 ? "Panda" : "FR3"),
+              franka_core::findRobotVersion(version)->robot);
+  }
+  EXPECT_EQ(nullptr, franka_core::findRobotVersion(2));
+  EXPECT_EQ(nullptr, franka_core::findRobotVersion(11));
+}
+
+TEST(ConnectAddress, IsTakenApart) {
+  using franka::network::parseEndpoint;
+  EXPECT_EQ("10.0.0.1", parseEndpoint("10.0.0.1", 1337).host);
+  EXPECT_EQ(1337, parseEndpoint("10.0.0.1", 1337).port);
+  EXPECT_EQ(1400, parseEndpoint("robot.lab:1400", 1337).port);
+  EXPECT_EQ(65535, parseEndpoint("robot.lab:65535", 1337).port);
+  for (const char* bad : {"", ":1337", "robot:", "robot:0", "robot:65536", "robot:13x", "robot:-1",
+                          "robot:1:2", "robot:999999999999"}) {
+    EXPECT_THROW(parseEndpoint(bad, 1337), NetworkException) << bad;
+  }
+  EXPECT_THROW(Robot("no.such.host.invalid", franka::RealtimeConfig::kIgnore), NetworkException);
+}
+
+TEST(ConnectNetwork, RefusedSaysSo) {
+  std::string address;
+  {
+    FakeRobot fake(5);
+    address = fake.address();
+  }
+  EXPECT_EQ(
+      "libfranka: Connection to FCI refused. Please install FCI feature or enable FCI mode in "
+      "Desk.",
+      textOf<NetworkException>([&] { Robot(address, franka::RealtimeConfig::kIgnore); }));
+}
+
+// A robot that is busy with another client: the connection waits in the queue.
+TEST(ConnectNetwork, ARobotThatDoesNotAnswerTimesOut) {
+  const ShortTimeouts timeouts;
+  FakeRobot fake(5);
+  const auto robot = connect(fake);
+  const std::string text = textOf<NetworkException>([&] { connect(fake); });
+  EXPECT_TRUE(startsWith(text,
+                         "libfranka: Connection timeout. Please check your network connection or "
+                         "settings."))
+      << text;
+  EXPECT_NE(std::string::npos, text.find("no other program")) << text;
+}
+
+TEST(ConnectNetwork, DeathAtEveryStep) {
+  const ShortTimeouts timeouts;
+  for (std::uint16_t version : {std::uint16_t{5}, std::uint16_t{10}}) {
+    FakeRobot fake(version);
+    fake.script([](FakeRobot::Script& s) { s.fatal = {Command::kConnect}; });
+    EXPECT_EQ("libfranka: server closed connection",
+              textOf<NetworkException>([&] { connect(fake); }));
+    fake.script([](FakeRobot::Script& s) {
+      s.fatal = {};
+      s.garbled = {Command::kConnect};
+    });
+    EXPECT_TRUE(startsWith(textOf<franka::ProtocolException>([&] { connect(fake); }),
+                           "libfranka: Unexpected response while handling Connect command!"));
+    fake.script([](FakeRobot::Script& s) {
+      s.garbled = {};
+      s.sends_states = false;
+    });
+    EXPECT_EQ("libfranka: UDP receive: Timeout", textOf<NetworkException>([&] { connect(fake); }));
+  }
+  FakeRobot fake(10);
+  fake.script([](FakeRobot::Script& s) { s.fatal = {Command::kGetRobotModel}; });
+  EXPECT_EQ("libfranka: server closed connection",
+            textOf<NetworkException>([&] { connect(fake); }));
+  fake.script([](FakeRobot::Script& s) { s.fatal.clear(); });
+  EXPECT_EQ(10, connect(fake)->serverVersion());
+}
+
+TEST(ConnectNetwork, AThousandTimes) {
+  FakeRobot fake(10);
+  for (int i = 0; i < 1000; i++) {
+    ASSERT_EQ(10, connect(fake)->serverVersion()) << i;
+  }
+  EXPECT_EQ(1000, fake.connections());
+}
+
+TEST(ConnectObject, MovesAndStaysConnected) {
+  FakeRobot fake(5), other(10);
+  Robot robot(fake.address(), franka::RealtimeConfig::kIgnore);
+  Robot moved(std::move(robot));
+  EXPECT_EQ(5, moved.serverVersion());
+  moved = Robot(other.address(), franka::RealtimeConfig::kIgnore);
+  EXPECT_EQ(10, moved.serverVersion());
+  EXPECT_EQ(franka::RobotMode::kIdle, moved.readOnce().robot_mode);
+}
+
+TEST(ConnectTimeouts, MustBePositive) {
+  franka::Timeouts timeouts;
+  timeouts.state = std::chrono::milliseconds(0);
+  EXPECT_THROW(franka::setTimeouts(timeouts), std::invalid_argument);
+  EXPECT_EQ(std::chrono::milliseconds(1000), franka::timeouts().state);
+}
+
+std::string jointWithLimits(int joint, bool with_extension) {
+  const std::string number = std::to_string(joint);
+  return "<joint name=\"fr3_joint" + number + "\"><limit lower=\"-" + number + ".5\" upper=\"" +
+         number + ".25\" velocity=\"2." + number + "\" effort=\"87\"/>" +
+         (with_extension ? "<position_based_velocity_limits velocity_offset=\"0." + number +
+                               "\" deceleration_limit=\"" + number + ".0\"/>"
+                         : "") +
+         "</joint>";
+}
+
+std::vector<std::uint8_t> urdf(bool with_extension) {
+  std::string text = "<robot name=\"fr3\">";
+  for (int joint = 7; joint >= 1; joint--) {
+    text += jointWithLimits(joint, with_extension);
+  }
+  text += "<joint name=\"joint1_cover\"/></robot>";
+  return {text.begin(), text.end()};
+}
+
+TEST(ConnectLimits, FollowTheRobot) {
+  const std::array<double, 7> q{};
+  FakeRobot panda(5), fr3(7);
+  // 2.175 - 1e-3 - 3 ms * (15 - 1e-3), typed from the table of the classic client.
+  EXPECT_NEAR(2.129003, connect(panda)->getUpperJointVelocityLimits(q)[0], 1e-12);
+  EXPECT_NEAR(-2.129003, connect(panda)->getLowerJointVelocityLimits(q)[0], 1e-12);
+  // min(2.62, -0.30 + sqrt(12 * 2.7501)) - 1e-3
+  EXPECT_NEAR(2.619, connect(fr3)->getUpperJointVelocityLimits(q)[0], 1e-12);
+  const std::array<double, 7> near_end{2.7, 0, 0, -1.5, 0, 2.0, 0};
+  EXPECT_NEAR(-0.30 + std::sqrt(12.0 * 0.0501) - 1e-3,
+              connect(fr3)->getUpperJointVelocityLimits(near_end)[0], 1e-12);
+}
+
+TEST(ConnectLimits, ComeFromTheDescriptionOfVersion10) {
+  FakeRobot fake(10);
+  const std::vector<std::uint8_t> text = urdf(true);
+  fake.script([&text](FakeRobot::Script& s) { s.urdf = text; });
+  const auto robot = connect(fake);
+  std::array<double, 7> q{};
+  q[2] = 3.2;
+  // joint3: V 2.3, o 0.3, c 6, upper 3.25, lower -3.5
+  EXPECT_NEAR(-0.3 + std::sqrt(6.0 * 0.05) - 1e-3, robot->getUpperJointVelocityLimits(q)[2], 1e-9);
+  EXPECT_NEAR(-2.3 + 1e-3, robot->getLowerJointVelocityLimits(q)[2], 1e-9);
+  EXPECT_EQ(std::string(text.begin(), text.end()), robot->getRobotModel());
+}
+
+TEST(ConnectLimits, ADescriptionWithoutLimitsLeavesThePublishedOnes) {
+  FakeRobot fake(10), refuses(10);
+  fake.script([](FakeRobot::Script& s) { s.urdf = urdf(false); });
+  refuses.script([](FakeRobot::Script& s) {
+    s.replies[Command::kGetRobotModel] = Status::kCommandNotPossibleRejected;
+  });
+  EXPECT_NEAR(2.619, connect(fake)->getUpperJointVelocityLimits({})[0], 1e-12);
+  EXPECT_NEAR(2.619, connect(refuses)->getUpperJointVelocityLimits({})[0], 1e-12);
+}
+
+}  // namespace
+}  // namespace franka_test

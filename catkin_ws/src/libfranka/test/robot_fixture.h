@@ -1,0 +1,74 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/exception.h>
+#include <franka/extensions.h>
+#include <franka/robot.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "fake_robot.h"
+
+namespace franka_test {
+
+using franka_core::fci::Command;
+using franka_core::fci::Status;
+
+constexpr std::array<std::uint16_t, 8> kVersions{3, 4, 5, 6, 7, 8, 9, 10};
+
+/// Waits that fit a robot that answers within a millisecond or never; restored at the end.
+class ShortTimeouts {
+ public:
+  ShortTimeouts() : before_(franka::timeouts()) {
+    franka::Timeouts timeouts;
+    timeouts.connect = std::chrono::milliseconds(2000);
+    timeouts.state = std::chrono::milliseconds(150);
+    timeouts.command = std::chrono::milliseconds(200);
+    timeouts.long_command = std::chrono::milliseconds(250);
+    timeouts.silence = std::chrono::milliseconds(150);
+    franka::setTimeouts(timeouts);
+  }
+  ~ShortTimeouts() { franka::setTimeouts(before_); }
+
+ private:
+  franka::Timeouts before_;
+};
+
+inline std::unique_ptr<franka::Robot> connect(const FakeRobot& robot, std::size_t log_size = 50) {
+  return std::make_unique<franka::Robot>(robot.address(), franka::RealtimeConfig::kIgnore,
+                                         log_size);
+}
+
+/// Runs something that throws one kind of exception, and returns its text.
+template <typename Exception, typename Function>
+std::string textOf(Function function) {
+  try {
+    function();
+  } catch (const Exception& error) {
+    return error.what();
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << "another exception: " << error.what();
+    return "";
+  }
+  ADD_FAILURE() << "no exception";
+  return "";
+}
+
+inline bool startsWith(const std::string& text, const std::string& begin) {
+  return text.compare(0, begin.size(), begin) == 0;
+}
+
+inline std::string versionName(const ::testing::TestParamInfo<std::uint16_t>& info) {
+  return "Version" + std::to_string(info.param);
+}
+
+/// Tests that hold for robots of every version.
+class EveryVersion : public ::testing::TestWithParam<std::uint16_t> {
+ protected:
+  FakeRobot fake{GetParam()};
+};
+
+}  // namespace franka_test
