@@ -1,0 +1,53 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/robot/motion/motion_limits.h>
+
+#include <algorithm>
+
+namespace franka_sim_mujoco {
+
+namespace {
+constexpr unsigned kFirstFr3 = 6;
+constexpr unsigned kFirstOf572 = 9;  // system 5.7.2: flags 12 and 27 are gone
+constexpr unsigned kFirstOf59 = 10;  // system 5.9: floats on the wire, its own limit tables
+}  // namespace
+
+double MotionLimits::highestVelocity(std::size_t joint, double q) const noexcept {
+  const double limit = arm.dq[joint];
+  return position_velocity
+             ? std::min(limit, franka_core::upperVelocityLimit(velocity_near_ends, joint, q))
+             : limit;
+}
+
+double MotionLimits::lowestVelocity(std::size_t joint, double q) const noexcept {
+  const double limit = -arm.dq[joint];
+  return position_velocity
+             ? std::max(limit, franka_core::lowerVelocityLimit(velocity_near_ends, joint, q))
+             : limit;
+}
+
+franka_core::DerivativeLimits MotionLimits::elbow() const noexcept {
+  franka_core::DerivativeLimits limits = arm.elbow;
+  limits.velocity = std::max(limits.velocity, arm.documented_elbow_velocity);
+  return limits;
+}
+
+MotionFlag MotionLimits::positionFlag(bool solved) const noexcept {
+  if (!own_position_flags) {
+    return MotionFlag::kJointPositionLimits;
+  }
+  return solved ? MotionFlag::kSolvedJointPosition : MotionFlag::kCommandedJointPosition;
+}
+
+MotionLimits motionLimitsOfProtocol(unsigned version) noexcept {
+  MotionLimits limits;
+  limits.arm = franka_core::limitsOfProtocol(version);
+  limits.position_velocity = version >= kFirstFr3;
+  limits.velocity_near_ends = version >= kFirstOf59 ? kFr3PositionVelocityLimits59
+                                                    : franka_core::kFr3PositionVelocityLimits;
+  limits.own_position_flags = version < kFirstOf572;
+  limits.echoes_floats = version >= kFirstOf59;
+  return limits;
+}
+
+}  // namespace franka_sim_mujoco
