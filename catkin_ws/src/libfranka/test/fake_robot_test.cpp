@@ -164,7 +164,10 @@ TEST(FakeRobot, MisbehavesAsAsked) {
   Bytes command(370);
   std::memcpy(command.data(), state.data(), 8);
   client.answer(command);
-  state = client.receiveState();
+  do {
+    state = client.receiveState();
+    ASSERT_EQ(2373u, state.size());
+  } while (state[2280] == 2);
   EXPECT_EQ(4, state[2364]);             // Reflex
   EXPECT_EQ(1, state[2323 + 14]);        // reflex_reason
   EXPECT_EQ(6, client.receive(13)[12]);  // ReflexAborted
