@@ -1,0 +1,474 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The life of a motion: start, lock-step, finish, abort, stop, and a robot that misbehaves.
+#include <franka/active_control_base.h>
+
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+#include "robot_fixture.h"
+
+namespace franka_test {
+namespace {
+
+using franka::CommandException;
+using franka::ControlException;
+using franka::Duration;
+using franka::NetworkException;
+using franka::Robot;
+using franka::RobotState;
+using franka::Torques;
+
+const std::array<double, 7> kZero{};
+
+/// Torques of zero for a number of cycles.
+std::function<Torques(const RobotState&, Duration)> zeroTorques(int cycles) {
+  auto left = std::make_shared<int>(cycles);
+  return [left](const RobotState&, Duration) {
+    Torques torques(kZero);
+    return --*left <= 0 ? franka::MotionFinished(torques) : torques;
+  };
+}
+
+std::function<Torques(const RobotState&, Duration)> endlessTorques() {
+  return [](const RobotState&, Duration) { return Torques(kZero); };
+}
+
+using Motion = EveryVersion;
+
+TEST_P(Motion, AnswersEachStateOnceAndFinishes) {
+  const auto robot = connect(fake);
+  std::vector<uint64_t> periods;
+  robot->control([&](const RobotState& state, Duration period) {
+    periods.push_back(period.toMSec());
+    EXPECT_EQ(franka::RobotMode::kMove, state.robot_mode);
+    Torques torques(kZero);
+    return periods.size() == 100 ? franka::MotionFinished(torques) : torques;
+  });
+  ASSERT_EQ(100u, periods.size());
+  EXPECT_EQ(0u, periods[0]);
+  const auto exchanges = fake.exchanges();
+  ASSERT_EQ(100u, exchanges.size());
+  for (std::size_t i = 1; i < exchanges.size(); i++) {
+    EXPECT_EQ(periods[i], exchanges[i].command.message_id - exchanges[i - 1].command.message_id);
+    const bool last = i + 1 == exchanges.size();
+    EXPECT_EQ(last && GetParam() < 10, exchanges[i].command.motion_generation_finished);
+    EXPECT_EQ(last && GetParam() == 10, exchanges[i].command.torque_command_finished);
+  }
+  const auto move = std::get<franka_core::fci::MoveRequest>(fake.requests().back());
+  EXPECT_EQ(franka_core::ControllerMode::kExternalController, move.controller_mode);
+  EXPECT_EQ(GetParam() == 10 ? franka_core::MotionGeneratorMode::kNone
+                             : franka_core::MotionGeneratorMode::kJointVelocity,
+            move.motion_generator_mode);
+  EXPECT_EQ(0, fake.count(Command::kStopMove));
+  EXPECT_EQ(franka::RobotMode::kIdle, robot->readOnce().robot_mode);
+}
+
+TEST_P(Motion, RefusedBeforeItStarts) {
+  const auto robot = connect(fake);
+  const std::pair<Status, const char*> table[] = {
+      {Status::kCommandNotPossibleRejected,
+       " command rejected: command not possible in the current mode (\"Idle\")!"},
+      {Status::kStartAtSingularPoseRejected, " command rejected: cannot start at singular pose!"},
+      {Status::kInvalidArgumentRejected, " command rejected: maximum path deviation out of range!"},
+      {Status::kPreempted, " command preempted!"},
+      {Status::kReflexAborted, " command aborted: motion aborted by reflex!"},
+      {Status::kEmergencyAborted, " command aborted: User Stop pressed!"},
+      {Status::kInputErrorAborted, " command aborted: invalid input provided!"},
+      {Status::kAborted, " command aborted!"},
+      {Status::kRejectedDueToActivatedSafetyFunctions,
+       " command rejected due to activated safety function! Please disable all safety functions."},
+      {Status::kPreemptedDueToActivatedSafetyFunctions,
+       " command preempted due to activated safety function! Please disable all safety "
+       "functions."},
+  };
+  for (const auto& [status, ending] : table) {
+    const bool is_safety = status == Status::kRejectedDueToActivatedSafetyFunctions ||
+                           status == Status::kPreemptedDueToActivatedSafetyFunctions;
+    if (is_safety && GetParam() < 6) {
+      continue;
+    }
+    fake.script([status = status](FakeRobot::Script& s) { s.replies[Command::kMove] = status; });
+    EXPECT_EQ(std::string("libfranka: Move") + ending,
+              textOf<CommandException>([&] { robot->control(endlessTorques()); }));
+  }
+  // Nothing has moved, so nothing is stopped; and the next one runs.
+  EXPECT_EQ(0, fake.count(Command::kStopMove));
+  fake.script([](FakeRobot::Script& s) { s.replies.clear(); });
+  EXPECT_NO_THROW(robot->control(zeroTorques(3)));
+}
+
+TEST_P(Motion, RefusedAfterItStarted) {
+  const auto robot = connect(fake);
+  fake.script([](FakeRobot::Script& s) { s.end_at_start = Status::kStartAtSingularPoseRejected; });
+  EXPECT_EQ("libfranka: Move command rejected: cannot start at singular pose!",
+            textOf<ControlException>([&] { robot->control(endlessTorques()); }));
+}
+
+TEST_P(Motion, AbortsWithTheTextOfTheirStatus) {
+  const auto robot = connect(fake);
+  const std::pair<Status, const char*> table[] = {
+      {Status::kPreempted, " command preempted!"},
+      {Status::kEmergencyAborted, " command aborted: User Stop pressed!"},
+      {Status::kInputErrorAborted, " command aborted: invalid input provided!"},
+      {Status::kAborted, " command aborted!"},
+  };
+  for (const auto& [status, ending] : table) {
+    for (bool reply_first : {false, true}) {
+      fake.script([&, status = status](FakeRobot::Script& s) {
+        s.abort_after = 20;
+        s.abort_status = status;
+        s.abort_mode = franka_core::RobotMode::kUserStopped;
+        s.abort_replies_first = reply_first;
+      });
+      fake.change([](auto& s) { s.robot_mode = franka_core::RobotMode::kIdle; });
+      const int stops = fake.count(Command::kStopMove);
+      EXPECT_EQ(std::string("libfranka: Move") + ending,
+                textOf<ControlException>([&] { robot->control(endlessTorques()); }));
+      EXPECT_EQ(stops + 1, fake.count(Command::kStopMove));  // as the genuine client
+    }
+  }
+}
+
+// Text of an abort by reflex, as read off the genuine client (fci.md 1.11).
+TEST_P(Motion, AbortsByReflexWithErrorsRateAndLog) {
+  const auto robot = connect(fake, 5);
+  fake.script([](FakeRobot::Script& s) {
+    s.abort_after = 20;
+    s.abort_errors = {7, 14};
+    s.success_rate = 0.96875;  // exact in single precision too
+  });
+  try {
+    robot->control(endlessTorques());
+    FAIL() << "no exception";
+  } catch (const ControlException& error) {
+    EXPECT_TRUE(startsWith(
+        error.what(),
+        "libfranka: Move command aborted: motion aborted by reflex! [\"cartesian_reflex\", "
+        "\"joint_motion_generator_velocity_discontinuity\"]\ncontrol_command_success_rate: "
+        "0.96875"))
+        << error.what();
+    EXPECT_EQ(std::string::npos, std::string(error.what()).find("packets lost"));
+    ASSERT_EQ(5u, error.log.size());
+    for (std::size_t i = 1; i < 5; i++) {
+      EXPECT_EQ(error.log[i - 1].state.time.toMSec() + 1, error.log[i].state.time.toMSec());
+    }
+    EXPECT_EQ(franka::RobotMode::kMove, error.log[3].state.robot_mode);
+    EXPECT_EQ(franka::RobotMode::kReflex, error.log[4].state.robot_mode);
+    EXPECT_TRUE(error.log[4].state.last_motion_errors.cartesian_reflex);
+    EXPECT_FALSE(franka::logToCSV(error.log).empty());
+  }
+  EXPECT_EQ(1, fake.count(Command::kStopMove));
+  robot->automaticErrorRecovery();
+}
+
+TEST_P(Motion, CountsPacketsLostBeforeTheAbort) {
+  const auto robot = connect(fake);
+  fake.script([](FakeRobot::Script& s) {
+    s.abort_after = 20;
+    s.skip_after = 20;
+    s.skip = 5;
+    s.success_rate = 0.9375;
+  });
+  const std::string text = textOf<ControlException>([&] { robot->control(endlessTorques()); });
+  EXPECT_TRUE(startsWith(text,
+                         "libfranka: Move command aborted: motion aborted by reflex! "
+                         "[]\ncontrol_command_success_rate: 0.890625 packets lost in a row in the "
+                         "last sample: 5"))
+      << text;
+}
+
+TEST_P(Motion, FinishedButStillMoving) {
+  const auto robot = connect(fake);
+  fake.script([](FakeRobot::Script& s) { s.end_at_finish = Status::kReflexAborted; });
+  EXPECT_TRUE(startsWith(textOf<ControlException>([&] { robot->control(zeroTorques(5)); }),
+                         "Motion finished commanded, but the robot is still moving! []"));
+  fake.script([](FakeRobot::Script& s) { s.end_at_finish = Status::kAborted; });
+  EXPECT_EQ("libfranka: Move command aborted!",
+            textOf<ControlException>([&] { robot->control(zeroTorques(5)); }));
+}
+
+TEST_P(Motion, StopFromAnotherThread) {
+  const auto robot = connect(fake);
+  std::atomic<int> cycles{0};
+  std::thread other([&] {
+    while (cycles < 50) {
+      std::this_thread::yield();
+    }
+    robot->stop();
+  });
+  EXPECT_EQ("libfranka: Move command preempted!", textOf<ControlException>([&] {
+              robot->control([&](const RobotState&, Duration) {
+                cycles++;
+                return Torques(kZero);
+              });
+            }));
+  other.join();
+  EXPECT_NO_THROW(robot->control(zeroTorques(3)));
+}
+
+TEST_P(Motion, WhatACallbackThrowsStopsTheRobotAndComesOut) {
+  const auto robot = connect(fake);
+  for (bool preempts : {true, false}) {
+    fake.script([preempts](FakeRobot::Script& s) { s.preempts = preempts; });
+    EXPECT_EQ("enough", textOf<std::logic_error>([&] {
+                robot->control([](const RobotState&, Duration) -> Torques {
+                  throw std::logic_error("enough");
+                });
+              }));
+    EXPECT_EQ(franka_core::RobotMode::kIdle, fake.state().robot_mode);
+  }
+  EXPECT_EQ(2, fake.count(Command::kStopMove));
+  EXPECT_NO_THROW(robot->control(zeroTorques(3)));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Motion, ::testing::ValuesIn(kVersions), versionName);
+
+TEST(MotionOrder, ASecondMotionIsRefusedHere) {
+  FakeRobot fake(5);
+  const auto robot = connect(fake);
+  fake.change([](franka_core::RobotState& s) {
+    s.motion_generator_mode = franka_core::MotionGeneratorMode::kJointPosition;
+  });
+  robot->readOnce();
+  robot->readOnce();
+  EXPECT_EQ("libfranka robot: Attempted to start multiple motions!",
+            textOf<ControlException>([&] { robot->control(endlessTorques()); }));
+  EXPECT_EQ(0, fake.count(Command::kMove));
+}
+
+TEST(MotionOrder, TwoOperationsAtOnce) {
+  FakeRobot fake(5);
+  const auto robot = connect(fake);
+  const std::string busy =
+      "libfranka robot: Cannot perform this operation while another control or read operation is "
+      "running.";
+  std::vector<std::string> texts;
+  int cycles = 0;
+  robot->control([&](const RobotState&, Duration) {
+    if (++cycles == 3) {
+      using franka::InvalidOperationException;
+      texts.push_back(textOf<InvalidOperationException>([&] { robot->readOnce(); }));
+      texts.push_back(textOf<InvalidOperationException>(
+          [&] { robot->read([](const RobotState&) { return false; }); }));
+      texts.push_back(textOf<InvalidOperationException>([&] { robot->control(endlessTorques()); }));
+      texts.push_back(textOf<InvalidOperationException>([&] { robot->startTorqueControl(); }));
+      robot->setJointImpedance({});  // settings are the robot's business
+    }
+    return cycles == 10 ? franka::MotionFinished(Torques(kZero)) : Torques(kZero);
+  });
+  EXPECT_EQ(std::vector<std::string>(4, busy), texts);
+  EXPECT_NO_THROW(robot->readOnce());
+}
+
+TEST(MotionReplies, RepeatedOnesDoNoHarm) {
+  FakeRobot fake(6);
+  const auto robot = connect(fake);
+  fake.script([](FakeRobot::Script& s) { s.repeated[Command::kMove] = 1; });
+  for (int i = 0; i < 3; i++) {
+    EXPECT_NO_THROW(robot->control(zeroTorques(5)));
+  }
+  fake.script([](FakeRobot::Script& s) { s.abort_after = 5; });
+  EXPECT_TRUE(startsWith(textOf<ControlException>([&] { robot->control(endlessTorques()); }),
+                         "libfranka: Move command aborted: motion aborted by reflex!"));
+}
+
+TEST(MotionReplies, StopMoveIsToleratedWithAnyAnswer) {
+  for (Status status : {Status::kCommandNotPossibleRejected, Status::kAborted,
+                        Status::kReflexAborted, Status::kEmergencyAborted}) {
+    FakeRobot fake(5);
+    const auto robot = connect(fake);
+    fake.script([status](FakeRobot::Script& s) {
+      s.replies[Command::kStopMove] = status;
+      s.abort_after = 5;
+    });
+    EXPECT_TRUE(startsWith(textOf<ControlException>([&] { robot->control(endlessTorques()); }),
+                           "libfranka: Move command aborted: motion aborted by reflex!"));
+  }
+}
+
+/// Whatever a robot fails to do, and what the program hears of it in the end.
+struct Fault {
+  const char* name;
+  std::function<void(FakeRobot::Script&)> script;
+  const char* text;
+};
+
+class MotionFaults : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(MotionFaults, EndInANetworkException) {
+  const ShortTimeouts timeouts;
+  for (std::uint16_t version : {std::uint16_t{5}, std::uint16_t{10}}) {
+    FakeRobot fake(version);
+    const auto robot = connect(fake);
+    fake.script(GetParam().script);
+    const auto begin = std::chrono::steady_clock::now();
+    const std::string text = textOf<NetworkException>([&] { robot->control(zeroTorques(30)); });
+    EXPECT_TRUE(startsWith(text, GetParam().text)) << text;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+  }
+}
+
+constexpr const char* kClosed = "libfranka: server closed connection";
+constexpr const char* kNoState = "libfranka: UDP receive: Timeout";
+constexpr const char* kNoAnswer = "libfranka: Connection timeout.";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, MotionFaults,
+    ::testing::Values(
+        Fault{"DiesAtMove", [](auto& s) { s.fatal = {Command::kMove}; }, kClosed},
+        Fault{"DiesInTheMotion", [](auto& s) { s.close_after = 10; }, kClosed},
+        Fault{"DiesAtTheEnd", [](auto& s) { s.closes_at_finish = true; }, kClosed},
+        Fault{"DiesAfterTheAbort",
+              [](auto& s) {
+                s.abort_after = 10;
+                s.abort_replies = false;
+                s.close_after = 10;
+              },
+              kClosed},
+        Fault{"FallsSilentInTheMotion", [](auto& s) { s.silence_after = 10; }, kNoState},
+        Fault{"DoesNotAnswerMove", [](auto& s) { s.unanswered = {Command::kMove}; }, kNoAnswer},
+        Fault{"DoesNotShowTheMotion", [](auto& s) { s.shows_motion = false; }, kNoAnswer},
+        Fault{"DoesNotEnd", [](auto& s) { s.ends_at_finish = false; }, kNoAnswer},
+        Fault{"DoesNotAnswerTheEnd", [](auto& s) { s.answers_finish = false; }, kNoAnswer},
+        Fault{"DoesNotSayWhyItAborts",
+              [](auto& s) {
+                s.abort_after = 10;
+                s.abort_replies = false;
+              },
+              kNoAnswer}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(MotionFaultsAtStop, EndInTheFirstException) {
+  const ShortTimeouts timeouts;
+  for (int fault = 0; fault < 2; fault++) {
+    FakeRobot fake(5);
+    const auto robot = connect(fake);
+    fake.script([fault](FakeRobot::Script& s) {
+      s.abort_after = 10;
+      (fault == 0 ? s.unanswered : s.fatal).insert(Command::kStopMove);
+    });
+    EXPECT_TRUE(startsWith(textOf<ControlException>([&] { robot->control(endlessTorques()); }),
+                           "libfranka: Move command aborted: motion aborted by reflex!"));
+  }
+}
+
+/// Datagrams that networks mistreat.
+class Datagrams : public ::testing::Test {
+ protected:
+  using Datagram = FakeRobot::Datagram;
+  FakeRobot fake{5};
+  std::unique_ptr<Robot> robot{connect(fake)};
+
+  /// Ids of the states a motion of 100 cycles has seen.
+  std::vector<uint64_t> runMotion() {
+    std::vector<uint64_t> ids;
+    robot->control([&](const RobotState& state, Duration) {
+      ids.push_back(state.time.toMSec());
+      return ids.size() == 100 ? franka::MotionFinished(Torques(kZero)) : Torques(kZero);
+    });
+    return ids;
+  }
+  static void expectIncreasing(const std::vector<uint64_t>& ids) {
+    for (std::size_t i = 1; i < ids.size(); i++) {
+      EXPECT_GT(ids[i], ids[i - 1]);
+    }
+  }
+};
+
+TEST_F(Datagrams, RepeatedOnesAreSeenOnce) {
+  fake.script([](FakeRobot::Script& s) {
+    s.transmit = [](const Datagram& d) { return std::vector<Datagram>{d, d, d}; };
+  });
+  expectIncreasing(runMotion());
+}
+
+TEST_F(Datagrams, LateOnesAreDropped) {
+  fake.script([](FakeRobot::Script& s) {
+    s.transmit = [last = Datagram()](const Datagram& d) mutable {
+      std::vector<Datagram> sent{d};
+      if (!last.empty()) {
+        sent.push_back(last);  // the one before comes once more, behind its successor
+      }
+      last = d;
+      return sent;
+    };
+  });
+  expectIncreasing(runMotion());
+}
+
+TEST_F(Datagrams, LostOnesAreNotWaitedFor) {
+  fake.script([](FakeRobot::Script& s) {
+    s.transmit = [n = 0](const Datagram& d) mutable {
+      return ++n % 10 == 0 ? std::vector<Datagram>{} : std::vector<Datagram>{d};
+    };
+  });
+  const std::vector<uint64_t> ids = runMotion();
+  expectIncreasing(ids);
+  EXPECT_GT(ids.back() - ids.front(), 105u);
+}
+
+TEST_F(Datagrams, OfAnotherSizeAreAnError) {
+  for (int change : {-1, -2373, -2365, +1, +100, -1000}) {
+    FakeRobot mistreated(5);
+    const auto client = connect(mistreated);
+    mistreated.script([change](FakeRobot::Script& s) {
+      s.transmit = [change](Datagram d) {
+        d.resize(static_cast<std::size_t>(static_cast<int>(d.size()) + change));
+        return std::vector<Datagram>{d};
+      };
+    });
+    const std::string text = textOf<franka::ProtocolException>([&] {
+      for (int i = 0; i < 10; i++) {
+        client->readOnce();
+      }
+    });
+    EXPECT_TRUE(startsWith(text, "libfranka: incorrect object size")) << text;
+    EXPECT_NE(std::string::npos, text.find("2373")) << text;
+  }
+}
+
+TEST_F(Datagrams, WithUnknownModesAreAnError) {
+  fake.script([](FakeRobot::Script& s) {
+    s.transmit = [](Datagram d) {
+      d[2364] = 77;  // robot_mode
+      return std::vector<Datagram>{d};
+    };
+  });
+  EXPECT_TRUE(startsWith(textOf<franka::ProtocolException>([&] {
+                           robot->readOnce();
+                           robot->readOnce();
+                         }),
+                         "libfranka: "));
+}
+
+TEST_F(Datagrams, OneThatIsNoStateStopsTheMotion) {
+  fake.script([](FakeRobot::Script& s) {
+    s.transmit = [n = 0](Datagram d) mutable {
+      if (++n == 50) {
+        d.pop_back();
+      }
+      return std::vector<Datagram>{d};
+    };
+  });
+  EXPECT_THROW(robot->control(endlessTorques()), franka::ProtocolException);
+  EXPECT_EQ(1, fake.count(Command::kStopMove));
+  EXPECT_EQ(franka_core::RobotMode::kIdle, fake.state().robot_mode);
+}
+
+TEST_F(Datagrams, StatesThatStopAreNoticed) {
+  const ShortTimeouts timeouts;
+  const auto client = std::make_unique<FakeRobot>(10);
+  const auto reader = connect(*client);
+  client->script([](FakeRobot::Script& s) { s.sends_states = false; });
+  EXPECT_EQ("libfranka: UDP receive: Timeout", textOf<NetworkException>([&] {
+              for (int i = 0; i < 10; i++) {
+                reader->readOnce();
+              }
+            }));
+}
+
+}  // namespace
+}  // namespace franka_test
