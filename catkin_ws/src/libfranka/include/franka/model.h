@@ -2,8 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka/robot.h>
+#include <franka/robot_state.h>
+
+#include <array>
+#include <memory>
+#include <string>
+
 /// @file
-/// The frames of the arm's kinematics.
+/// The frames of the arm's kinematics, and franka::Model.
 
 namespace franka {
 
@@ -25,5 +32,84 @@ enum class Frame {
 /// `for (Frame f = Frame::kJoint1; f <= Frame::kStiffness; f++)`. The value after kStiffness is no
 /// frame.
 Frame operator++(Frame& frame, int /* postfix */) noexcept;
+
+/// Kinematics and dynamics of the arm: of the robot, from Robot::loadModel, or from a URDF without
+/// any robot.
+///
+/// Every function may be called from any thread and in the 1 kHz loop: no allocation, no lock.
+/// Poses and zero Jacobians are expressed in the base frame O, body Jacobians in the frame's own
+/// axes. Transforms are 4x4, Jacobians 6x7 (linear rows first), the mass matrix 7x7, inertias 3x3,
+/// all column-major. `I_total`, `m_total` and `F_x_Ctotal` are of end effector and load together:
+/// inertia about their centre of mass in the axes of F [kg m^2], mass [kg], centre of mass in F
+/// [m].
+class Model {
+ public:
+  /// @name Without a robot (not in the vendor's library)
+  /// @{
+
+  /// The arm of a URDF text with inertials. @param arm_id prefix of its links; empty: the one arm
+  /// there is. @throws ModelException with a sentence if there is none.
+  static Model fromUrdf(const std::string& urdf, const std::string& arm_id = "");
+  /// The same from a file. @throws ModelException also if it cannot be read.
+  static Model fromUrdfFile(const std::string& path, const std::string& arm_id = "");
+  /// @}
+
+  Model(Model&& model) noexcept;
+  Model& operator=(Model&& model) noexcept;
+  ~Model() noexcept;
+
+  /// Pose of a frame in O. @throws std::invalid_argument for a value that is no frame.
+  std::array<double, 16> pose(Frame frame, const RobotState& robot_state) const;
+  /// @copydoc pose(Frame, const RobotState&) const
+  std::array<double, 16> pose(Frame frame, const std::array<double, 7>& q,
+                              const std::array<double, 16>& F_T_EE,
+                              const std::array<double, 16>& EE_T_K) const;
+
+  /// Jacobian of a frame in its own axes. @throws as pose.
+  std::array<double, 42> bodyJacobian(Frame frame, const RobotState& robot_state) const;
+  /// @copydoc bodyJacobian(Frame, const RobotState&) const
+  std::array<double, 42> bodyJacobian(Frame frame, const std::array<double, 7>& q,
+                                      const std::array<double, 16>& F_T_EE,
+                                      const std::array<double, 16>& EE_T_K) const;
+
+  /// Jacobian of a frame in O. @throws as pose.
+  std::array<double, 42> zeroJacobian(Frame frame, const RobotState& robot_state) const;
+  /// @copydoc zeroJacobian(Frame, const RobotState&) const
+  std::array<double, 42> zeroJacobian(Frame frame, const std::array<double, 7>& q,
+                                      const std::array<double, 16>& F_T_EE,
+                                      const std::array<double, 16>& EE_T_K) const;
+
+  /// Mass matrix [kg m^2].
+  std::array<double, 49> mass(const RobotState& robot_state) const noexcept;
+  std::array<double, 49> mass(const std::array<double, 7>& q, const std::array<double, 9>& I_total,
+                              double m_total,
+                              const std::array<double, 3>& F_x_Ctotal) const noexcept;
+
+  /// Coriolis torques C(q, dq) dq [Nm].
+  std::array<double, 7> coriolis(const RobotState& robot_state) const noexcept;
+  std::array<double, 7> coriolis(const std::array<double, 7>& q, const std::array<double, 7>& dq,
+                                 const std::array<double, 9>& I_total, double m_total,
+                                 const std::array<double, 3>& F_x_Ctotal) const noexcept;
+
+  /// Gravity torques: what holds the arm [Nm]. @param gravity_earth in O [m/s^2]
+  std::array<double, 7> gravity(const std::array<double, 7>& q, double m_total,
+                                const std::array<double, 3>& F_x_Ctotal,
+                                const std::array<double, 3>& gravity_earth = {
+                                    {0.0, 0.0, -9.81}}) const noexcept;
+  std::array<double, 7> gravity(const RobotState& robot_state,
+                                const std::array<double, 3>& gravity_earth) const noexcept;
+  /// With the gravity that the robot measures, O_ddP_O.
+  std::array<double, 7> gravity(const RobotState& robot_state) const noexcept;
+
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  /// Where the answers come from. Not for programs: the library's own.
+  class Source;
+  explicit Model(std::unique_ptr<Source> source);
+
+ private:
+  std::unique_ptr<Source> source_;
+};
 
 }  // namespace franka

@@ -1,0 +1,169 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/exception.h>
+#include <franka/extensions.h>
+#include <franka_core/fci/decode_error.h>
+#include <franka_core/fci/gripper_codec.h>
+#include <franka_core/fci/texts.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "network/command_channel.h"
+#include "network/datagram_socket.h"
+
+namespace franka {
+
+/// What the hand and the vacuum gripper have in common: requests with one reply, and states that
+/// come by themselves.
+///
+/// Protocol describes one of the two: its types and codec, kPort, kOldest, kNewest, and kWho, with
+/// which its texts begin. Threads: execute from any number, readOnce from one at a time.
+template <typename Protocol>
+class GripperConnection {
+ public:
+  using Request = typename Protocol::Request;
+  using State = typename Protocol::State;
+  using Status = franka_core::fci::gripper::Status;
+
+  /// @throws NetworkException, IncompatibleVersionException
+  explicit GripperConnection(const std::string& address)
+      : timeouts_(timeouts()), datagrams_(timeouts_.state) {
+    const network::Endpoint endpoint = network::parseEndpoint(address, Protocol::kPort);
+    const Deadline deadline = network::Clock::now() + timeouts_.connect;
+    const std::optional<std::uint16_t> wanted = offer(endpoint, Protocol::kNewest, deadline);
+    if (!wanted) {
+      return;
+    }
+    // A gripper takes only its own version, and says which that is.
+    if (*wanted < Protocol::kOldest || *wanted >= Protocol::kNewest ||
+        offer(endpoint, *wanted, deadline)) {
+      throw IncompatibleVersionException(*wanted, Protocol::kNewest);
+    }
+  }
+
+  std::uint16_t version() const noexcept { return version_; }
+
+  /// @returns whether the gripper succeeded.
+  /// @throws CommandException when the command failed or was aborted.
+  /// @throws NetworkException when no answer comes within `bound`.
+  bool execute(const Request& request, std::chrono::milliseconds bound) {
+    const typename Protocol::Reply reply =
+        decode(request, await(request, network::Clock::now() + bound, bound));
+    switch (reply.status) {
+      case Status::kSuccess:
+        return true;
+      case Status::kUnsuccessful:
+        return false;
+      case Status::kAborted:
+        throw CommandException(text(franka_core::fci::kGripperAborted));
+      case Status::kFail:
+        break;
+    }
+    throw CommandException(text(franka_core::fci::kGripperFailed));
+  }
+
+  /// The state in the next datagram, after those that are waiting already.
+  State readOnce() {
+    const std::unique_lock<std::mutex> lock(state_mutex_, std::try_to_lock);
+    if (!lock.owns_lock()) {
+      throw InvalidOperationException(
+          text("Cannot perform this operation while another read operation is running."));
+    }
+    typename Protocol::StateBuffer buffer;
+    while (datagrams_.tryReceive(buffer.data(), buffer.size()).any) {
+    }
+    const auto received = datagrams_.receive(buffer.data(), buffer.size());
+    if (!received.any) {
+      throw NetworkException(channel_->closedByServer() ? franka_core::fci::kServerClosed
+                                                        : franka_core::fci::kStateTimeout);
+    }
+    State state;
+    if (Protocol::decodeState({buffer.data(), received.size}, state) !=
+        franka_core::fci::CodecError::kNone) {
+      throw ProtocolException(franka_core::fci::kWrongObjectSize);
+    }
+    datagrams_.accept();
+    return state;
+  }
+
+  /// What takes long, such as homing.
+  std::chrono::milliseconds longBound() const noexcept { return timeouts_.long_command; }
+
+ private:
+  using Deadline = network::Clock::time_point;
+
+  static std::string text(const std::string& ending) { return Protocol::kWho + ending; }
+
+  static franka_core::fci::CodecError findMessage(franka_core::fci::Bytes stream, std::uint32_t& id,
+                                                  std::size_t& size) {
+    franka_core::fci::gripper::Header header;
+    const auto error =
+        franka_core::fci::gripper::nextMessage(stream, Protocol::kMaxReplySize, header);
+    id = header.command_id;
+    size = header.size;
+    return error;
+  }
+
+  /// @returns the version the gripper wants instead, or nothing if it agrees.
+  std::optional<std::uint16_t> offer(const network::Endpoint& endpoint, std::uint16_t version,
+                                     Deadline deadline) {
+    channel_.reset();
+    channel_ = std::make_unique<network::CommandChannel>(endpoint, findMessage, deadline);
+    const Request request = typename Protocol::ConnectRequest{version, datagrams_.port()};
+    const typename Protocol::Reply reply =
+        decode(request, await(request, deadline, timeouts_.connect));
+    version_ = reply.status == Status::kSuccess ? reply.server_version : version;
+    return reply.status == Status::kSuccess ? std::nullopt
+                                            : std::make_optional(reply.server_version);
+  }
+
+  network::CommandChannel::Message await(const Request& request, Deadline deadline,
+                                         std::chrono::milliseconds bound) {
+    struct Forget {
+      network::CommandChannel& channel;
+      std::uint32_t id;
+      ~Forget() { channel.forget(id); }
+    };
+    const std::uint32_t id = channel_->expect();
+    const Forget forget_at_end{*channel_, id};
+    typename Protocol::RequestMessage message;
+    Protocol::encodeRequest(id, request, message);
+    channel_->send(message.bytes());
+    auto reply = channel_->receive(id, deadline);
+    if (!reply) {
+      throw NetworkException(std::string(franka_core::fci::kConnectionTimeout) +
+                             " The gripper has not answered within " +
+                             std::to_string(bound.count()) + " ms.");
+    }
+    return std::move(*reply);
+  }
+
+  typename Protocol::Reply decode(const Request& request,
+                                  const network::CommandChannel::Message& message) {
+    franka_core::fci::gripper::Header header;
+    typename Protocol::Reply reply;
+    const auto error =
+        Protocol::decodeReply(request, {message.data(), message.size()}, header, reply);
+    if (error != franka_core::fci::CodecError::kNone) {
+      throw ProtocolException(text("Unexpected response while handling a command!"));
+    }
+    return reply;
+  }
+
+  const Timeouts timeouts_;
+  network::DatagramSocket datagrams_;
+  std::unique_ptr<network::CommandChannel> channel_;
+  std::uint16_t version_{0};
+  std::mutex state_mutex_;
+};
+
+}  // namespace franka
