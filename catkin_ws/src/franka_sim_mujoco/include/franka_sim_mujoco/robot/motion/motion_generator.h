@@ -77,10 +77,10 @@ class MotionGenerator {
 
  private:
   bool isCartesian() const noexcept;
-  MotionFault advance(const franka_core::RobotCommand* command,
-                      const franka_core::ArmModel& model) noexcept;
-  MotionFault checkStop() const noexcept;
-  MotionFault solve(const franka_core::ArmModel& model) noexcept;
+  MotionFault advanceAsync(const franka_core::RobotCommand* command) noexcept;
+  MotionFault advanceJoints(const franka_core::RobotCommand* command) noexcept;
+  MotionFault advanceCartesian(const franka_core::RobotCommand* command,
+                               const franka_core::ArmModel& model) noexcept;
   void showJoints(const franka_core::ArmModel& model) noexcept;
   void showCartesian(const InverseKinematics::Solution& solution) noexcept;
   void showAcceleration() noexcept;
@@ -90,9 +90,9 @@ class MotionGenerator {
   JointMotion joints_;         // of joint commands, or after inverse kinematics
   CartesianMotion cartesian_;  // of Cartesian commands
   AsyncJointGenerator async_;
-  InverseKinematics kinematics_;
   DesiredMotion desired_;
-  bool solved_{false};  // a Cartesian command has been solved in this motion
+  bool solved_{false};     // a Cartesian command has been solved in this motion
+  bool finishing_{false};  // an asynchronous motion shall end when at rest
 };
 
 }  // namespace franka_sim_mujoco

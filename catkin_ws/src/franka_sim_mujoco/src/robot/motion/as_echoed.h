@@ -1,0 +1,23 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace franka_sim_mujoco {
+
+/// Values as a client reads them from a state of 32 bit floats.
+inline double asEchoed(double value) noexcept {
+  return static_cast<double>(static_cast<float>(value));
+}
+
+template <std::size_t kSize>
+std::array<double, kSize> asEchoed(std::array<double, kSize> values) noexcept {
+  for (double& value : values) {
+    value = asEchoed(value);
+  }
+  return values;
+}
+
+}  // namespace franka_sim_mujoco
