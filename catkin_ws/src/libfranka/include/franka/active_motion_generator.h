@@ -5,7 +5,6 @@
 #include <franka/active_control.h>
 
 #include <memory>
-#include <utility>
 
 /// @file
 /// Motion generators driven by the program.
@@ -27,8 +26,7 @@ class ActiveMotionGenerator : public ActiveControl {
 
  private:
   friend class Robot;
-  explicit ActiveMotionGenerator(std::unique_ptr<Motion> motion)
-      : ActiveControl(std::move(motion)) {}
+  explicit ActiveMotionGenerator(std::unique_ptr<Motion> motion);
 };
 
 extern template class ActiveMotionGenerator<JointPositions>;

@@ -5,7 +5,6 @@
 #include <franka/active_control.h>
 
 #include <memory>
-#include <utility>
 
 /// @file
 /// Torque control driven by the program.
@@ -20,7 +19,7 @@ class ActiveTorqueControl : public ActiveControl {
 
  private:
   friend class Robot;
-  explicit ActiveTorqueControl(std::unique_ptr<Motion> motion) : ActiveControl(std::move(motion)) {}
+  explicit ActiveTorqueControl(std::unique_ptr<Motion> motion);
 };
 
 }  // namespace franka

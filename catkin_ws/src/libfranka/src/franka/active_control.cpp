@@ -45,12 +45,19 @@ void ActiveControl::writeOnce(const JointVelocities&) { throw ControlException(k
 void ActiveControl::writeOnce(const CartesianPose&) { throw ControlException(kWrongForm); }
 void ActiveControl::writeOnce(const CartesianVelocities&) { throw ControlException(kWrongForm); }
 
+ActiveTorqueControl::ActiveTorqueControl(std::unique_ptr<Motion> motion)
+    : ActiveControl(std::move(motion)) {}
+
 void ActiveTorqueControl::writeOnce(const Torques& control_input) {
   motion_->write([&](const franka_core::RobotState& state, franka_core::RobotCommand& command) {
     shape(kUnshaped, control_input, state, command);
     return control_input.motion_finished;
   });
 }
+
+template <typename MotionGeneratorType>
+ActiveMotionGenerator<MotionGeneratorType>::ActiveMotionGenerator(std::unique_ptr<Motion> motion)
+    : ActiveControl(std::move(motion)) {}
 
 template <typename MotionGeneratorType>
 void ActiveMotionGenerator<MotionGeneratorType>::writeOnce(
