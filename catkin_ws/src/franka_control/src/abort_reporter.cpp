@@ -1,0 +1,43 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "abort_reporter.h"
+
+#include <ros/console.h>
+#include <ros/file_log.h>
+#include <std_msgs/String.h>
+
+#include <ctime>
+#include <fstream>
+
+namespace franka_control {
+
+AbortReporter::AbortReporter(ros::NodeHandle& nh)
+    : publisher_(nh.advertise<std_msgs::String>("abort", 1, true)),
+      directory_(nh.param("abort_log_directory", ros::file_log::getLogDirectory())) {}
+
+void AbortReporter::report(const std::string& what, const std::vector<franka::Record>& log) {
+  std_msgs::String message;
+  message.data = what;
+  if (!log.empty()) {
+    const std::string file = save(log);
+    message.data +=
+        file.empty() ? "\nThe log of the motion could not be written to '" + directory_ + "'."
+                     : "\nThe last " + std::to_string(log.size()) + " states and commands: " + file;
+  }
+  ROS_ERROR_STREAM(message.data);
+  publisher_.publish(message);
+}
+
+std::string AbortReporter::save(const std::vector<franka::Record>& log) const {
+  const std::time_t now = std::time(nullptr);
+  char stamp[32];
+  std::strftime(stamp, sizeof(stamp), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
+  // The robot's own time tells two aborts of one second apart.
+  const std::string path = directory_ + "/franka_abort_" + stamp + "_" +
+                           std::to_string(log.back().state.time.toMSec()) + ".csv";
+  std::ofstream file(path);
+  file << franka::logToCSV(log);
+  return file.good() ? path : "";
+}
+
+}  // namespace franka_control

@@ -1,0 +1,31 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/log.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <string>
+#include <vector>
+
+namespace franka_control {
+
+/// Keeps what is known about the last abort of a motion where people find it: on the latched topic
+/// `abort` (std_msgs/String) and, where there is a log, in a CSV file. Not for the loop.
+class AbortReporter {
+ public:
+  /// Files go to the parameter `abort_log_directory`, or to ROS's own log directory.
+  explicit AbortReporter(ros::NodeHandle& nh);
+
+  /// @param what a sentence for a person @param log the last states and commands, maybe empty
+  void report(const std::string& what, const std::vector<franka::Record>& log);
+
+ private:
+  std::string save(const std::vector<franka::Record>& log) const;
+
+  ros::Publisher publisher_;
+  std::string directory_;
+};
+
+}  // namespace franka_control

@@ -1,0 +1,285 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "control_node.h"
+
+#include <controller_manager_msgs/SwitchController.h>
+#include <franka/exception.h>
+#include <ros/console.h>
+#include <ros/init.h>
+
+#include <chrono>
+#include <thread>
+
+namespace franka_control {
+
+namespace {
+
+// [s] for the controllers to stop when they shall not start again.
+constexpr double kStopTimeout = 2.0;
+// [s] between two attempts to find a lost robot.
+constexpr double kReconnectPeriod = 1.0;
+
+}  // namespace
+
+ControlNode::ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle& private_nh)
+    : public_nh_(public_nh), private_nh_(private_nh) {}
+
+bool ControlNode::init() {
+  reconnects_ = private_nh_.param("reconnect", false);
+  restarts_controllers_ = private_nh_.param("restart_controllers_after_recovery", true);
+  if (!franka_hw_.init(public_nh_, private_nh_)) {
+    ROS_ERROR("franka_control_node: the robot could not be set up (see above).");
+    return false;
+  }
+  connected_ = true;
+  const std::string arm_id = private_nh_.param<std::string>("arm_id", "");
+  robot_state_ = &franka_hw_.get<franka_hw::FrankaStateInterface>()
+                      ->getHandle(arm_id + "_robot")
+                      .getRobotState();
+  aborts_ = std::make_unique<AbortReporter>(private_nh_);
+  health_ =
+      std::make_unique<LoopHealth>(private_nh_, private_nh_.param<std::string>("arm_id", "robot"));
+  health_->connected(true);
+  controller_manager_ =
+      std::make_unique<controller_manager::ControllerManager>(&franka_hw_, public_nh_);
+  offerConnection();
+  offerRobot();
+  return true;
+}
+
+// --- services ------------------------------------------------------------------------------------
+
+void ControlNode::offerConnection() {
+  connect_server_ = private_nh_.advertiseService("connect", &ControlNode::connectRequested, this);
+  disconnect_server_ =
+      private_nh_.advertiseService("disconnect", &ControlNode::disconnectRequested, this);
+}
+
+void ControlNode::offerRobot() {
+  robot_services_ = std::make_unique<franka_hw::ServiceContainer>();
+  franka_hw::setupServices(franka_hw_.robot(), franka_hw_.robotMutex(), private_nh_,
+                           *robot_services_);
+  recovery_server_ = std::make_unique<RecoveryServer>(
+      private_nh_, "error_recovery", [this](const auto& /*goal*/) { recover(); }, false);
+  recovery_server_->start();
+}
+
+void ControlNode::withdrawRobot() {
+  recovery_server_.reset();
+  robot_services_.reset();
+}
+
+bool ControlNode::connectRequested(TriggerRequest& /*request*/, TriggerResponse& response) {
+  const std::lock_guard<std::mutex> lock(connection_mutex_);
+  if (connected_) {
+    response.success = false;
+    response.message = "Already connected to robot. Cannot connect twice.";
+    return true;
+  }
+  try {
+    connectRobot();
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.message = std::string("Failed to connect robot: ") + error.what();
+    ROS_ERROR_STREAM("franka_control_node: " << response.message);
+  }
+  return true;
+}
+
+void ControlNode::connectRobot() {
+  withdrawRobot();
+  franka_hw_.connect();
+  {
+    const std::lock_guard<std::mutex> lock(franka_hw_.robotMutex());
+    franka_hw_.update(franka_hw_.robot().readOnce());
+  }
+  offerRobot();
+  lost_ = false;
+  connected_ = true;
+  health_->connected(true);
+  ROS_INFO("franka_control_node: connected to the robot.");
+}
+
+bool ControlNode::disconnectRequested(TriggerRequest& /*request*/, TriggerResponse& response) {
+  const std::lock_guard<std::mutex> lock(connection_mutex_);
+  if (franka_hw_.controllerActive()) {
+    response.success = false;
+    response.message = "Controller is active. Cannot disconnect while a controller is running.";
+    return true;
+  }
+  connected_ = false;
+  withdrawRobot();
+  response.success = franka_hw_.disconnect();
+  response.message = response.success ? "" : "Failed to disconnect robot.";
+  health_->connected(false);
+  lost_ = false;
+  return true;
+}
+
+void ControlNode::recover() {
+  if (!has_error_) {
+    // The robot is not touched: a recovery ahead of time must not clear an error still to come.
+    ROS_WARN("franka_control_node: error_recovery was called, but there is nothing to recover.");
+    recovery_server_->setSucceeded();
+    return;
+  }
+  try {
+    if (!restarts_controllers_) {
+      stopControllers();
+    }
+    const std::lock_guard<std::mutex> lock(franka_hw_.robotMutex());
+    // An error of the controllers' own (NaN, a lost connection) leaves the robot Idle.
+    if (franka_hw_.robotMode() != franka::RobotMode::kIdle) {
+      franka_hw_.robot().automaticErrorRecovery();
+    }
+    has_error_ = false;
+    health_->hasError(false);
+    recovery_server_->setSucceeded();
+    ROS_INFO("franka_control_node: recovered from the error.");
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM("franka_control_node: the robot did not recover. " << error.what());
+    recovery_server_->setAborted(franka_msgs::ErrorRecoveryResult(), error.what());
+  }
+}
+
+void ControlNode::stopControllers() {
+  std::vector<std::string> commanding;
+  for (const controller_manager::ControllerSpec& spec : controller_manager_->getControllers()) {
+    for (const auto& claimed : spec.info.claimed_resources) {
+      if (spec.c->isRunning() && !claimed.resources.empty()) {
+        commanding.push_back(spec.info.name);
+        break;
+      }
+    }
+  }
+  if (!commanding.empty()) {
+    controller_manager_->switchController(
+        {}, commanding, controller_manager_msgs::SwitchControllerRequest::BEST_EFFORT, false,
+        kStopTimeout);
+  }
+}
+
+// --- the loop ------------------------------------------------------------------------------------
+
+void ControlNode::run() {
+  last_update_ = ros::Time::now();
+  while (ros::ok()) {
+    if (!connected_) {
+      if (lost_ && reconnects_) {
+        reconnect();
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } else if (franka_hw_.controllerActive() && !has_error_) {
+      moveRobot();
+    } else {
+      watchIdleRobot();
+    }
+  }
+}
+
+void ControlNode::watchIdleRobot() {
+  try {
+    readIdleRobot();
+  } catch (const franka::Exception& error) {
+    robotLost(error.what());
+    return;
+  }
+  const ros::Time now = ros::Time::now();
+  updateControllers(now, now - last_update_, false);
+  franka_hw_.checkJointLimits();
+  last_update_ = now;
+  if (has_error_ && robot_stopped_ && franka_hw_.robotMode() == franka::RobotMode::kIdle) {
+    // Somebody else recovered it, or released the user stop.
+    has_error_ = false;
+    health_->hasError(false);
+  }
+  // Lets those take the robot who wait for it.
+  std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
+
+void ControlNode::readIdleRobot() {
+  const std::lock_guard<std::mutex> lock(franka_hw_.robotMutex());
+  if (!franka_hw_.connected()) {
+    return;
+  }
+  const franka::RobotState state = franka_hw_.robot().readOnce();
+  franka_hw_.update(state);
+  health_->state(state);
+}
+
+void ControlNode::moveRobot() {
+  try {
+    franka_hw_.control([this](const ros::Time& time, const ros::Duration& period) {
+      return updateMoving(time, period);
+    });
+  } catch (const franka::ControlException& error) {
+    motionFailed(error.what(), error.log);
+    robot_stopped_ = true;
+  } catch (const franka::NetworkException& error) {
+    aborts_->report(error.what(), {});
+    robotLost(error.what());
+  } catch (const std::exception& error) {
+    motionFailed(error.what(), {});
+    robot_stopped_ = false;
+  }
+  last_update_ = ros::Time::now();
+}
+
+bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& period) {
+  const bool first = period.isZero();
+  health_->state(*robot_state_);
+  updateControllers(time, period, first);
+  franka_hw_.checkJointLimits();
+  if (first) {
+    franka_hw_.reset();
+  } else {
+    franka_hw_.enforceLimits(period);
+  }
+  return ros::ok();
+}
+
+void ControlNode::updateControllers(const ros::Time& time, const ros::Duration& period,
+                                    bool reset) {
+  health_->cycleBegins();
+  controller_manager_->update(time, period, reset);
+  health_->cycleEnds();
+}
+
+void ControlNode::motionFailed(const std::string& what, const std::vector<franka::Record>& log) {
+  has_error_ = true;
+  health_->hasError(true);
+  aborts_->report(what, log);
+}
+
+void ControlNode::robotLost(const std::string& what) {
+  const std::lock_guard<std::mutex> lock(connection_mutex_);
+  ROS_ERROR_STREAM("franka_control_node: the robot is lost. "
+                   << what
+                   << (reconnects_ ? " Trying to connect again every second."
+                                   : " Call the service connect when it is back."));
+  connected_ = false;
+  lost_ = true;
+  // What ran when it was lost must not move it when it is back, unless somebody says so.
+  has_error_ = franka_hw_.controllerActive() || has_error_;
+  robot_stopped_ = false;
+  health_->connected(false);
+  health_->hasError(has_error_);
+  withdrawRobot();
+  franka_hw_.dropConnection();
+}
+
+void ControlNode::reconnect() {
+  if ((ros::WallTime::now() - last_attempt_).toSec() < kReconnectPeriod) {
+    return;
+  }
+  last_attempt_ = ros::WallTime::now();
+  const std::lock_guard<std::mutex> lock(connection_mutex_);
+  try {
+    connectRobot();
+  } catch (const std::exception& error) {
+    ROS_WARN_STREAM_THROTTLE(30.0, "franka_control_node: still no robot. " << error.what());
+  }
+}
+
+}  // namespace franka_control

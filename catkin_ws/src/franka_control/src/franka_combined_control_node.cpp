@@ -1,0 +1,64 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Several arms under one controller manager, each with a thread of its own for its robot.
+#include <controller_manager/controller_manager.h>
+#include <franka/control_tools.h>
+#include <franka_hw/franka_combined_hw.h>
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/rate.h>
+#include <ros/spinner.h>
+
+#include <string>
+
+namespace {
+
+/// Real-time priority for this thread, where realtime_config does not say to do without (the arms'
+/// own parameters say the same for their threads). @returns false after a sentence
+bool raisePriority(const ros::NodeHandle& nh) {
+  std::string error;
+  if (franka::setCurrentThreadToHighestSchedulerPriority(&error)) {
+    return true;
+  }
+  if (nh.param<std::string>("realtime_config", "enforce") == "ignore") {
+    ROS_WARN_STREAM("franka_combined_control_node: going on without real-time priority. " << error);
+    return true;
+  }
+  ROS_ERROR_STREAM("franka_combined_control_node: no real-time priority. "
+                   << error
+                   << " Give the user the right to it (ulimit -r), or start with "
+                      "realtime_config:=ignore.");
+  return false;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "franka_combined_control_node");
+  ros::AsyncSpinner spinner(4);
+  spinner.start();
+
+  ros::NodeHandle nh("~");
+  franka_hw::FrankaCombinedHW robots;
+  if (!robots.init(nh, nh)) {
+    ROS_ERROR("franka_combined_control_node: the robots could not be set up (see above).");
+    return 1;
+  }
+  if (!raisePriority(nh)) {
+    return 1;
+  }
+  controller_manager::ControllerManager controllers(&robots, nh);
+
+  const ros::Duration period(0.001);
+  ros::Rate rate(period);
+  while (ros::ok()) {
+    rate.sleep();
+    const ros::Time now = ros::Time::now();
+    robots.read(now, period);
+    controllers.update(now, period, robots.controllerNeedsReset());
+    if (!robots.hasError()) {
+      robots.write(now, period);
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,335 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/control_types.h>
+#include <franka/duration.h>
+#include <franka/robot.h>
+#include <franka/robot_state.h>
+#include <franka_hw/control_mode.h>
+#include <franka_hw/franka_cartesian_command_interface.h>
+#include <franka_hw/franka_model_interface.h>
+#include <franka_hw/franka_state_interface.h>
+#include <franka_hw/model_base.h>
+#include <franka_hw/robot_clock.h>
+#include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/joint_state_interface.h>
+#include <hardware_interface/robot_hw.h>
+#include <joint_limits_interface/joint_limits.h>
+#include <joint_limits_interface/joint_limits_interface.h>
+#include <joint_limits_interface/joint_limits_rosparam.h>
+#include <joint_limits_interface/joint_limits_urdf.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+#include <ros/wall_timer.h>
+#include <urdf/model.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace franka_hw {
+
+/// A Franka arm over the Franka Control Interface, as ros_control sees it.
+///
+/// Offers joint states, the three joint command interfaces, the state, the model and both Cartesian
+/// command interfaces, and soft limits for the joints whose URDF has them. Which of them may be
+/// claimed together: resource_helpers.h.
+///
+/// Threads: one thread alternates between control(), while a controller commands the arm, and
+/// update() with readOnce() otherwise; it calls the controller manager in both. All virtual
+/// functions of the control cycle (read, write, update, enforceLimits, checkJointLimits, reset, the
+/// callbacks) belong to that thread and neither allocate, lock nor log. prepareSwitch, connect,
+/// disconnect and the services come from other threads; whoever talks to the robot holds
+/// robotMutex(), during a motion control() does.
+class FrankaHW : public hardware_interface::RobotHW {
+ public:
+  /// Thresholds of contact and collision, [Nm] and [N, Nm].
+  struct CollisionConfig {
+    std::array<double, 7> lower_torque_thresholds_acceleration;
+    std::array<double, 7> upper_torque_thresholds_acceleration;
+    std::array<double, 7> lower_torque_thresholds_nominal;
+    std::array<double, 7> upper_torque_thresholds_nominal;
+    std::array<double, 6> lower_force_thresholds_acceleration;
+    std::array<double, 6> upper_force_thresholds_acceleration;
+    std::array<double, 6> lower_force_thresholds_nominal;
+    std::array<double, 6> upper_force_thresholds_nominal;
+  };
+
+  FrankaHW();
+  ~FrankaHW() override = default;
+
+  /// Reads the parameters, connects to the robot and registers the interfaces. Once only.
+  /// @param root_nh where robot_description stands @param robot_hw_nh where the parameters stand
+  /// @returns false after a sentence that says what is missing or wrong
+  bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override;
+
+  /// Reads the parameters. @returns false after a sentence that says what is missing or wrong
+  virtual bool initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh);
+  /// Registers the interfaces.
+  virtual void initROSInterfaces(ros::NodeHandle& robot_hw_nh);
+  /// Sets up the parameters that are read anew at every switch of controllers: rate_limiting,
+  /// cutoff_frequency and internal_controller.
+  virtual void setupParameterCallbacks(ros::NodeHandle& robot_hw_nh);
+
+  /// Connects to the robot and sets its collision behavior; does nothing when connected.
+  /// @throws franka::Exception when the robot cannot be reached or refuses
+  virtual void connect();
+  /// Ends the connection. @returns false, after a sentence, while a controller commands the robot
+  virtual bool disconnect();
+  /// Lets go of a robot that is lost: no controller commands it any more, and its motion, if it had
+  /// one, has ended.
+  virtual void dropConnection();
+  /// Whether there is a connection.
+  virtual bool connected();
+
+  /// Moves the robot until the controllers that command it are stopped; returns at once when there
+  /// are none. Holds robotMutex() meanwhile.
+  /// @param ros_callback called once a millisecond of the robot's time, with that time on the clock
+  /// of ROS and the time since the last call, which is zero for the first; false ends the motion.
+  /// @throws franka::Exception when the motion ends otherwise
+  virtual void control(
+      const std::function<bool(const ros::Time&, const ros::Duration&)>& ros_callback);
+
+  /// Takes a robot state over that was read outside of control().
+  virtual void update(const franka::RobotState& robot_state);
+
+  /// Whether a controller commands the robot.
+  virtual bool controllerActive() const noexcept;
+
+  bool checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const override;
+  void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                const std::list<hardware_interface::ControllerInfo>& stop_list) override;
+  /// Decides on the control mode after the switch. A motion that has to change is ended here: this
+  /// waits for it, and refuses after two seconds.
+  bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                     const std::list<hardware_interface::ControllerInfo>& stop_list) override;
+
+  /// The commands that the controllers have given: [rad], [rad/s], [Nm].
+  virtual std::array<double, 7> getJointPositionCommand() const noexcept;
+  virtual std::array<double, 7> getJointVelocityCommand() const noexcept;
+  virtual std::array<double, 7> getJointEffortCommand() const noexcept;
+
+  /// Cuts the controllers' joint commands to the soft limits. @param period since the last cycle;
+  /// nothing happens when it is zero
+  virtual void enforceLimits(const ros::Duration& period);
+  /// Makes the position limits start from the present positions.
+  virtual void reset();
+  /// Notes which joints are near an end of their range; a timer prints them, at most every 5 s.
+  virtual void checkJointLimits();
+
+  void read(const ros::Time& time, const ros::Duration& period) override;
+  void write(const ros::Time& time, const ros::Duration& period) override;
+
+  /// @throws std::logic_error with a sentence when there is no connection
+  virtual franka::Robot& robot() const;
+  /// Held by whoever talks to the robot.
+  virtual std::mutex& robotMutex();
+  /// As of the last state.
+  franka::RobotMode robotMode() const;
+
+  /// Whether a value of the command is not a number.
+  static bool commandHasNaN(const franka::Torques& command);
+  static bool commandHasNaN(const franka::JointPositions& command);
+  static bool commandHasNaN(const franka::JointVelocities& command);
+  static bool commandHasNaN(const franka::CartesianPose& command);
+  static bool commandHasNaN(const franka::CartesianVelocities& command);
+
+  /// The list of numbers of that name, or the defaults, with an info line, if it is missing or has
+  /// another length.
+  static std::vector<double> getCollisionThresholds(const std::string& name,
+                                                    const ros::NodeHandle& robot_hw_nh,
+                                                    const std::vector<double>& defaults);
+
+ protected:
+  using Callback = std::function<bool(const franka::RobotState&, franka::Duration)>;
+
+  /// Whether a value of the array is not a number.
+  template <size_t size>
+  static bool arrayHasNaN(const std::array<double, size>& array) {
+    return std::any_of(array.begin(), array.end(), [](double e) { return std::isnan(e); });
+  }
+
+  /// Ends a motion that still moves, by leaving the control loop: the robot then brakes by itself.
+  struct MotionInterrupted : public std::exception {
+    const char* what() const noexcept override { return "the motion was interrupted by a switch"; }
+  };
+
+  /// One millisecond of a motion. @param command which write() fills
+  /// @throws std::invalid_argument when a controller commands NaN
+  /// @throws MotionInterrupted when the motion has to end while the robot moves
+  template <typename T>
+  T controlCallback(const T& command, Callback ros_callback, const franka::RobotState& robot_state,
+                    franka::Duration time_step) {
+    robot_state_libfranka_ = robot_state;
+    const ros::Duration period(time_step.toSec());
+    read(clock_.time(), period);
+    if (!controller_active_ || (ros_callback && !ros_callback(robot_state, time_step))) {
+      return finished(command, robot_state);
+    }
+    write(clock_.time(), period);
+    if (commandHasNaN(command)) {
+      throw std::invalid_argument("A controller of " + arm_id_ +
+                                  " commands a value that is no number (NaN). The motion was ended "
+                                  "before it reached the robot.");
+    }
+    return command;
+  }
+
+  /// The last command of a motion.
+  template <typename T>
+  static T finished(const T& command, const franka::RobotState& robot_state) {
+    if (isMoving(robot_state)) {
+      throw MotionInterrupted();
+    }
+    return franka::MotionFinished(command);
+  }
+  /// Whether the robot would not accept the end of a motion, because it moves or is told to.
+  static bool isMoving(const franka::RobotState& robot_state) noexcept;
+
+  /// Soft limits of every joint whose URDF has a limit and a safety controller.
+  template <typename T>
+  void setupLimitInterface(joint_limits_interface::JointLimitsInterface<T>& limit_interface,
+                           hardware_interface::JointCommandInterface& command_interface) {
+    for (size_t i = 0; i < joint_names_.size(); i++) {
+      joint_limits_interface::SoftJointLimits soft_limits;
+      joint_limits_interface::JointLimits joint_limits;
+      if (!readLimits(i, joint_limits, soft_limits)) {
+        continue;
+      }
+      limit_interface.registerHandle(
+          T(command_interface.getHandle(joint_names_[i]), joint_limits, soft_limits));
+    }
+    // Looking is no claim.
+    command_interface.clearClaims();
+  }
+
+  virtual void setupJointStateInterface(franka::RobotState& robot_state);
+
+  /// @param use_q_d whether the handles show desired positions and velocities
+  template <typename T>
+  void setupJointCommandInterface(std::array<double, 7>& command, franka::RobotState& state,
+                                  bool use_q_d, T& interface) {
+    for (size_t i = 0; i < joint_names_.size(); i++) {
+      const hardware_interface::JointStateHandle joint(
+          joint_names_[i], use_q_d ? &state.q_d[i] : &state.q[i],
+          use_q_d ? &state.dq_d[i] : &state.dq[i], &state.tau_J[i]);
+      interface.registerHandle(hardware_interface::JointHandle(joint, &command[i]));
+    }
+    registerInterface(&interface);
+  }
+
+  virtual void setupFrankaStateInterface(franka::RobotState& robot_state);
+  virtual void setupFrankaCartesianPoseInterface(franka::CartesianPose& pose_cartesian_command);
+  virtual void setupFrankaCartesianVelocityInterface(
+      franka::CartesianVelocities& velocity_cartesian_command);
+  virtual void setupFrankaModelInterface(franka::RobotState& robot_state);
+
+  /// Chooses what control() will run. @returns false for modes that this robot cannot run
+  virtual bool setRunFunction(const ControlMode& requested_control_mode, bool limit_rate,
+                              double cutoff_frequency, franka::ControllerMode internal_controller);
+
+  /// Connects, loads the model and reads the first state.
+  virtual void initRobot();
+
+  /// Ends the motion under way and waits for it. @returns false when it does not end in time
+  bool endMotion(std::unique_lock<std::mutex>& robot_lock);
+
+  CollisionConfig collision_config_{};
+
+  hardware_interface::JointStateInterface joint_state_interface_{};
+  FrankaStateInterface franka_state_interface_{};
+  hardware_interface::PositionJointInterface position_joint_interface_{};
+  hardware_interface::VelocityJointInterface velocity_joint_interface_{};
+  hardware_interface::EffortJointInterface effort_joint_interface_{};
+  FrankaPoseCartesianInterface franka_pose_cartesian_interface_{};
+  FrankaVelocityCartesianInterface franka_velocity_cartesian_interface_{};
+  FrankaModelInterface franka_model_interface_{};
+
+  joint_limits_interface::PositionJointSoftLimitsInterface position_joint_limit_interface_{};
+  joint_limits_interface::VelocityJointSoftLimitsInterface velocity_joint_limit_interface_{};
+  joint_limits_interface::EffortJointSoftLimitsInterface effort_joint_limit_interface_{};
+
+  // What goes to and comes from libfranka ...
+  franka::RobotState robot_state_libfranka_{};
+  franka::JointPositions position_joint_command_libfranka_;
+  franka::JointVelocities velocity_joint_command_libfranka_;
+  franka::Torques effort_joint_command_libfranka_;
+  franka::CartesianPose pose_cartesian_command_libfranka_;
+  franka::CartesianVelocities velocity_cartesian_command_libfranka_;
+
+  // ... and what the handles refer to.
+  franka::RobotState robot_state_ros_{};
+  franka::JointPositions position_joint_command_ros_;
+  franka::JointVelocities velocity_joint_command_ros_;
+  franka::Torques effort_joint_command_ros_;
+  franka::CartesianPose pose_cartesian_command_ros_;
+  franka::CartesianVelocities velocity_cartesian_command_ros_;
+
+  // For classes whose control loop and controllers run in two threads; this one uses none of them.
+  std::mutex libfranka_state_mutex_;
+  std::mutex ros_state_mutex_;
+  std::mutex libfranka_cmd_mutex_;
+  std::mutex ros_cmd_mutex_;
+
+  std::mutex robot_mutex_;
+  std::unique_ptr<franka::Robot> robot_{};
+  std::unique_ptr<franka_hw::ModelBase> model_{};
+
+  std::array<std::string, 7> joint_names_;
+  std::string arm_id_;
+  std::string robot_ip_;
+  urdf::Model urdf_model_;
+  double joint_limit_warning_threshold_{0.1};
+
+  franka::RealtimeConfig realtime_config_{franka::RealtimeConfig::kEnforce};
+
+  bool initialized_{false};
+  std::atomic_bool controller_active_{false};
+  ControlMode current_control_mode_ = ControlMode::None;
+
+  std::function<franka::ControllerMode()> get_internal_controller_;
+  std::function<bool()> get_limit_rate_;
+  std::function<double()> get_cutoff_frequency_;
+  std::function<void(franka::Robot&, Callback)> run_function_;
+
+  RobotClock clock_;  ///< what time the controllers are told
+
+ private:
+  /// How a motion is run; a change needs a new motion.
+  struct RunSettings {
+    ControlMode mode{ControlMode::None};
+    bool limit_rate{true};
+    double cutoff_frequency{0.0};
+    franka::ControllerMode internal_controller{franka::ControllerMode::kJointImpedance};
+    bool operator==(const RunSettings& other) const;
+  };
+
+  bool readJointNames(const ros::NodeHandle& nh);
+  bool readRealtimeConfig(const ros::NodeHandle& nh);
+  void readCollisionConfig(const ros::NodeHandle& nh);
+  bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
+                  joint_limits_interface::SoftJointLimits& soft_limits) const;
+  void readJointRanges();
+  void reportJointLimits(const ros::WallTimerEvent& event);
+  RunSettings requestedSettings(ControlMode mode) const;
+
+  RunSettings run_settings_;
+  std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
+
+  std::array<std::array<double, 2>, 7> joint_ranges_{};  // [rad], from the URDF
+  std::array<bool, 7> has_range_{};
+  std::array<std::atomic<double>, 7> near_limit_;  // position of a joint near its end, else NaN
+  ros::WallTimer limit_timer_;
+};
+
+}  // namespace franka_hw

@@ -1,0 +1,94 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/exception.h>
+#include <franka/robot.h>
+#include <franka_msgs/SetCartesianImpedance.h>
+#include <franka_msgs/SetEEFrame.h>
+#include <franka_msgs/SetForceTorqueCollisionBehavior.h>
+#include <franka_msgs/SetFullCollisionBehavior.h>
+#include <franka_msgs/SetJointImpedance.h>
+#include <franka_msgs/SetKFrame.h>
+#include <franka_msgs/SetLoad.h>
+#include <ros/console.h>
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace franka_hw {
+
+/// Offers a service whose response has `success` and `error`. Whatever the handler throws becomes
+/// success = false with the text of the exception; the call itself is always answered.
+/// @tparam T the service's message type @param handler does the work, in a thread of the node
+/// handle
+template <typename T>
+ros::ServiceServer advertiseService(
+    ros::NodeHandle& node_handle, const std::string& name,
+    std::function<void(typename T::Request&, typename T::Response&)> handler) {
+  return node_handle.advertiseService<typename T::Request, typename T::Response>(
+      name, [name, handler](typename T::Request& request, typename T::Response& response) {
+        try {
+          handler(request, response);
+          response.success = true;
+          ROS_DEBUG_STREAM(name << " succeeded.");
+        } catch (const std::exception& error) {
+          ROS_ERROR_STREAM(name << " failed: " << error.what());
+          response.success = false;
+          response.error = error.what();
+        }
+        return true;
+      });
+}
+
+/// Holds service servers for as long as it lives.
+class ServiceContainer {
+ public:
+  /// As franka_hw::advertiseService<T>. @returns this container, so that calls can be chained
+  template <typename T, typename... TArgs>
+  ServiceContainer& advertiseService(TArgs&&... args) {
+    services_.push_back(franka_hw::advertiseService<T>(std::forward<TArgs>(args)...));
+    return *this;
+  }
+
+ private:
+  std::vector<ros::ServiceServer> services_;
+};
+
+/// Offers the seven services that configure the robot: set_joint_impedance,
+/// set_cartesian_impedance, set_EE_frame, set_K_frame, set_force_torque_collision_behavior,
+/// set_full_collision_behavior and set_load. While a motion holds the robot they are refused at
+/// once, with a sentence that says what to do, instead of waiting for its end.
+/// @param robot outlives the services @param robot_mutex is held by who uses the robot
+void setupServices(franka::Robot& robot, std::mutex& robot_mutex, ros::NodeHandle& node_handle,
+                   ServiceContainer& services);
+
+/// @name What the services do
+/// @throws franka::Exception when the robot refuses or cannot be reached
+/// @{
+void setCartesianImpedance(franka::Robot& robot,
+                           const franka_msgs::SetCartesianImpedance::Request& req,
+                           franka_msgs::SetCartesianImpedance::Response& res);
+void setJointImpedance(franka::Robot& robot, const franka_msgs::SetJointImpedance::Request& req,
+                       franka_msgs::SetJointImpedance::Response& res);
+void setEEFrame(franka::Robot& robot, const franka_msgs::SetEEFrame::Request& req,
+                franka_msgs::SetEEFrame::Response& res);
+void setKFrame(franka::Robot& robot, const franka_msgs::SetKFrame::Request& req,
+               franka_msgs::SetKFrame::Response& res);
+void setForceTorqueCollisionBehavior(
+    franka::Robot& robot, const franka_msgs::SetForceTorqueCollisionBehavior::Request& req,
+    franka_msgs::SetForceTorqueCollisionBehavior::Response& res);
+void setFullCollisionBehavior(franka::Robot& robot,
+                              const franka_msgs::SetFullCollisionBehavior::Request& req,
+                              franka_msgs::SetFullCollisionBehavior::Response& res);
+void setLoad(franka::Robot& robot, const franka_msgs::SetLoad::Request& req,
+             franka_msgs::SetLoad::Response& res);
+/// @}
+
+}  // namespace franka_hw

@@ -1,0 +1,121 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_hw/franka_combined_hw.h>
+#include <ros/console.h>
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <string>
+
+namespace franka_hw {
+
+bool FrankaCombinedHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
+  if (!CombinedRobotHW::init(root_nh, robot_hw_nh)) {
+    return false;
+  }
+  for (const hardware_interface::RobotHWSharedPtr& robot_hw : robot_hw_list_) {
+    auto* const arm = dynamic_cast<FrankaCombinableHW*>(robot_hw.get());
+    if (arm != nullptr) {
+      arms_.push_back(arm);
+    } else {
+      ROS_WARN(
+          "FrankaCombinedHW: one part of robot_hardware is no FrankaCombinableHW; errors and "
+          "connections of it are its own affair.");
+    }
+  }
+  setupServices(robot_hw_nh);
+  return true;
+}
+
+void FrankaCombinedHW::setupServices(ros::NodeHandle& robot_hw_nh) {
+  typedef std_srvs::Trigger::Request Request;
+  typedef std_srvs::Trigger::Response Response;
+  connect_server_ = robot_hw_nh.advertiseService<Request, Response>(
+      "connect", [this](Request& /*request*/, Response& response) {
+        try {
+          connect();
+          response.success = true;
+        } catch (const std::exception& error) {
+          response.success = false;
+          response.message =
+              std::string("FrankaCombinedHW: Failed to connect robot: ") + error.what();
+          ROS_ERROR_STREAM(response.message);
+        }
+        return true;
+      });
+  disconnect_server_ = robot_hw_nh.advertiseService<Request, Response>(
+      "disconnect", [this](Request& /*request*/, Response& response) {
+        response.success = disconnect();
+        response.message = response.success ? ""
+                                            : "FrankaCombinedHW: Failed to disconnect robot: "
+                                              "a controller is active. Stop it first.";
+        return true;
+      });
+  recovery_server_ = std::make_unique<RecoveryServer>(
+      robot_hw_nh, "error_recovery", [this](const auto& /*goal*/) { recover(); }, false);
+  recovery_server_->start();
+}
+
+void FrankaCombinedHW::recover() {
+  is_recovering_ = true;
+  std::string failures;
+  for (FrankaCombinableHW* const arm : arms_) {
+    try {
+      arm->resetError();
+    } catch (const std::exception& error) {
+      failures += (failures.empty() ? "" : " ") + arm->getArmID() + ": " + error.what();
+    }
+  }
+  is_recovering_ = false;
+  if (failures.empty()) {
+    recovery_server_->setSucceeded();
+  } else {
+    ROS_ERROR_STREAM("FrankaCombinedHW: " << failures);
+    recovery_server_->setAborted(franka_msgs::ErrorRecoveryResult(), failures);
+  }
+}
+
+void FrankaCombinedHW::read(const ros::Time& time, const ros::Duration& period) {
+  CombinedRobotHW::read(time, period);
+  handleError();
+}
+
+void FrankaCombinedHW::handleError() {
+  if (!hasError() || is_recovering_) {
+    return;
+  }
+  for (FrankaCombinableHW* const arm : arms_) {
+    if (!arm->hasError()) {
+      arm->triggerError();
+    }
+  }
+}
+
+bool FrankaCombinedHW::hasError() {
+  return std::any_of(arms_.begin(), arms_.end(), [](const auto* arm) { return arm->hasError(); });
+}
+
+bool FrankaCombinedHW::controllerNeedsReset() {
+  return std::any_of(arms_.begin(), arms_.end(),
+                     [](const auto* arm) { return arm->controllerNeedsReset(); });
+}
+
+void FrankaCombinedHW::connect() {
+  for (FrankaCombinableHW* const arm : arms_) {
+    arm->connect();
+  }
+}
+
+bool FrankaCombinedHW::disconnect() {
+  if (std::any_of(arms_.begin(), arms_.end(),
+                  [](const auto* arm) { return arm->controllerActive(); })) {
+    return false;
+  }
+  bool all = true;
+  for (FrankaCombinableHW* const arm : arms_) {
+    all = arm->disconnect() && all;
+  }
+  return all;
+}
+
+}  // namespace franka_hw

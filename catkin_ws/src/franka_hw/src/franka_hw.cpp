@@ -1,0 +1,262 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// FrankaHW: its beginning, its connection, its interfaces and its state.
+#include <franka_hw/franka_hw.h>
+#include <franka_hw/model.h>
+#include <ros/console.h>
+
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace franka_hw {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDegreesPerRadian = 57.29577951308232;
+// How often joints near their ends are printed at most. [s]
+constexpr double kLimitReportPeriod = 5.0;
+constexpr double kLimitCheckPeriod = 0.5;
+
+}  // namespace
+
+FrankaHW::FrankaHW()
+    : position_joint_command_libfranka_({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}),
+      velocity_joint_command_libfranka_({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}),
+      effort_joint_command_libfranka_({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}),
+      pose_cartesian_command_libfranka_(
+          {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}),
+      velocity_cartesian_command_libfranka_({0.0, 0.0, 0.0, 0.0, 0.0, 0.0}),
+      position_joint_command_ros_(position_joint_command_libfranka_),
+      velocity_joint_command_ros_(velocity_joint_command_libfranka_),
+      effort_joint_command_ros_(effort_joint_command_libfranka_),
+      pose_cartesian_command_ros_(pose_cartesian_command_libfranka_),
+      velocity_cartesian_command_ros_(velocity_cartesian_command_libfranka_) {
+  for (std::atomic<double>& position : near_limit_) {
+    position = kNan;
+  }
+}
+
+bool FrankaHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
+  if (initialized_) {
+    ROS_ERROR("FrankaHW: init was called a second time.");
+    return false;
+  }
+  if (!initParameters(root_nh, robot_hw_nh)) {
+    ROS_ERROR("FrankaHW: the parameters could not be read (see above).");
+    return false;
+  }
+  try {
+    initRobot();
+  } catch (const std::runtime_error& error) {
+    ROS_ERROR_STREAM("FrankaHW: the robot '" << arm_id_ << "' at " << robot_ip_
+                                             << " could not be initialised. " << error.what());
+    return false;
+  }
+  initROSInterfaces(robot_hw_nh);
+  setupParameterCallbacks(robot_hw_nh);
+  limit_timer_ = robot_hw_nh.createWallTimer(ros::WallDuration(kLimitCheckPeriod),
+                                             &FrankaHW::reportJointLimits, this);
+  initialized_ = true;
+  return true;
+}
+
+void FrankaHW::initRobot() {
+  connect();
+  model_ = std::make_unique<franka_hw::Model>(robot_->loadModel());
+  update(robot_->readOnce());
+}
+
+void FrankaHW::connect() {
+  const std::lock_guard<std::mutex> lock(robot_mutex_);
+  if (robot_) {
+    return;
+  }
+  auto robot = std::make_unique<franka::Robot>(robot_ip_, realtime_config_);
+  const CollisionConfig& config = collision_config_;
+  robot->setCollisionBehavior(
+      config.lower_torque_thresholds_acceleration, config.upper_torque_thresholds_acceleration,
+      config.lower_torque_thresholds_nominal, config.upper_torque_thresholds_nominal,
+      config.lower_force_thresholds_acceleration, config.upper_force_thresholds_acceleration,
+      config.lower_force_thresholds_nominal, config.upper_force_thresholds_nominal);
+  // Only a robot that is completely set up counts as connected.
+  robot_ = std::move(robot);
+}
+
+bool FrankaHW::disconnect() {
+  if (controllerActive()) {
+    ROS_ERROR("FrankaHW: the connection cannot be ended while a controller is active.");
+    return false;
+  }
+  const std::lock_guard<std::mutex> lock(robot_mutex_);
+  robot_.reset();
+  return true;
+}
+
+void FrankaHW::dropConnection() {
+  const std::lock_guard<std::mutex> lock(robot_mutex_);
+  robot_.reset();
+}
+
+bool FrankaHW::connected() { return robot_ != nullptr; }
+
+franka::Robot& FrankaHW::robot() const {
+  if (!initialized_ || !robot_) {
+    throw std::logic_error(!initialized_
+                               ? "FrankaHW: the robot was asked for before init() succeeded."
+                               : "FrankaHW: the robot was asked for while disconnected.");
+  }
+  return *robot_;
+}
+
+std::mutex& FrankaHW::robotMutex() { return robot_mutex_; }
+
+franka::RobotMode FrankaHW::robotMode() const { return robot_mode_; }
+
+// --- interfaces ----------------------------------------------------------------------------------
+
+void FrankaHW::initROSInterfaces(ros::NodeHandle& /*robot_hw_nh*/) {
+  setupJointStateInterface(robot_state_ros_);
+  setupJointCommandInterface(position_joint_command_ros_.q, robot_state_ros_, true,
+                             position_joint_interface_);
+  setupJointCommandInterface(velocity_joint_command_ros_.dq, robot_state_ros_, true,
+                             velocity_joint_interface_);
+  setupJointCommandInterface(effort_joint_command_ros_.tau_J, robot_state_ros_, false,
+                             effort_joint_interface_);
+  setupLimitInterface(position_joint_limit_interface_, position_joint_interface_);
+  setupLimitInterface(velocity_joint_limit_interface_, velocity_joint_interface_);
+  setupLimitInterface(effort_joint_limit_interface_, effort_joint_interface_);
+  setupFrankaStateInterface(robot_state_ros_);
+  setupFrankaCartesianPoseInterface(pose_cartesian_command_ros_);
+  setupFrankaCartesianVelocityInterface(velocity_cartesian_command_ros_);
+  setupFrankaModelInterface(robot_state_ros_);
+}
+
+void FrankaHW::setupJointStateInterface(franka::RobotState& robot_state) {
+  for (size_t i = 0; i < joint_names_.size(); i++) {
+    joint_state_interface_.registerHandle(hardware_interface::JointStateHandle(
+        joint_names_[i], &robot_state.q[i], &robot_state.dq[i], &robot_state.tau_J[i]));
+  }
+  registerInterface(&joint_state_interface_);
+}
+
+void FrankaHW::setupFrankaStateInterface(franka::RobotState& robot_state) {
+  franka_state_interface_.registerHandle(FrankaStateHandle(arm_id_ + "_robot", robot_state));
+  registerInterface(&franka_state_interface_);
+}
+
+void FrankaHW::setupFrankaCartesianPoseInterface(franka::CartesianPose& pose_cartesian_command) {
+  franka_pose_cartesian_interface_.registerHandle(
+      FrankaCartesianPoseHandle(franka_state_interface_.getHandle(arm_id_ + "_robot"),
+                                pose_cartesian_command.O_T_EE, pose_cartesian_command.elbow));
+  registerInterface(&franka_pose_cartesian_interface_);
+}
+
+void FrankaHW::setupFrankaCartesianVelocityInterface(
+    franka::CartesianVelocities& velocity_cartesian_command) {
+  franka_velocity_cartesian_interface_.registerHandle(FrankaCartesianVelocityHandle(
+      franka_state_interface_.getHandle(arm_id_ + "_robot"), velocity_cartesian_command.O_dP_EE,
+      velocity_cartesian_command.elbow));
+  registerInterface(&franka_velocity_cartesian_interface_);
+}
+
+void FrankaHW::setupFrankaModelInterface(franka::RobotState& robot_state) {
+  if (!model_) {
+    return;
+  }
+  franka_model_interface_.registerHandle(
+      FrankaModelHandle(arm_id_ + "_model", *model_, robot_state));
+  registerInterface(&franka_model_interface_);
+}
+
+// --- state and commands --------------------------------------------------------------------------
+
+void FrankaHW::update(const franka::RobotState& robot_state) {
+  robot_state_libfranka_ = robot_state;
+  robot_state_ros_ = robot_state;
+  robot_mode_ = robot_state.robot_mode;
+}
+
+void FrankaHW::read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {
+  robot_state_ros_ = robot_state_libfranka_;
+  robot_mode_ = robot_state_ros_.robot_mode;
+}
+
+void FrankaHW::write(const ros::Time& /*time*/, const ros::Duration& /*period*/) {
+  pose_cartesian_command_libfranka_ = pose_cartesian_command_ros_;
+  velocity_cartesian_command_libfranka_ = velocity_cartesian_command_ros_;
+  effort_joint_command_libfranka_ = effort_joint_command_ros_;
+  position_joint_command_libfranka_ = position_joint_command_ros_;
+  velocity_joint_command_libfranka_ = velocity_joint_command_ros_;
+}
+
+std::array<double, 7> FrankaHW::getJointPositionCommand() const noexcept {
+  return position_joint_command_ros_.q;
+}
+std::array<double, 7> FrankaHW::getJointVelocityCommand() const noexcept {
+  return velocity_joint_command_ros_.dq;
+}
+std::array<double, 7> FrankaHW::getJointEffortCommand() const noexcept {
+  return effort_joint_command_ros_.tau_J;
+}
+
+bool FrankaHW::commandHasNaN(const franka::Torques& command) { return arrayHasNaN(command.tau_J); }
+bool FrankaHW::commandHasNaN(const franka::JointPositions& command) {
+  return arrayHasNaN(command.q);
+}
+bool FrankaHW::commandHasNaN(const franka::JointVelocities& command) {
+  return arrayHasNaN(command.dq);
+}
+bool FrankaHW::commandHasNaN(const franka::CartesianPose& command) {
+  return arrayHasNaN(command.elbow) || arrayHasNaN(command.O_T_EE);
+}
+bool FrankaHW::commandHasNaN(const franka::CartesianVelocities& command) {
+  return arrayHasNaN(command.elbow) || arrayHasNaN(command.O_dP_EE);
+}
+
+// --- limits --------------------------------------------------------------------------------------
+
+void FrankaHW::enforceLimits(const ros::Duration& period) {
+  if (period.toSec() > 0.0) {
+    position_joint_limit_interface_.enforceLimits(period);
+    velocity_joint_limit_interface_.enforceLimits(period);
+    effort_joint_limit_interface_.enforceLimits(period);
+  }
+}
+
+void FrankaHW::reset() { position_joint_limit_interface_.reset(); }
+
+void FrankaHW::checkJointLimits() {
+  for (size_t i = 0; i < joint_names_.size(); i++) {
+    const double q = robot_state_ros_.q[i];
+    const double room =
+        std::min(std::abs(q - joint_ranges_[i][0]), std::abs(q - joint_ranges_[i][1]));
+    const bool near = has_range_[i] && room < joint_limit_warning_threshold_;
+    near_limit_[i].store(near ? q : kNan, std::memory_order_relaxed);
+  }
+}
+
+void FrankaHW::reportJointLimits(const ros::WallTimerEvent& /*event*/) {
+  std::ostringstream joints;
+  joints << std::fixed << std::setprecision(6);
+  for (size_t i = 0; i < joint_names_.size(); i++) {
+    const double q = near_limit_[i].load(std::memory_order_relaxed);
+    if (std::isnan(q)) {
+      continue;
+    }
+    const double room =
+        std::min(std::abs(q - joint_ranges_[i][0]), std::abs(q - joint_ranges_[i][1]));
+    joints << "\n\t" << joint_names_[i] << ": " << room * kDegreesPerRadian
+           << " degrees to the end of its range (q = " << q << ", limits " << joint_ranges_[i][0]
+           << " and " << joint_ranges_[i][1] << " rad)";
+  }
+  if (!joints.str().empty()) {
+    ROS_WARN_STREAM_THROTTLE(kLimitReportPeriod, "FrankaHW: joints of '"
+                                                     << arm_id_
+                                                     << "' near their limits:" << joints.str());
+  }
+}
+
+}  // namespace franka_hw

@@ -1,0 +1,230 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// FrankaHW: the switch of controllers, and the motion.
+#include <franka_hw/franka_hw.h>
+#include <franka_hw/resource_helpers.h>
+#include <ros/console.h>
+
+#include <chrono>
+#include <thread>
+#include <tuple>
+
+namespace franka_hw {
+
+namespace {
+
+// Above these the robot would refuse to end a motion: it has to brake first. [rad/s]
+constexpr double kDesiredAtRest = 0.005;
+constexpr double kMeasuredAtRest = 0.05;
+// A robot needs some hundred milliseconds to come to rest from full speed.
+constexpr std::chrono::seconds kLongestStop{2};
+
+bool anyAbove(const std::array<double, 7>& values, double limit) noexcept {
+  return std::any_of(values.begin(), values.end(),
+                     [limit](double value) { return std::abs(value) > limit; });
+}
+
+/// The mode the controllers ask for on this arm. @returns false for claims nobody knows
+bool modeOf(const std::string& arm_id, const std::list<hardware_interface::ControllerInfo>& list,
+            ControlMode& mode) {
+  ResourceWithClaimsMap resources = getResourceMap(list);
+  ArmClaimedMap claims;
+  if (!getArmClaimedMap(resources, claims)) {
+    return false;
+  }
+  mode = getControlMode(arm_id, claims);
+  return true;
+}
+
+}  // namespace
+
+bool FrankaHW::RunSettings::operator==(const RunSettings& other) const {
+  return std::tie(mode, limit_rate, cutoff_frequency, internal_controller) ==
+         std::tie(other.mode, other.limit_rate, other.cutoff_frequency, other.internal_controller);
+}
+
+bool FrankaHW::controllerActive() const noexcept { return controller_active_; }
+
+// --- the switch ----------------------------------------------------------------------------------
+
+bool FrankaHW::checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const {
+  ResourceWithClaimsMap resources = getResourceMap(info);
+  if (hasConflictingMultiClaim(resources)) {
+    return true;
+  }
+  ArmClaimedMap claims;
+  if (!getArmClaimedMap(resources, claims)) {
+    ROS_ERROR_STREAM("FrankaHW: a controller claims what is no part of a Franka arm.");
+    return true;
+  }
+  return hasConflictingJointAndCartesianClaim(claims, arm_id_) ||
+         partiallyClaimsArmJoints(claims, arm_id_);
+}
+
+bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                             const std::list<hardware_interface::ControllerInfo>& stop_list) {
+  ControlMode start_mode = ControlMode::None;
+  ControlMode stop_mode = ControlMode::None;
+  if (!modeOf(arm_id_, start_list, start_mode) || !modeOf(arm_id_, stop_list, stop_mode)) {
+    ROS_ERROR("FrankaHW: unknown interface claimed for starting or stopping!");
+    return false;
+  }
+  if (start_mode == ControlMode::None && stop_mode == ControlMode::None) {
+    return true;  // who only looks does not disturb a motion
+  }
+  const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
+  const RunSettings settings = requestedSettings(mode);
+  // Torques may pass from one controller to the next within a motion: nothing has to come to rest.
+  if (controller_active_ && mode == ControlMode::JointTorque && settings == run_settings_) {
+    return true;
+  }
+
+  const bool was_active = controller_active_;
+  std::unique_lock<std::mutex> robot_lock(robot_mutex_, std::defer_lock);
+  if (!endMotion(robot_lock)) {
+    ROS_ERROR_STREAM("FrankaHW: the motion of '" << arm_id_ << "' did not end within "
+                                                 << kLongestStop.count() << " s.");
+    return false;
+  }
+  if (!setRunFunction(mode, settings.limit_rate, settings.cutoff_frequency,
+                      settings.internal_controller)) {
+    ROS_WARN_STREAM("FrankaHW: no such control mode for '" << arm_id_ << "': " << mode);
+    controller_active_ = was_active;
+    return false;
+  }
+  if (mode != current_control_mode_) {
+    ROS_INFO_STREAM("FrankaHW: prepared switching '"
+                    << arm_id_ << "' to " << mode << " with limit_rate=" << settings.limit_rate
+                    << ", cutoff_frequency=" << settings.cutoff_frequency
+                    << ", internal_controller="
+                    << (settings.internal_controller == franka::ControllerMode::kJointImpedance
+                            ? "joint_impedance"
+                            : "cartesian_impedance"));
+  }
+  current_control_mode_ = mode;
+  run_settings_ = settings;
+  return true;
+}
+
+bool FrankaHW::endMotion(std::unique_lock<std::mutex>& robot_lock) {
+  controller_active_ = false;
+  const auto deadline = std::chrono::steady_clock::now() + kLongestStop;
+  while (!robot_lock.try_lock()) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(20));
+  }
+  return true;
+}
+
+FrankaHW::RunSettings FrankaHW::requestedSettings(ControlMode mode) const {
+  return {mode, get_limit_rate_(), get_cutoff_frequency_(), get_internal_controller_()};
+}
+
+void FrankaHW::doSwitch(const std::list<hardware_interface::ControllerInfo>& /*start_list*/,
+                        const std::list<hardware_interface::ControllerInfo>& /*stop_list*/) {
+  if (current_control_mode_ != ControlMode::None) {
+    reset();
+    controller_active_ = true;
+  }
+}
+
+// --- the motion ----------------------------------------------------------------------------------
+
+void FrankaHW::control(
+    const std::function<bool(const ros::Time&, const ros::Duration&)>& ros_callback) {
+  if (!initialized_) {
+    ROS_ERROR("FrankaHW: control was called before init.");
+    return;
+  }
+  if (!controller_active_) {
+    return;
+  }
+  // With two callbacks (torques beside a motion generator) the controllers run once a millisecond.
+  franka::Duration last_time = robot_state_libfranka_.time;
+  bool first = true;
+  const Callback once_a_state = [&](const franka::RobotState& robot_state,
+                                    franka::Duration time_step) {
+    if (!first && robot_state.time == last_time) {
+      return true;
+    }
+    first = false;
+    last_time = robot_state.time;
+    const ros::Time time = clock_.update(robot_state.time, ros::Time::now());
+    return ros_callback(time, ros::Duration(time_step.toSec()));
+  };
+
+  const std::lock_guard<std::mutex> lock(robot_mutex_);
+  try {
+    run_function_(robot(), once_a_state);
+  } catch (const MotionInterrupted&) {
+    // The robot was told to stop and braked by itself.
+  }
+}
+
+bool FrankaHW::isMoving(const franka::RobotState& robot_state) noexcept {
+  return anyAbove(robot_state.dq_d, kDesiredAtRest) || anyAbove(robot_state.dq, kMeasuredAtRest);
+}
+
+bool FrankaHW::setRunFunction(const ControlMode& requested_control_mode, bool limit_rate,
+                              double cutoff_frequency, franka::ControllerMode internal_controller) {
+  // Every run function hands its commands through controlCallback, which refers to what write()
+  // fills.
+  const auto callback = [this](const auto& command, const Callback& ros_callback) {
+    return [this, &command, ros_callback](const franka::RobotState& state, franka::Duration step) {
+      return controlCallback(command, ros_callback, state, step);
+    };
+  };
+  const auto generator = [=](const auto& command) {
+    return [=, &command](franka::Robot& robot, Callback ros_callback) {
+      robot.control(callback(command, ros_callback), internal_controller, limit_rate,
+                    cutoff_frequency);
+    };
+  };
+  const auto torqueAnd = [=](const auto& command) {
+    return [=, &command](franka::Robot& robot, Callback ros_callback) {
+      robot.control(callback(effort_joint_command_libfranka_, ros_callback),
+                    callback(command, ros_callback), limit_rate, cutoff_frequency);
+    };
+  };
+
+  const ControlMode torque = ControlMode::JointTorque;
+  switch (requested_control_mode) {
+    case ControlMode::None:
+      return true;
+    case ControlMode::JointTorque:
+      run_function_ = [=](franka::Robot& robot, Callback ros_callback) {
+        robot.control(callback(effort_joint_command_libfranka_, ros_callback), limit_rate,
+                      cutoff_frequency);
+      };
+      return true;
+    case ControlMode::JointPosition:
+      run_function_ = generator(position_joint_command_libfranka_);
+      return true;
+    case ControlMode::JointVelocity:
+      run_function_ = generator(velocity_joint_command_libfranka_);
+      return true;
+    case ControlMode::CartesianPose:
+      run_function_ = generator(pose_cartesian_command_libfranka_);
+      return true;
+    case ControlMode::CartesianVelocity:
+      run_function_ = generator(velocity_cartesian_command_libfranka_);
+      return true;
+    case torque | ControlMode::JointPosition:
+      run_function_ = torqueAnd(position_joint_command_libfranka_);
+      return true;
+    case torque | ControlMode::JointVelocity:
+      run_function_ = torqueAnd(velocity_joint_command_libfranka_);
+      return true;
+    case torque | ControlMode::CartesianPose:
+      run_function_ = torqueAnd(pose_cartesian_command_libfranka_);
+      return true;
+    case torque | ControlMode::CartesianVelocity:
+      run_function_ = torqueAnd(velocity_cartesian_command_libfranka_);
+      return true;
+  }
+  return false;
+}
+
+}  // namespace franka_hw

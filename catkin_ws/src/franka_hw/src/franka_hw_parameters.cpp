@@ -1,0 +1,192 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// FrankaHW: what it reads from the parameter server.
+#include <franka/rate_limiting.h>
+#include <franka_hw/franka_hw.h>
+#include <ros/console.h>
+
+#include <limits>
+
+namespace franka_hw {
+
+namespace {
+
+const std::vector<double> kTorqueThresholds{20.0, 20.0, 18.0, 18.0, 16.0, 14.0, 12.0};  // [Nm]
+const std::vector<double> kForceThresholds{20.0, 20.0, 20.0, 25.0, 25.0, 25.0};         // [N, Nm]
+
+/// Reads what must be there. @returns false after a sentence
+template <typename T>
+bool require(const ros::NodeHandle& nh, const std::string& name, const char* what, T& value) {
+  if (nh.getParam(name, value)) {
+    return true;
+  }
+  ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName(name) << "' is missing or is not "
+                                               << what << ".");
+  return false;
+}
+
+template <std::size_t size>
+void readThresholds(const ros::NodeHandle& nh, const std::string& name,
+                    const std::vector<double>& defaults, std::array<double, size>& values) {
+  const std::vector<double> read =
+      FrankaHW::getCollisionThresholds("collision_config/" + name, nh, defaults);
+  std::copy_n(read.begin(), size, values.begin());
+}
+
+franka::ControllerMode controllerOf(const std::string& name) {
+  if (name == "cartesian_impedance") {
+    return franka::ControllerMode::kCartesianImpedance;
+  }
+  if (name != "joint_impedance") {
+    ROS_WARN_STREAM("FrankaHW: internal_controller is '"
+                    << name
+                    << "', but must be joint_impedance or cartesian_impedance. Using "
+                       "joint_impedance.");
+  }
+  return franka::ControllerMode::kJointImpedance;
+}
+
+}  // namespace
+
+bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
+  bool rate_limiting = true;
+  double cutoff_frequency = 0.0;
+  std::string internal_controller;
+  if (!readJointNames(robot_hw_nh) ||
+      !require(robot_hw_nh, "rate_limiting", "true or false", rate_limiting) ||
+      !require(robot_hw_nh, "cutoff_frequency", "a number [Hz]", cutoff_frequency) ||
+      !require(robot_hw_nh, "internal_controller", "a string", internal_controller) ||
+      !require(robot_hw_nh, "arm_id", "a string", arm_id_)) {
+    return false;
+  }
+  if (!urdf_model_.initParamWithNodeHandle("robot_description", root_nh)) {
+    ROS_ERROR_STREAM("FrankaHW: no URDF could be read from the parameter '"
+                     << root_nh.resolveName("robot_description")
+                     << "'. The launch file must load the robot's description there.");
+    return false;
+  }
+  if (!require(robot_hw_nh, "robot_ip", "a string (the robot's address)", robot_ip_)) {
+    return false;
+  }
+  if (!robot_hw_nh.getParam("joint_limit_warning_threshold", joint_limit_warning_threshold_)) {
+    ROS_INFO_STREAM("FrankaHW: no parameter joint_limit_warning_threshold, warning "
+                    << joint_limit_warning_threshold_ << " rad before the ends of the joints.");
+  }
+  readCollisionConfig(robot_hw_nh);
+  readJointRanges();
+  return readRealtimeConfig(robot_hw_nh);
+}
+
+bool FrankaHW::readJointNames(const ros::NodeHandle& nh) {
+  std::vector<std::string> names;
+  if (!require(nh, "joint_names", "a list of seven names", names)) {
+    return false;
+  }
+  if (names.size() != joint_names_.size()) {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName("joint_names") << "' holds "
+                                                 << names.size() << " names instead of seven.");
+    return false;
+  }
+  std::copy(names.begin(), names.end(), joint_names_.begin());
+  return true;
+}
+
+bool FrankaHW::readRealtimeConfig(const ros::NodeHandle& nh) {
+  const std::string config = nh.param<std::string>("realtime_config", "enforce");
+  if (config == "enforce") {
+    realtime_config_ = franka::RealtimeConfig::kEnforce;
+  } else if (config == "ignore") {
+    realtime_config_ = franka::RealtimeConfig::kIgnore;
+  } else {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName("realtime_config") << "' is '"
+                                                 << config << "', but must be enforce or ignore.");
+    return false;
+  }
+  return true;
+}
+
+void FrankaHW::readCollisionConfig(const ros::NodeHandle& nh) {
+  CollisionConfig& config = collision_config_;
+  readThresholds(nh, "lower_torque_thresholds_acceleration", kTorqueThresholds,
+                 config.lower_torque_thresholds_acceleration);
+  readThresholds(nh, "upper_torque_thresholds_acceleration", kTorqueThresholds,
+                 config.upper_torque_thresholds_acceleration);
+  readThresholds(nh, "lower_torque_thresholds_nominal", kTorqueThresholds,
+                 config.lower_torque_thresholds_nominal);
+  readThresholds(nh, "upper_torque_thresholds_nominal", kTorqueThresholds,
+                 config.upper_torque_thresholds_nominal);
+  readThresholds(nh, "lower_force_thresholds_acceleration", kForceThresholds,
+                 config.lower_force_thresholds_acceleration);
+  readThresholds(nh, "upper_force_thresholds_acceleration", kForceThresholds,
+                 config.upper_force_thresholds_acceleration);
+  readThresholds(nh, "lower_force_thresholds_nominal", kForceThresholds,
+                 config.lower_force_thresholds_nominal);
+  readThresholds(nh, "upper_force_thresholds_nominal", kForceThresholds,
+                 config.upper_force_thresholds_nominal);
+}
+
+std::vector<double> FrankaHW::getCollisionThresholds(const std::string& name,
+                                                     const ros::NodeHandle& robot_hw_nh,
+                                                     const std::vector<double>& defaults) {
+  std::vector<double> thresholds;
+  if (!robot_hw_nh.getParam(name, thresholds) || thresholds.size() != defaults.size()) {
+    ROS_INFO_STREAM("FrankaHW: the parameter '" << robot_hw_nh.resolveName(name)
+                                                << "' is no list of " << defaults.size()
+                                                << " numbers; using the defaults.");
+    return defaults;
+  }
+  return thresholds;
+}
+
+void FrankaHW::setupParameterCallbacks(ros::NodeHandle& robot_hw_nh) {
+  get_limit_rate_ = [robot_hw_nh]() {
+    bool rate_limiting = true;
+    robot_hw_nh.getParamCached("rate_limiting", rate_limiting);
+    return rate_limiting;
+  };
+  get_internal_controller_ = [robot_hw_nh]() {
+    std::string internal_controller;
+    robot_hw_nh.getParamCached("internal_controller", internal_controller);
+    return controllerOf(internal_controller);
+  };
+  get_cutoff_frequency_ = [robot_hw_nh]() {
+    double cutoff_frequency = franka::kDefaultCutoffFrequency;
+    robot_hw_nh.getParamCached("cutoff_frequency", cutoff_frequency);
+    return cutoff_frequency;
+  };
+}
+
+bool FrankaHW::readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
+                          joint_limits_interface::SoftJointLimits& soft_limits) const {
+  const std::string& name = joint_names_[joint];
+  const urdf::JointConstSharedPtr urdf_joint = urdf_model_.getJoint(name);
+  if (!urdf_joint || !urdf_joint->safety || !urdf_joint->limits) {
+    ROS_WARN_STREAM("FrankaHW: joint '" << name << "' has no <limit> or no <safety_controller> in "
+                                        << "the URDF: its commands are not limited here.");
+    return false;
+  }
+  if (!joint_limits_interface::getSoftJointLimits(urdf_joint, soft_limits) ||
+      !joint_limits_interface::getJointLimits(urdf_joint, limits)) {
+    ROS_WARN_STREAM("FrankaHW: the limits of joint '"
+                    << name << "' could not be read from the "
+                    << "URDF: its commands are not limited here.");
+    return false;
+  }
+  limits.max_acceleration = franka::kMaxJointAcceleration[joint];
+  limits.has_acceleration_limits = true;
+  limits.max_jerk = franka::kMaxJointJerk[joint];
+  limits.has_jerk_limits = true;
+  return true;
+}
+
+void FrankaHW::readJointRanges() {
+  for (size_t i = 0; i < joint_names_.size(); i++) {
+    const urdf::JointConstSharedPtr joint = urdf_model_.getJoint(joint_names_[i]);
+    has_range_[i] = joint && joint->limits;
+    if (has_range_[i]) {
+      joint_ranges_[i] = {{joint->limits->lower, joint->limits->upper}};
+    }
+  }
+}
+
+}  // namespace franka_hw
