@@ -216,9 +216,9 @@ class Robot {
   /// @throws CommandException if the robot refuses.
   void stop();
 
-  /// Loads the model of this arm: from the robot's model library (protocol 3 to 7) or from the
-  /// description it sends (8 to 10).
-  /// @throws ModelException if it cannot be loaded.
+  /// Loads the model of this arm: from the description it sends (protocol 8 to 10), else from its
+  /// model library (3 to 9).
+  /// @throws ModelException if it cannot be loaded, CommandException if the robot refuses.
   Model loadModel();
 
   /// The robot's description (URDF) as it sends it (protocol 8 to 10).

@@ -39,7 +39,14 @@ constexpr fci::Architecture architecture() {
 
 Model Robot::loadModel() {
   if (fci::hasRobotModel(impl_->version())) {
-    return Model(modelFromUrdf(getRobotModel(), ""));
+    try {
+      return Model(modelFromUrdf(getRobotModel(), ""));
+    } catch (const Exception&) {
+      // Versions 8 and 9 have both; one that cannot be used leaves the other.
+      if (!fci::hasModelLibrary(impl_->version())) {
+        throw;
+      }
+    }
   }
   return Model(modelFromLibrary(
       impl_->download(fci::LoadModelLibraryRequest{architecture(), fci::OperatingSystem::kLinux})));
