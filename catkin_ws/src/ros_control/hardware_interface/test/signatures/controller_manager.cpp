@@ -1,0 +1,54 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <controller_manager/controller_loader.h>
+#include <controller_manager/controller_loader_interface.h>
+#include <controller_manager/controller_manager.h>
+#include <controller_manager/controller_spec.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "signature.h"
+
+using namespace controller_manager;
+using controller_interface::ControllerBase;
+using controller_interface::ControllerBaseSharedPtr;
+typedef std::vector<std::string> Names;
+
+EXPECT_TYPE(hardware_interface::ControllerInfo&, (of<ControllerSpec>().info));
+EXPECT_TYPE(ControllerBaseSharedPtr&, (of<ControllerSpec>().c));
+
+struct Loader : ControllerLoaderInterface {
+  Loader() : ControllerLoaderInterface("name") {}
+  ControllerBaseSharedPtr createInstance(const std::string&) override { return nullptr; }
+  Names getDeclaredClasses() override { return Names(); }
+  void reload() override {}
+};
+EXPECT_TYPE(const std::string&, of<Loader>().getName());
+EXPECT_TYPE(ControllerLoaderInterfaceSharedPtr, std::shared_ptr<ControllerLoaderInterface>());
+EXPECT_BASE(ControllerLoaderInterface, ControllerLoader<ControllerBase>);
+EXPECT_TYPE(ControllerBaseSharedPtr, ControllerLoader<ControllerBase>(std::string(), std::string())
+                                         .createInstance(std::string()));
+
+static_assert(ControllerManager::WAIT_FOR_ALL_RESOURCES == false, "");
+static_assert(ControllerManager::INFINITE_TIMEOUT == 0.0, "");
+static_assert(std::has_virtual_destructor<ControllerManager>::value, "");
+static_assert(std::is_constructible<ControllerManager, hardware_interface::RobotHW*>::value, "");
+static_assert(std::is_constructible<ControllerManager, hardware_interface::RobotHW*,
+                                    const ros::NodeHandle&>::value,
+              "");
+EXPECT_TYPE(void, of<ControllerManager>().update(ros::Time(), ros::Duration()));
+EXPECT_TYPE(void, of<ControllerManager>().update(ros::Time(), ros::Duration(), true));
+EXPECT_TYPE(bool, of<ControllerManager>().loadController(std::string()));
+EXPECT_TYPE(bool, of<ControllerManager>().unloadController(std::string()));
+EXPECT_TYPE(bool, of<ControllerManager>().switchController(Names(), Names(), 2));
+EXPECT_TYPE(bool, of<ControllerManager>().switchController(Names(), Names(), 2, true, 1.0));
+EXPECT_TYPE(void,
+            of<ControllerManager>().registerControllerLoader(ControllerLoaderInterfaceSharedPtr()));
+struct Manager : ControllerManager {
+  using ControllerManager::ControllerManager;
+  ControllerBase* getControllerByName(const std::string& name) override {
+    return ControllerManager::getControllerByName(name);
+  }
+};

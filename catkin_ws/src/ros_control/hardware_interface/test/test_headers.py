@@ -1,0 +1,146 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Clients find every header of ros_control that the original has, each complete in itself, and in them
+every class and signature.
+
+Each header is compiled in a file of its own, which includes it twice; each file in `signatures/` uses what
+the package of its name offers.
+"""
+
+import hashlib
+import os
+import shutil
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+ROS_CONTROL = HERE.parents[1]
+
+INVENTORY = {
+    "combined_robot_hw": ["combined_robot_hw"],
+    "control_toolbox": ["pid", "pid_gains_setter"],
+    "controller_interface": [
+        "controller",
+        "controller_base",
+        "internal/robothw_interfaces",
+        "multi_interface_controller",
+    ],
+    "controller_manager": [
+        "controller_loader",
+        "controller_loader_interface",
+        "controller_manager",
+        "controller_spec",
+    ],
+    "hardware_interface": [
+        "actuator_command_interface",
+        "actuator_state_interface",
+        "controller_info",
+        "force_torque_sensor_interface",
+        "hardware_interface",
+        "imu_sensor_interface",
+        "interface_resources",
+        "internal/demangle_symbol",
+        "internal/hardware_resource_manager",
+        "internal/interface_manager",
+        "internal/resource_manager",
+        "joint_command_interface",
+        "joint_mode_interface",
+        "joint_state_interface",
+        "position_velocity_torque_gains_command_interface",
+        "posvel_command_interface",
+        "posvelacc_command_interface",
+        "robot_hw",
+    ],
+    "joint_limits_interface": [
+        "joint_limits",
+        "joint_limits_interface",
+        "joint_limits_interface_exception",
+        "joint_limits_rosparam",
+        "joint_limits_urdf",
+    ],
+    "realtime_tools": [
+        "realtime_box",
+        "realtime_buffer",
+        "realtime_clock",
+        "realtime_publisher",
+        "realtime_server_goal_handle",
+    ],
+    "transmission_interface": [
+        "bidirectional_effort_joint_interface_provider",
+        "bidirectional_position_joint_interface_provider",
+        "bidirectional_velocity_joint_interface_provider",
+        "differential_transmission",
+        "differential_transmission_loader",
+        "effort_joint_interface_provider",
+        "four_bar_linkage_transmission",
+        "four_bar_linkage_transmission_loader",
+        "joint_state_interface_provider",
+        "position_joint_interface_provider",
+        "robot_transmissions",
+        "simple_transmission",
+        "simple_transmission_loader",
+        "transmission",
+        "transmission_info",
+        "transmission_interface",
+        "transmission_interface_exception",
+        "transmission_interface_loader",
+        "transmission_loader",
+        "transmission_parser",
+        "velocity_joint_interface_provider",
+    ],
+}
+HEADERS = [f"{package}/{name}.h" for package, names in INVENTORY.items() for name in names]
+SIGNATURES = sorted(path.name for path in (HERE / "signatures").glob("*.cpp"))
+
+# Debian keeps the headers of these in folders of their own.
+DEBIAN = ["ament_index_cpp", "class_loader", "pluginlib", "rcpputils", "rcutils", "xmlrpcpp"]
+
+
+def include_folders() -> list[Path]:
+    sources = sorted(ROS_CONTROL.glob("*/include"))
+    prefixes = [Path(prefix) for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":") if prefix]
+    generated = [prefix / "include" for prefix in prefixes]
+    return sources + generated + [Path("/usr/include") / name for name in DEBIAN]
+
+
+def complaints(source: str, folder: Path) -> str:
+    """What the compiler says of a text; nothing if it is content. Where there is ccache, only once."""
+    name = hashlib.sha256(source.encode()).hexdigest()[:16]
+    (folder / f"{name}.cpp").write_text(source)
+    command = ["ccache"] if shutil.which("ccache") else []
+    command += ["/usr/bin/c++", "-std=c++17", "-O0", "-Wall", "-Wextra", "-Werror", "-c", f"{name}.cpp"]
+    command += [f"-I{path}" for path in include_folders() + [HERE / "signatures"] if path.is_dir()]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+    return done.stderr if done.returncode != 0 else ""
+
+
+@pytest.fixture(scope="module")
+def verdicts(tmp_path_factory) -> dict[str, str]:
+    """Complaints of all headers and signatures. All at once: the compiler is the slow part."""
+    sources = {name: f"#include <{name}>\n" * 2 for name in HEADERS}
+    sources |= {name: (HERE / "signatures" / name).read_text() for name in SIGNATURES}
+    folder = tmp_path_factory.mktemp("headers")
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = pool.map(lambda source: complaints(source, folder), sources.values())
+        return dict(zip(sources, found))
+
+
+@pytest.mark.parametrize("header", HEADERS)
+def test_header_is_complete_in_itself(header, verdicts):
+    package = header.split("/", maxsplit=1)[0]
+    assert (ROS_CONTROL / package / "include" / header).is_file(), f"{header} is missing"
+    assert verdicts[header] == ""
+
+
+@pytest.mark.parametrize("package", sorted(INVENTORY))
+def test_every_class_and_signature_is_there(package, verdicts):
+    assert verdicts[f"{package}.cpp"] == ""
+
+
+def test_the_compiler_would_complain(tmp_path):
+    assert "no_such_header" in complaints("#include <hardware_interface/no_such_header.h>\n", tmp_path)
+    wrong = '#include "signature.h"\nEXPECT_TYPE(int, 1.0);\n'
+    assert "static assertion failed" in complaints(wrong, tmp_path)
