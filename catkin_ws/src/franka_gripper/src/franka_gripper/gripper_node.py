@@ -1,0 +1,242 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node franka_gripper_node: actions and joint states of a Franka Hand."""
+
+import math
+import threading
+
+import actionlib
+import rospy
+from control_msgs.msg import GripperCommandAction, GripperCommandResult
+from sensor_msgs.msg import JointState
+
+from franka_gripper.hand import Hand, Interrupted
+from franka_gripper.msg import (
+    GraspAction,
+    GraspResult,
+    HomingAction,
+    HomingResult,
+    MoveAction,
+    MoveResult,
+    StopAction,
+    StopResult,
+)
+
+NO_EFFORT = 1e-4  # [N] smaller efforts of gripper_action mean: move, do not grasp
+ARRIVED = 1e-4  # [m] nearer targets of gripper_action are reached already
+EPSILON = 0.005  # [m] libfranka's default tolerance of a grasp
+
+
+class Fault(Exception):
+    """A parameter or a goal that makes no sense; the text says which and why."""
+
+
+def number(name, default, least):
+    value = rospy.get_param("~" + name, default)
+    if not isinstance(value, (int, float)) or isinstance(value, bool) or not value >= least:
+        raise Fault(f"The parameter {rospy.resolve_name('~' + name)} must be a number not below {least}.")
+    return float(value)
+
+
+def required(name):
+    if not rospy.has_param("~" + name):
+        raise Fault(f"The parameter {rospy.resolve_name('~' + name)} is missing.")
+    return rospy.get_param("~" + name)
+
+
+class Parameters:
+    """What the parameter server says, checked."""
+
+    def __init__(self):
+        self.robot_ip = required("robot_ip")
+        self.joint_names = required("joint_names")
+        if not isinstance(self.joint_names, list) or len(self.joint_names) != 2:
+            raise Fault(f"The parameter {rospy.resolve_name('~joint_names')} must hold two names.")
+        self.default_speed = number("default_speed", 0.1, 0.0)
+        self.publish_rate = number("publish_rate", 30.0, 1e-3)
+        self.stop_at_shutdown = bool(rospy.get_param("~stop_at_shutdown", False))
+        self.epsilon_inner = number("default_grasp_epsilon/inner", EPSILON, 0.0)
+        self.epsilon_outer = number("default_grasp_epsilon/outer", EPSILON, 0.0)
+
+
+def check(condition, text):
+    if not condition:
+        raise Fault(text)
+
+
+class GripperNode:
+    """Five actions beside each other; a new goal on any of them ends the one that runs.
+
+    As with the hand's own interface, a goal that the hand carried out without success is answered as
+    succeeded with result.success = False and a sentence; ABORTED are goals that are impossible or that
+    the hand refused, PREEMPTED those that a cancel or another goal ended.
+    """
+
+    def __init__(self, parameters, hand):
+        self._parameters = parameters
+        self._hand = hand
+        self._publisher = rospy.Publisher("~joint_states", JointState, queue_size=1)
+        self._servers = [
+            self._serve("homing", HomingAction, HomingResult, self._homing),
+            self._serve("stop", StopAction, StopResult, None),
+            self._serve("move", MoveAction, MoveResult, self._move),
+            self._serve("grasp", GraspAction, GraspResult, self._grasp),
+            self._serve("gripper_action", GripperCommandAction, GripperCommandResult, self._command),
+        ]
+        for server in self._servers:
+            server.start()
+        self._ended = threading.Event()
+        self._publishing = threading.Thread(target=self._publish_states, daemon=True)
+        self._publishing.start()
+
+    def shutdown(self):
+        self._ended.set()
+        if self._parameters.stop_at_shutdown:
+            try:
+                self._hand.stop()
+            except Exception as error:
+                rospy.logerr("The gripper did not stop at shutdown: %s", error)
+        self._hand.close()
+
+    # --- actions ------------------------------------------------------------------------------------
+
+    def _serve(self, name, action, result_type, carry_out):
+        def execute(goal):
+            result = result_type()
+            try:
+                if carry_out is None:
+                    result.success = self._hand.stop()
+                else:
+                    carry_out(goal, result, server.is_preempt_requested)
+            except Interrupted:
+                text = "Another command, or a cancel, ended this one."
+                self._explain(result, text)
+                server.set_preempted(result, text)
+            except Fault as error:
+                self._abort(server, name, result, str(error))
+            except Exception as error:
+                self._abort(server, name, result, f"{name}: {error}")
+            else:
+                server.set_succeeded(result)
+
+        server = actionlib.SimpleActionServer("~" + name, action, execute, auto_start=False)
+        return server
+
+    @staticmethod
+    def _explain(result, text):
+        if hasattr(result, "error"):
+            result.error = text
+
+    def _abort(self, server, name, result, text):
+        rospy.logerr("franka_gripper, %s: %s", name, text)
+        self._explain(result, text)
+        server.set_aborted(result, text)
+
+    def _check_width(self, width):
+        most = self._hand.state.max_width
+        check(
+            math.isfinite(width) and 0.0 <= width <= most,
+            f"The width {width:g} m is not possible: it must lie between 0 and {most:g} m.",
+        )
+
+    def _homing(self, _goal, result, cancelled):
+        result.success = self._hand.run(lambda gripper: gripper.homing(), cancelled)
+        if not result.success:
+            result.error = "Homing did not reach the fingers' ends: something is in their way."
+
+    def _move(self, goal, result, cancelled):
+        self._check_width(goal.width)
+        check(math.isfinite(goal.speed) and goal.speed > 0.0, "Only positive speeds allowed")
+        result.success = self._hand.run(lambda gripper: gripper.move(goal.width, goal.speed), cancelled)
+        if not result.success:
+            result.error = (
+                f"The fingers stopped at {1e3 * self._hand.state.width:.1f} mm instead of "
+                f"{1e3 * goal.width:.1f} mm: something is in their way."
+            )
+
+    def _grasp(self, goal, result, cancelled):
+        self._check_width(goal.width)
+        check(math.isfinite(goal.speed) and goal.speed > 0.0, "Only positive speeds allowed")
+        check(math.isfinite(goal.force) and goal.force >= 0.0, "The force must be a number not below zero.")
+        inner, outer = goal.epsilon.inner, goal.epsilon.outer
+        check(
+            math.isfinite(inner) and math.isfinite(outer) and min(inner, outer) >= 0.0,
+            "The epsilons must be numbers not below zero.",
+        )
+        result.success = self._hand.run(
+            lambda gripper: gripper.grasp(goal.width, goal.speed, goal.force, inner, outer), cancelled
+        )
+        if not result.success:
+            result.error = (
+                f"The fingers came to rest at {1e3 * self._hand.state.width:.1f} mm, outside the expected "
+                f"{1e3 * (goal.width - inner):.1f} to {1e3 * (goal.width + outer):.1f} mm: there is no "
+                "object between them, or another one than expected."
+            )
+
+    def _command(self, goal, result, cancelled):
+        """control_msgs/GripperCommand: the position is one finger's, the result's the whole width."""
+        parameters, state = self._parameters, self._hand.state
+        width, effort = 2.0 * goal.command.position, goal.command.max_effort
+        self._check_width(width)
+        check(math.isfinite(effort), "max_effort must be a number.")
+        if abs(width - state.width) >= ARRIVED:
+            if abs(effort) < NO_EFFORT or width >= state.width:
+
+                def command(gripper):
+                    return gripper.move(width, parameters.default_speed)
+            else:
+
+                def command(gripper):
+                    return gripper.grasp(
+                        width,
+                        parameters.default_speed,
+                        abs(effort),
+                        parameters.epsilon_inner,
+                        parameters.epsilon_outer,
+                    )
+
+            check(
+                self._hand.run(command, cancelled),
+                f"The fingers did not reach {1e3 * width:.1f} mm: something is in their way, or there is "
+                "nothing to grasp.",
+            )
+        result.position = self._hand.state.width
+        result.effort = 0.0
+        result.stalled = False
+        result.reached_goal = True
+
+    # --- joint states -------------------------------------------------------------------------------
+
+    def _publish_states(self):
+        message = JointState(
+            name=self._parameters.joint_names, position=[0.0] * 2, velocity=[0.0] * 2, effort=[0.0] * 2
+        )
+        rate = rospy.Rate(self._parameters.publish_rate)
+        while not self._ended.is_set() and not rospy.is_shutdown():
+            message.header.stamp = rospy.Time.now()
+            message.position = [0.5 * self._hand.state.width] * 2
+            self._publisher.publish(message)
+            try:
+                rate.sleep()
+            except rospy.ROSInterruptException:
+                return
+
+
+def main():
+    rospy.init_node("franka_gripper_node")
+    # After the name of the node is known: what this needs is found only where libfranka is built.
+    import pyfranka
+
+    try:
+        parameters = Parameters()
+        hand = Hand(lambda: pyfranka.Gripper(parameters.robot_ip), rospy.logerr)
+    except Fault as error:
+        rospy.logfatal("franka_gripper_node: %s", error)
+        return 255
+    except Exception as error:
+        rospy.logfatal("franka_gripper_node: no gripper at %s. %s", rospy.get_param("~robot_ip"), error)
+        return 255
+    node = GripperNode(parameters, hand)
+    rospy.spin()
+    node.shutdown()
+    return 0

@@ -1,0 +1,67 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka/exception.h>
+
+#include "bindings.h"
+
+namespace pyfranka {
+
+namespace {
+
+// Owned by the module, for as long as the interpreter lives.
+PyObject* control_exception = nullptr;
+PyObject* version_exception = nullptr;
+
+/// Raises `type` with attributes beside its text.
+template <typename Fill>
+void raise(PyObject* type, const char* what, Fill fill) {
+  py::object error = py::reinterpret_borrow<py::object>(type)(what);
+  fill(error);
+  PyErr_SetObject(type, error.ptr());
+}
+
+}  // namespace
+
+void bindExceptions(py::module_& module) {
+  const py::object base =
+      py::register_exception<franka::Exception>(module, "Exception", PyExc_RuntimeError);
+  base.attr("__doc__") = "Base of all errors of a robot; the text is a sentence for a person.";
+  py::register_exception<franka::ModelException>(module, "ModelException", base);
+  py::register_exception<franka::NetworkException>(module, "NetworkException", base);
+  py::register_exception<franka::ProtocolException>(module, "ProtocolException", base);
+  py::register_exception<franka::CommandException>(module, "CommandException", base);
+  py::register_exception<franka::RealtimeException>(module, "RealtimeException", base);
+  py::register_exception<franka::InvalidOperationException>(module, "InvalidOperationException",
+                                                            base);
+
+  static py::exception<franka::ControlException> control(module, "ControlException", base);
+  control.attr("__doc__") = "A motion was aborted. `log` holds the last records, oldest first.";
+  control_exception = control.ptr();
+  static py::exception<franka::IncompatibleVersionException> version(
+      module, "IncompatibleVersionException", base);
+  version.attr("__doc__") =
+      "Robot and library have no protocol in common: `server_version`, `library_version`.";
+  version_exception = version.ptr();
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) {
+        std::rethrow_exception(pointer);
+      }
+    } catch (const franka::ControlException& error) {
+      raise(control_exception, error.what(), [&](py::object& raised) {
+        py::list log;
+        for (const franka::Record& record : error.log) {
+          log.append(record);
+        }
+        raised.attr("log") = log;
+      });
+    } catch (const franka::IncompatibleVersionException& error) {
+      raise(version_exception, error.what(), [&](py::object& raised) {
+        raised.attr("server_version") = error.server_version;
+        raised.attr("library_version") = error.library_version;
+      });
+    }
+  });
+}
+
+}  // namespace pyfranka

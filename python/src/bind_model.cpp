@@ -1,0 +1,117 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The robot's own model and ModelKDL, with the same functions.
+#include <franka/model.h>
+#include <franka/robot_state.h>
+#include <franka_hw/model_kdl.h>
+#include <urdf/model.h>
+
+#include <memory>
+#include <string>
+
+#include "bindings.h"
+
+namespace pyfranka {
+
+namespace {
+
+using franka::Frame;
+using franka::RobotState;
+
+template <typename Model>
+void bindKinematics(py::class_<Model>& type) {
+  type.def(
+          "pose",
+          [](const Model& self, Frame frame, const RobotState& state) {
+            return copy(self.pose(frame, state), Shape::kMatrix4);
+          },
+          py::arg("frame"), py::arg("state"), "Pose of a frame in O, 4x4.")
+      .def(
+          "pose",
+          [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+             const py::object& EE_T_K) {
+            return copy(self.pose(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
+                                  arrayOf<16>(EE_T_K, "EE_T_K")),
+                        Shape::kMatrix4);
+          },
+          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"))
+      .def(
+          "zero_jacobian",
+          [](const Model& self, Frame frame, const RobotState& state) {
+            return copy(self.zeroJacobian(frame, state), Shape::kJacobian);
+          },
+          py::arg("frame"), py::arg("state"), "Jacobian of a frame in O, 6x7, linear rows first.")
+      .def(
+          "body_jacobian",
+          [](const Model& self, Frame frame, const RobotState& state) {
+            return copy(self.bodyJacobian(frame, state), Shape::kJacobian);
+          },
+          py::arg("frame"), py::arg("state"), "Jacobian of a frame in its own axes, 6x7.");
+}
+
+template <typename Model>
+void bindDynamics(py::class_<Model>& type) {
+  type.def(
+          "mass",
+          [](const Model& self, const RobotState& state) {
+            return copy(self.mass(state), Shape::kMass);
+          },
+          py::arg("state"), "Mass matrix, 7x7 [kg m^2].")
+      .def(
+          "coriolis",
+          [](const Model& self, const RobotState& state) {
+            return copy(self.coriolis(state), Shape::kVector);
+          },
+          py::arg("state"), "Coriolis torques C(q, dq) dq, 7 [Nm].")
+      .def(
+          "gravity",
+          [](const Model& self, const RobotState& state) {
+            return copy(self.gravity(state), Shape::kVector);
+          },
+          py::arg("state"), "Gravity torques, 7 [Nm].")
+      .def(
+          "gravity",
+          [](const Model& self, const RobotState& state, const py::object& gravity_earth) {
+            return copy(self.gravity(state, arrayOf<3>(gravity_earth, "gravity_earth")),
+                        Shape::kVector);
+          },
+          py::arg("state"), py::arg("gravity_earth"));
+}
+
+std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, const std::string& root,
+                                                   const std::string& tip) {
+  urdf::Model model;
+  if (!model.initString(urdf)) {
+    throw std::invalid_argument("The text is no URDF; see the messages above.");
+  }
+  return std::make_unique<franka_hw::ModelKDL>(model, root, tip);
+}
+
+}  // namespace
+
+void bindModel(py::module_& module) {
+  py::enum_<Frame>(module, "Frame", "Frames of the arm, from the base to the tip.")
+      .value("Joint1", Frame::kJoint1)
+      .value("Joint2", Frame::kJoint2)
+      .value("Joint3", Frame::kJoint3)
+      .value("Joint4", Frame::kJoint4)
+      .value("Joint5", Frame::kJoint5)
+      .value("Joint6", Frame::kJoint6)
+      .value("Joint7", Frame::kJoint7)
+      .value("Flange", Frame::kFlange)
+      .value("EndEffector", Frame::kEndEffector)
+      .value("Stiffness", Frame::kStiffness);
+
+  py::class_<franka::Model> model(module, "Model", "The model that the robot brings along.");
+  bindKinematics(model);
+  bindDynamics(model);
+
+  py::class_<franka_hw::ModelKDL> kdl(module, "ModelKDL",
+                                      "The arm's model on KDL, from a URDF; no robot needed.");
+  kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
+          "Chain from link `root` to link `tip` of a URDF text.");
+  bindKinematics(kdl);
+  bindDynamics(kdl);
+}
+
+}  // namespace pyfranka

@@ -1,0 +1,162 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka/log.h>
+#include <franka/robot_state.h>
+#include <pybind11/operators.h>
+#include <pybind11/stl.h>
+
+#include <sstream>
+
+#include "bindings.h"
+
+namespace pyfranka {
+
+namespace {
+
+using franka::RobotState;
+
+/// A read-only attribute that shows the state's own numbers.
+template <std::size_t size>
+void field(py::class_<RobotState>& type, const char* name,
+           std::array<double, size> RobotState::*member, const char* doc,
+           Shape shape = Shape::kVector) {
+  type.def_property_readonly(
+      name,
+      [member, shape](const py::object& self) {
+        return view(self.cast<const RobotState&>().*member, shape, self);
+      },
+      doc);
+}
+
+void bindModes(py::module_& module) {
+  py::enum_<franka::RobotMode>(module, "RobotMode", "What the robot is doing.")
+      .value("Other", franka::RobotMode::kOther)
+      .value("Idle", franka::RobotMode::kIdle)
+      .value("Move", franka::RobotMode::kMove)
+      .value("Guiding", franka::RobotMode::kGuiding)
+      .value("Reflex", franka::RobotMode::kReflex)
+      .value("UserStopped", franka::RobotMode::kUserStopped)
+      .value("AutomaticErrorRecovery", franka::RobotMode::kAutomaticErrorRecovery);
+
+  py::class_<franka::Errors>(module, "Errors", "Errors of the robot; true if there is one.")
+      .def("__bool__", [](const franka::Errors& errors) { return static_cast<bool>(errors); })
+      .def("__str__", [](const franka::Errors& errors) { return static_cast<std::string>(errors); })
+      .def("__repr__",
+           [](const franka::Errors& errors) { return static_cast<std::string>(errors); });
+}
+
+void bindFrames(py::class_<RobotState>& state) {
+  field(state, "O_T_EE", &RobotState::O_T_EE, "Pose of EE in O, 4x4.", Shape::kMatrix4);
+  field(state, "O_T_EE_d", &RobotState::O_T_EE_d, "Desired pose of EE in O, 4x4.", Shape::kMatrix4);
+  field(state, "O_T_EE_c", &RobotState::O_T_EE_c, "Last commanded pose of EE in O, 4x4.",
+        Shape::kMatrix4);
+  field(state, "F_T_EE", &RobotState::F_T_EE, "Pose of EE in F, 4x4.", Shape::kMatrix4);
+  field(state, "F_T_NE", &RobotState::F_T_NE, "Pose of NE in F, 4x4.", Shape::kMatrix4);
+  field(state, "NE_T_EE", &RobotState::NE_T_EE, "Pose of EE in NE, 4x4.", Shape::kMatrix4);
+  field(state, "EE_T_K", &RobotState::EE_T_K, "Pose of K in EE, 4x4.", Shape::kMatrix4);
+  field(state, "elbow", &RobotState::elbow, "Joint 3 [rad], sign of joint 4.");
+  field(state, "elbow_d", &RobotState::elbow_d, "Desired elbow.");
+  field(state, "elbow_c", &RobotState::elbow_c, "Commanded elbow.");
+  field(state, "delbow_c", &RobotState::delbow_c, "Its velocity [rad/s].");
+  field(state, "ddelbow_c", &RobotState::ddelbow_c, "Its acceleration [rad/s^2].");
+  field(state, "O_dP_EE_d", &RobotState::O_dP_EE_d, "Desired twist of EE in O [m/s, rad/s].");
+  field(state, "O_dP_EE_c", &RobotState::O_dP_EE_c, "Commanded twist of EE in O [m/s, rad/s].");
+  field(state, "O_ddP_EE_c", &RobotState::O_ddP_EE_c,
+        "Commanded acceleration of EE in O [m/s^2, rad/s^2].");
+}
+
+void bindLoads(py::class_<RobotState>& state) {
+  state.def_readonly("m_ee", &RobotState::m_ee, "Mass of the end effector [kg].")
+      .def_readonly("m_load", &RobotState::m_load, "Mass of the load [kg].")
+      .def_readonly("m_total", &RobotState::m_total, "Mass of both [kg].");
+  field(state, "I_ee", &RobotState::I_ee, "Inertia of the end effector, 3x3 [kg m^2].",
+        Shape::kMatrix3);
+  field(state, "I_load", &RobotState::I_load, "Inertia of the load, 3x3 [kg m^2].",
+        Shape::kMatrix3);
+  field(state, "I_total", &RobotState::I_total, "Inertia of both, 3x3 [kg m^2].", Shape::kMatrix3);
+  field(state, "F_x_Cee", &RobotState::F_x_Cee, "Centre of mass of the end effector in F [m].");
+  field(state, "F_x_Cload", &RobotState::F_x_Cload, "Centre of mass of the load in F [m].");
+  field(state, "F_x_Ctotal", &RobotState::F_x_Ctotal, "Centre of mass of both in F [m].");
+}
+
+void bindJoints(py::class_<RobotState>& state) {
+  field(state, "q", &RobotState::q, "Joint positions [rad].");
+  field(state, "q_d", &RobotState::q_d, "Desired joint positions [rad].");
+  field(state, "dq", &RobotState::dq, "Joint velocities [rad/s].");
+  field(state, "dq_d", &RobotState::dq_d, "Desired joint velocities [rad/s].");
+  field(state, "ddq_d", &RobotState::ddq_d, "Desired joint accelerations [rad/s^2].");
+  field(state, "theta", &RobotState::theta, "Motor positions [rad].");
+  field(state, "dtheta", &RobotState::dtheta, "Motor velocities [rad/s].");
+  field(state, "tau_J", &RobotState::tau_J, "Measured torques, gravity included [Nm].");
+  field(state, "tau_J_d", &RobotState::tau_J_d, "Desired torques, without gravity [Nm].");
+  field(state, "dtau_J", &RobotState::dtau_J, "Derivative of the measured torques [Nm/s].");
+}
+
+void bindContacts(py::class_<RobotState>& state) {
+  field(state, "joint_contact", &RobotState::joint_contact, "1 where a joint feels a contact.");
+  field(state, "joint_collision", &RobotState::joint_collision, "1 where a joint collided.");
+  field(state, "cartesian_contact", &RobotState::cartesian_contact,
+        "1 along axes with a contact (x, y, z, R, P, Y).");
+  field(state, "cartesian_collision", &RobotState::cartesian_collision,
+        "1 along axes with a collision (x, y, z, R, P, Y).");
+  field(state, "tau_ext_hat_filtered", &RobotState::tau_ext_hat_filtered,
+        "Estimated external torques [Nm].");
+  field(state, "O_F_ext_hat_K", &RobotState::O_F_ext_hat_K,
+        "Estimated external wrench at K, in O [N, Nm]; what the robot exerts is positive.");
+  field(state, "K_F_ext_hat_K", &RobotState::K_F_ext_hat_K, "The same in K.");
+  field(state, "O_ddP_O", &RobotState::O_ddP_O, "Acceleration of the base in O [m/s^2].");
+}
+
+}  // namespace
+
+void bindState(py::module_& module) {
+  bindModes(module);
+  py::class_<RobotState> state(module, "RobotState",
+                               "State of a robot. Arrays are numpy views of it that cannot be "
+                               "written; matrices have two dimensions.");
+  state.def(py::init<>());
+  bindFrames(state);
+  bindLoads(state);
+  bindJoints(state);
+  bindContacts(state);
+  state.def_readonly("current_errors", &RobotState::current_errors)
+      .def_readonly("last_motion_errors", &RobotState::last_motion_errors)
+      .def_readonly("control_command_success_rate", &RobotState::control_command_success_rate,
+                    "Share of the last 100 commands that arrived; 0 when no motion runs.")
+      .def_readonly("robot_mode", &RobotState::robot_mode)
+      .def_property_readonly(
+          "time", [](const RobotState& self) { return self.time.toSec(); },
+          "Since the robot started [s].")
+      .def("__repr__", [](const RobotState& self) {
+        std::ostringstream text;
+        text << self;
+        return text.str();
+      });
+
+  py::class_<franka::Record>(module, "Record", "A state, and the command sent just before it.")
+      .def_readonly("state", &franka::Record::state)
+      .def_property_readonly("q_c",
+                             [](const franka::Record& record) {
+                               return copy(record.command.joint_positions.q, Shape::kVector);
+                             })
+      .def_property_readonly("dq_c",
+                             [](const franka::Record& record) {
+                               return copy(record.command.joint_velocities.dq, Shape::kVector);
+                             })
+      .def_property_readonly("O_T_EE_c",
+                             [](const franka::Record& record) {
+                               return copy(record.command.cartesian_pose.O_T_EE, Shape::kMatrix4);
+                             })
+      .def_property_readonly("O_dP_EE_c",
+                             [](const franka::Record& record) {
+                               return copy(record.command.cartesian_velocities.O_dP_EE,
+                                           Shape::kVector);
+                             })
+      .def_property_readonly("tau_J_d", [](const franka::Record& record) {
+        return copy(record.command.torques.tau_J, Shape::kVector);
+      });
+  module.def("log_to_csv", &franka::logToCSV, py::arg("log"),
+             "The records of a ControlException as comma separated values.");
+}
+
+}  // namespace pyfranka

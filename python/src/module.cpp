@@ -1,0 +1,13 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings.h"
+
+PYBIND11_MODULE(_pyfranka, module) {
+  module.doc() = "libfranka and ModelKDL; import pyfranka instead.";
+  pyfranka::bindExceptions(module);
+  pyfranka::bindState(module);
+  pyfranka::bindModel(module);
+  pyfranka::bindMotion(module);
+  pyfranka::bindRobot(module);
+  pyfranka::bindGripper(module);
+}

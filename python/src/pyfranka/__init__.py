@@ -1,0 +1,16 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""libfranka and ModelKDL for Python.
+
+    import pyfranka
+
+    robot = pyfranka.Robot("172.16.0.2", pyfranka.RealtimeConfig.Ignore)
+    print(robot.read_once().q)
+    robot.control_torques(lambda state, period: pyfranka.Torques([0.0] * 7))
+
+Arrays of a RobotState are numpy views of it; matrices have two dimensions and are stored column by
+column, as the robot has them. Frames and units: the attributes' docstrings. Calls that wait for the
+robot let other Python threads run; errors are pyfranka.Exception and what derives from it.
+"""
+
+from _pyfranka import *  # noqa: F401, F403
