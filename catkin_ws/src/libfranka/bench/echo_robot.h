@@ -1,0 +1,126 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <arpa/inet.h>
+#include <franka_core/fci/protocol.h>
+#include <franka_core/fci/state_codec.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace franka_bench {
+
+/// A socket on 127.0.0.1 whose reads give up after a time.
+class Socket {
+ public:
+  explicit Socket(int type, int timeout_ms = 100) : fd_(socket(AF_INET, type, 0)) {
+    socklen_t size = sizeof(address_);
+    address_.sin_family = AF_INET;
+    address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    bind(fd_, reinterpret_cast<sockaddr*>(&address_), sizeof(address_));
+    getsockname(fd_, reinterpret_cast<sockaddr*>(&address_), &size);
+    setTimeout(fd_, timeout_ms);
+  }
+  ~Socket() { close(fd_); }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+
+  static void setTimeout(int fd, int timeout_ms) {
+    const timeval timeout{timeout_ms / 1000, timeout_ms % 1000 * 1000};
+    setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout));
+  }
+  int get() const { return fd_; }
+  const sockaddr_in& address() const { return address_; }
+
+ private:
+  int fd_;
+  sockaddr_in address_{};
+};
+
+/// The least that a UDP peer can do: answers each datagram at once by one whose first eight bytes
+/// count up.
+class Echo {
+ public:
+  /// Waits for a datagram, answers it. @returns false if none came.
+  bool answerOne(std::vector<std::uint8_t>& answer) {
+    std::uint8_t buffer[4096];
+    socklen_t size = sizeof(peer_);
+    if (recvfrom(socket_.get(), buffer, sizeof(buffer), 0, reinterpret_cast<sockaddr*>(&peer_),
+                 &size) <= 0) {
+      return false;
+    }
+    send(answer);
+    return true;
+  }
+  void send(std::vector<std::uint8_t>& datagram) {
+    id_++;
+    std::memcpy(datagram.data(), &id_, sizeof(id_));
+    sendto(socket_.get(), datagram.data(), datagram.size(), 0,
+           reinterpret_cast<const sockaddr*>(&peer_), sizeof(peer_));
+  }
+  void setPeer(const sockaddr_in& peer) { peer_ = peer; }
+  bool hasDatagram() const {
+    std::uint8_t byte;
+    return recv(socket_.get(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) >= 0;
+  }
+  const sockaddr_in& address() const { return socket_.address(); }
+
+ private:
+  Socket socket_{SOCK_DGRAM};
+  sockaddr_in peer_{};
+  std::uint64_t id_{0};
+};
+
+/// A bare UDP echo on a thread of its own.
+class EchoServer {
+ public:
+  explicit EchoServer(std::size_t answer_size)
+      : answer_(answer_size), thread_([this] {
+          while (!stopping_) {
+            echo_.answerOne(answer_);
+          }
+        }) {}
+  ~EchoServer() {
+    stopping_ = true;
+    thread_.join();
+  }
+  const sockaddr_in& address() const { return echo_.address(); }
+
+ private:
+  Echo echo_;
+  std::vector<std::uint8_t> answer_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+/// A robot reduced to the same echo: once its motion runs, each command draws the next state, and
+/// nothing else is done.
+class EchoRobot {
+ public:
+  explicit EchoRobot(std::uint16_t version);
+  ~EchoRobot();
+  std::string address() const {
+    return "127.0.0.1:" + std::to_string(ntohs(listener_.address().sin_port));
+  }
+
+ private:
+  enum class Phase { kClosed, kIdle, kMoving };
+  void serve();
+  void serveClient(int client);
+  Phase handleRequests(int client, Phase phase);
+
+  const std::uint16_t version_;
+  Socket listener_{SOCK_STREAM};
+  Echo echo_;
+  std::vector<std::uint8_t> stream_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace franka_bench
