@@ -103,6 +103,15 @@ constexpr PositionVelocityLimits kFr3PositionVelocityLimits{
     {{-2.7501, -1.7918, -2.9065, -3.0481, -2.8101, 0.54092, -3.0196}},
     {{2.7501, 1.7918, 2.9065, -0.1458, 2.8101, 4.5205, 3.0196}}};
 
+/// FR3 with system 5.9 or later: what its URDF tells protocol 10 clients (fci.md 4.2 and 5.5); c is
+/// twice the URDF's deceleration.
+constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59{
+    kFr3Limits.dq,
+    {{0.6599, 0.2517, 0.2000, 0.3533, 0.5757, 0.4878, 0.4628}},
+    {{12.0, 5.17, 7.0, 8.0, 34.0, 11.0, 34.0}},
+    kFr3Limits.q_min,
+    kFr3Limits.q_max};
+
 /// Highest velocity of a joint (0 to 6) at position q [rad]: min(V, max(0, -o + sqrt(c (q_max -
 /// q)))).
 inline double upperVelocityLimit(const PositionVelocityLimits& limits, std::size_t joint,

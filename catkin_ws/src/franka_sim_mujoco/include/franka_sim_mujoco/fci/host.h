@@ -1,0 +1,115 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/robot_state.h>
+#include <poll.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace franka_sim_mujoco::fci {
+
+/// How simulated time follows the wall's.
+struct Pace {
+  /// Waits within a motion for each answer, for as long as it takes up to `silence`; runs as fast
+  /// as machine and clients allow (decision 21). Otherwise ticks are due every millisecond divided
+  /// by `factor`, whatever the clients do.
+  bool lockstep{false};
+  double factor{1.0};
+  /// After so long without an answer a client of a lock-step motion counts as lost; its cycles are
+  /// then waited for a millisecond each (our choice: below the second after which clients give up).
+  std::chrono::milliseconds silence{500};
+};
+
+/// One robot as the host drives it: a control unit on a plant, with its servers. One thread.
+class HostedRobot {
+ public:
+  virtual ~HostedRobot() = default;
+
+  /// First half of a tick: measure.
+  virtual void observe() = 0;
+  /// Second half: act on the answer to the last state, if there is one.
+  virtual void actuate() = 0;
+
+  /// Reads and answers requests. @param stops_only leaves all but those that stop something.
+  virtual void serve(bool stops_only) = 0;
+  /// Sends states, `ticks` after the last ones. @param same_moment time stands still since then.
+  virtual void publish(std::uint64_t ticks, bool same_moment) = 0;
+  /// Somebody waits for the next state.
+  virtual bool hasNews() const = 0;
+
+  /// Reads commands. @returns whether the one that answers the last state is there.
+  virtual bool receiveCommand() = 0;
+  /// A motion runs for a client, so that a command is due.
+  virtual bool expectsCommand() const = 0;
+  /// That motion has had its first command.
+  virtual bool motionHasBegun() const = 0;
+  /// The arm stops, recovers or is pushed: time must go on though no client answers.
+  virtual bool settling() const = 0;
+  /// The hand is at work.
+  virtual bool handBusy() const = 0;
+
+  /// Adds the sockets to poll.
+  virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
+};
+
+/// Runs a world and its robots tick by tick, in the order of decision 20: each state k goes out,
+/// its answer is awaited, and the physics from k to k + 1 runs with it.
+class Host {
+ public:
+  /// @param step advances the world by one millisecond.
+  Host(std::function<void()> step, const Pace& pace);
+
+  /// Must outlive the host.
+  void add(HostedRobot& robot);
+
+  /// Runs until `stop` is set.
+  void run(const std::atomic<bool>& stop);
+  /// One tick. In lock-step it begins with a wait until time goes on.
+  void tick();
+  /// For lock-step: lets this many ticks run without waiting for anybody, for what is done to the
+  /// world from outside (a push) to take its course.
+  void letRun(std::uint64_t ticks);
+
+  std::uint64_t ticks() const noexcept { return ticks_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Guest {
+    HostedRobot* robot;
+    bool given_up{false};  // silent for too long in lock-step
+  };
+
+  void publishAll(bool same_moment = false);
+  void serveAll();
+  bool receiveAll();
+  void pollUntil(Clock::time_point deadline);
+  void waitInRealTime();
+  void waitInLockStep();
+  bool clientsAreDue() const;
+  bool startsAreDue() const;
+  bool timeMustGoOn();
+  void giveUpOnTheSilent();
+  bool stopped() const;
+
+  std::function<void()> step_;
+  Pace pace_;
+  std::vector<Guest> guests_;
+  std::vector<pollfd> fds_;
+  const std::atomic<bool>* stop_{nullptr};
+  Clock::duration period_;
+  Clock::time_point deadline_;
+  Clock::time_point published_at_{};
+  std::uint64_t unpublished_ticks_{1};
+  std::uint64_t rolling_{0};
+  std::uint64_t ticks_{0};
+};
+
+}  // namespace franka_sim_mujoco::fci

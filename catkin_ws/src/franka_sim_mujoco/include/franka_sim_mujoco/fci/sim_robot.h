@@ -1,0 +1,76 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim_mujoco/fci/gripper_server.h>
+#include <franka_sim_mujoco/fci/host.h>
+#include <franka_sim_mujoco/fci/robot_server.h>
+#include <franka_sim_mujoco/fci/unit_desk.h>
+#include <franka_sim_mujoco/robot/control_unit.h>
+#include <franka_sim_mujoco/robot/gripper_unit.h>
+#include <franka_sim_mujoco/robot/plant.h>
+
+#include <memory>
+#include <optional>
+
+namespace franka_sim_mujoco::fci {
+
+/// One robot on the network: control unit and hand on their plants, and their servers.
+/// One thread.
+class SimRobot final : public HostedRobot {
+ public:
+  struct Hand {
+    HandPlant* plant;
+    GripperParameters parameters;
+    std::uint16_t port{franka_core::fci::kGripperPort};  ///< 0: the system chooses
+  };
+
+  /// @param arm outlives the robot, as does the hand's plant.
+  /// @throws std::runtime_error with a sentence when a port cannot be opened,
+  /// std::invalid_argument when a parameter makes no sense.
+  SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
+           const std::optional<Hand>& hand);
+
+  ControlUnit& unit() noexcept { return unit_; }
+  const RobotServer& server() const noexcept { return server_; }
+  std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->server.port() : 0; }
+
+  /// Of all states that were answered and those after them up to rest, without their ids: equal
+  /// hash, equal run (decision 21).
+  std::uint64_t hash() const noexcept { return hash_; }
+  /// After the world was reset: as after the start; the hash begins anew.
+  void restart() noexcept;
+
+  void observe() override;
+  void actuate() override;
+  void serve(bool stops_only) override;
+  void publish(std::uint64_t ticks, bool same_moment) override;
+  bool hasNews() const override { return server_.hasNews(); }
+  bool receiveCommand() override { return server_.receiveCommand(); }
+  bool expectsCommand() const override { return server_.expectsCommands(); }
+  bool motionHasBegun() const override { return server_.motionHasBegun(); }
+  bool settling() const override;
+  bool handBusy() const override;
+  void addDescriptors(std::vector<pollfd>& fds) const override;
+
+ private:
+  struct ServedHand {
+    ServedHand(const std::string& address, const Hand& hand)
+        : plant(*hand.plant), unit(hand.parameters), server(address, hand.port, unit) {}
+    HandPlant& plant;
+    GripperUnit unit;
+    GripperServer server;
+  };
+
+  void updateHash() noexcept;
+
+  ControlUnit unit_;
+  ArmPlant& arm_;
+  UnitDesk desk_;
+  RobotServer server_;
+  std::unique_ptr<ServedHand> hand_;
+  bool hashing_{false};
+  std::uint64_t hash_{0};
+};
+
+}  // namespace franka_sim_mujoco::fci

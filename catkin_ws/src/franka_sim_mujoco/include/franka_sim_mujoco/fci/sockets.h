@@ -1,0 +1,110 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/fci/protocol.h>
+#include <netinet/in.h>
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// @file
+/// The server's sockets. None of them ever blocks; one thread owns each.
+
+namespace franka_sim_mujoco::fci {
+
+using franka_core::fci::Bytes;
+
+/// Closes a file descriptor when it goes.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int fd) noexcept : fd_(fd) {}
+  ~Descriptor() { close(); }
+  Descriptor(Descriptor&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
+  Descriptor& operator=(Descriptor&& other) noexcept;
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const noexcept { return fd_; }
+  explicit operator bool() const noexcept { return fd_ >= 0; }
+  void close() noexcept;
+
+ private:
+  int fd_{-1};
+};
+
+/// Waits for connections on one address of this machine.
+class Listener {
+ public:
+  /// @param port 0: the system chooses.
+  /// @throws std::runtime_error with a sentence that names address, port and cause.
+  Listener(const std::string& address, std::uint16_t port);
+
+  std::uint16_t port() const noexcept { return port_; }
+  int descriptor() const noexcept { return socket_.get(); }
+  /// The next connection and where it comes from; an empty descriptor when there is none.
+  Descriptor accept(sockaddr_in& peer) noexcept;
+
+ private:
+  Descriptor socket_;
+  std::uint16_t port_{0};
+};
+
+/// One TCP connection. Requests collect in a buffer of fixed size; what the peer does not take at
+/// once is kept and sent by later calls of flush.
+class Connection {
+ public:
+  explicit Connection(Descriptor socket);
+
+  int descriptor() const noexcept { return socket_.get(); }
+  bool open() const noexcept { return static_cast<bool>(socket_); }
+  bool hasUnsent() const noexcept { return sent_ < unsent_.size(); }
+
+  /// Reads what is there. @returns false once the peer has closed or vanished.
+  bool receive() noexcept;
+  /// What has been received and not consumed.
+  Bytes received() const noexcept { return {buffer_, filled_}; }
+  void consume(std::size_t size) noexcept;
+
+  /// Sends, or keeps for later. Allocates only where the peer is slower than the messages.
+  /// @returns false once the peer has vanished.
+  bool send(Bytes message);
+  bool flush() noexcept;
+
+  void close() noexcept { socket_.close(); }
+  /// Closes so that the peer notices at once: it sees a reset, not an end.
+  void reset() noexcept;
+
+ private:
+  static constexpr std::size_t kCapacity = 4096;  // larger than the largest request
+
+  Descriptor socket_;
+  std::uint8_t buffer_[kCapacity];
+  std::size_t filled_{0};
+  std::vector<std::uint8_t> unsent_;
+  std::size_t sent_{0};
+};
+
+/// A UDP socket on one address, with one peer at a time.
+class Datagrams {
+ public:
+  /// @throws std::runtime_error with a sentence.
+  explicit Datagrams(const std::string& address);
+
+  int descriptor() const noexcept { return socket_.get(); }
+  void setPeer(const sockaddr_in& peer) noexcept { peer_ = peer; }
+  /// Real-time safe. A datagram that the system does not take is lost, as on a wire.
+  void send(Bytes datagram) noexcept;
+  /// The next datagram from the peer's address; others are dropped.
+  /// @returns its size, which may be larger than `capacity`; -1 when there is none.
+  std::ptrdiff_t receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
+
+ private:
+  Descriptor socket_;
+  sockaddr_in peer_{};
+};
+
+}  // namespace franka_sim_mujoco::fci

@@ -1,0 +1,213 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/fci/host.h>
+#include <sys/prctl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <utility>
+
+namespace franka_sim_mujoco::fci {
+
+namespace {
+
+constexpr std::chrono::milliseconds kTick{1};
+
+/// Physics goes on for so long after an action, for what it set in motion to come to rest
+/// (decision 21).
+constexpr std::uint64_t kTicksAfterAction = 100;
+
+/// A host that was held up for longer does not make up for it (our choice).
+constexpr std::chrono::milliseconds kForgivenDelay{50};
+
+/// While it makes up for a delay, clients still get so long for each answer (our choice).
+constexpr std::chrono::microseconds kLeastTimeToAnswer{400};
+
+timespec toTimespec(std::chrono::nanoseconds duration) noexcept {
+  constexpr std::int64_t kNanoseconds = 1000000000;
+  return {static_cast<time_t>(duration.count() / kNanoseconds),
+          static_cast<long>(duration.count() % kNanoseconds)};
+}
+
+}  // namespace
+
+Host::Host(std::function<void()> step, const Pace& pace)
+    : step_(std::move(step)),
+      pace_(pace),
+      period_(
+          std::chrono::nanoseconds(std::llround(1e6 / (pace.factor > 0.0 ? pace.factor : 1.0)))),
+      deadline_(Clock::now()) {
+  // Wake-ups are otherwise gathered within 50 us.
+  prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
+}
+
+void Host::add(HostedRobot& robot) {
+  guests_.push_back({&robot});
+  fds_.reserve(16 * guests_.size());
+}
+
+void Host::letRun(std::uint64_t ticks) { rolling_ = std::max(rolling_, ticks + kTicksAfterAction); }
+
+void Host::run(const std::atomic<bool>& stop) {
+  deadline_ = Clock::now();
+  stop_ = &stop;
+  while (!stopped()) {
+    tick();
+  }
+  stop_ = nullptr;
+}
+
+bool Host::stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
+
+void Host::tick() {
+  for (const Guest& guest : guests_) {
+    guest.robot->observe();
+  }
+  if (pace_.lockstep) {
+    waitInLockStep();
+  } else {
+    publishAll();
+    waitInRealTime();
+  }
+  for (const Guest& guest : guests_) {
+    guest.robot->actuate();
+  }
+  step_();
+  ticks_++;
+  unpublished_ticks_++;
+}
+
+void Host::publishAll(bool same_moment) {
+  for (const Guest& guest : guests_) {
+    guest.robot->publish(std::max<std::uint64_t>(unpublished_ticks_, 1), same_moment);
+  }
+  unpublished_ticks_ = 0;
+  published_at_ = Clock::now();
+}
+
+void Host::serveAll() {
+  bool hand_busy = false;
+  for (const Guest& guest : guests_) {
+    hand_busy = hand_busy || guest.robot->handBusy();
+  }
+  // While the world comes to rest by itself, a request must not meet it at a tick that depends on
+  // how fast the client was.
+  const bool stops_only = pace_.lockstep && rolling_ > 0 && !hand_busy && !clientsAreDue();
+  for (const Guest& guest : guests_) {
+    guest.robot->serve(stops_only);
+  }
+}
+
+bool Host::receiveAll() {
+  bool all = true;
+  for (Guest& guest : guests_) {
+    const bool here = guest.robot->receiveCommand();
+    if (here) {
+      guest.given_up = false;
+    }
+    all = all && (here || !guest.robot->expectsCommand());
+  }
+  return all;
+}
+
+void Host::pollUntil(Clock::time_point deadline) {
+  fds_.clear();
+  for (const Guest& guest : guests_) {
+    guest.robot->addDescriptors(fds_);
+  }
+  const auto left = std::max(deadline - Clock::now(), Clock::duration::zero());
+  const timespec timeout = toTimespec(left);
+  ppoll(fds_.data(), fds_.size(), &timeout, nullptr);
+}
+
+void Host::waitInRealTime() {
+  deadline_ += period_;
+  const Clock::time_point now = Clock::now();
+  if (now - deadline_ > kForgivenDelay) {
+    deadline_ = now;
+  }
+  Clock::time_point end = deadline_;
+  if (clientsAreDue()) {
+    end = std::max(end, now + std::min<Clock::duration>(kLeastTimeToAnswer, period_));
+  }
+  do {
+    pollUntil(end);
+    receiveAll();
+    serveAll();
+  } while (Clock::now() < end);
+}
+
+bool Host::clientsAreDue() const {
+  return std::any_of(guests_.begin(), guests_.end(),
+                     [](const Guest& guest) { return guest.robot->expectsCommand(); });
+}
+
+// A client that was told of its motion's start takes states without answering until it sees the
+// motion in them.
+bool Host::startsAreDue() const {
+  return std::any_of(guests_.begin(), guests_.end(), [](const Guest& guest) {
+    return guest.robot->expectsCommand() && !guest.robot->motionHasBegun() && !guest.given_up;
+  });
+}
+
+bool Host::timeMustGoOn() {
+  for (const Guest& guest : guests_) {
+    if (guest.robot->settling() || guest.robot->handBusy()) {
+      rolling_ = std::max(rolling_, kTicksAfterAction);
+    }
+  }
+  return rolling_ > 0;
+}
+
+void Host::giveUpOnTheSilent() {
+  for (Guest& guest : guests_) {
+    guest.given_up =
+        guest.given_up || (guest.robot->expectsCommand() && !guest.robot->receiveCommand());
+  }
+}
+
+void Host::waitInLockStep() {
+  const bool news = std::any_of(guests_.begin(), guests_.end(),
+                                [](const Guest& guest) { return guest.robot->hasNews(); });
+  if (clientsAreDue() || news || Clock::now() - published_at_ >= kTick) {
+    publishAll();
+  }
+  const Clock::time_point begin = Clock::now();
+  while (!stopped()) {
+    serveAll();
+    const bool all = receiveAll();
+    const bool given_up = std::any_of(guests_.begin(), guests_.end(),
+                                      [](const Guest& guest) { return guest.given_up; });
+    if (clientsAreDue()) {
+      const Clock::time_point now = Clock::now();
+      if (all || (given_up && !startsAreDue() && now - begin >= kTick)) {
+        rolling_ = kTicksAfterAction;
+        return;
+      }
+      if (now - begin >= pace_.silence) {
+        giveUpOnTheSilent();
+        continue;
+      }
+      // Before its first command a client needs fresh states; afterwards it has all it needs.
+      const bool starting = startsAreDue();
+      if (starting && now - published_at_ >= kTick) {
+        publishAll(true);
+      }
+      pollUntil(starting
+                    ? published_at_ + kTick
+                    : begin + (given_up ? Clock::duration(kTick) : Clock::duration(pace_.silence)));
+      continue;
+    }
+    if (timeMustGoOn()) {
+      rolling_--;
+      return;
+    }
+    if (Clock::now() - published_at_ >= kTick) {
+      publishAll(true);
+    }
+    pollUntil(published_at_ + kTick);
+  }
+}
+
+}  // namespace franka_sim_mujoco::fci

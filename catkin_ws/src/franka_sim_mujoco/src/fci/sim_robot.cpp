@@ -1,0 +1,99 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/fci/sim_robot.h>
+#include <franka_sim_mujoco/robot/tick.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace franka_sim_mujoco::fci {
+
+namespace {
+
+constexpr std::uint64_t kHashStart = 14695981039346656037ULL;  // FNV-1a, 64 bit
+constexpr std::uint64_t kHashPrime = 1099511628211ULL;
+
+/// A joint slower than this stands still: 100 ticks of it are below what the arm's sensors resolve
+/// (our choice).
+constexpr double kRest = 1e-4;  // [rad/s]
+
+std::string addressOf(const RobotServerParameters& parameters) { return parameters.address; }
+
+}  // namespace
+
+SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
+                   const std::optional<Hand>& hand)
+    : unit_(unit), arm_(arm), desk_(unit_), server_(server, desk_), hash_(kHashStart) {
+  if (hand) {
+    hand_ = std::make_unique<ServedHand>(addressOf(server), *hand);
+  }
+}
+
+void SimRobot::restart() noexcept {
+  unit_.restart();
+  if (hand_) {
+    hand_->unit.restart();
+  }
+  hashing_ = false;
+  hash_ = kHashStart;
+}
+
+void SimRobot::observe() { unit_.observe(arm_.measure()); }
+
+void SimRobot::actuate() {
+  const franka_core::RobotCommand* command = server_.takeCommand();
+  hashing_ = hashing_ || command != nullptr;
+  if (hashing_) {
+    updateHash();
+  }
+  const std::array<double, 7>& torque = unit_.actuate(command);
+  arm_.setBrakes(unit_.brakesClosed());
+  arm_.applyTorques(torque);
+  if (hand_) {
+    hand_->plant.applyForces(hand_->unit.step(hand_->plant.measure(), kTick));
+  }
+}
+
+void SimRobot::updateHash() noexcept {
+  franka_core::RobotState state = unit_.state();
+  state.message_id = 0;
+  franka_core::fci::StateBuffer bytes;
+  if (franka_core::fci::encodeState(9, state, bytes) != franka_core::fci::CodecError::kNone) {
+    return;
+  }
+  for (const std::uint8_t byte : bytes) {
+    hash_ = (hash_ ^ byte) * kHashPrime;
+  }
+}
+
+void SimRobot::serve(bool stops_only) {
+  server_.serve(stops_only);
+  if (hand_) {
+    hand_->server.serve(stops_only);
+  }
+}
+
+void SimRobot::publish(std::uint64_t ticks, bool same_moment) {
+  server_.publish(ticks, same_moment);
+  if (hand_) {
+    hand_->server.publish(ticks);
+  }
+}
+
+bool SimRobot::settling() const {
+  const auto& dq = unit_.state().dq;
+  return unit_.settling() ||
+         std::any_of(dq.begin(), dq.end(), [](double v) { return std::abs(v) > kRest; });
+}
+
+bool SimRobot::handBusy() const { return hand_ && hand_->server.busy(); }
+
+void SimRobot::addDescriptors(std::vector<pollfd>& fds) const {
+  server_.addDescriptors(fds);
+  if (hand_) {
+    hand_->server.addDescriptors(fds);
+  }
+}
+
+}  // namespace franka_sim_mujoco::fci

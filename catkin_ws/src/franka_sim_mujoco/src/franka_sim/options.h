@@ -1,0 +1,32 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim_mujoco/fci/host.h>
+
+#include <cstdint>
+#include <string>
+
+namespace franka_sim_mujoco {
+
+/// What a person asks of franka_sim on the command line.
+struct Options {
+  bool help{false};
+  std::string robot{"panda"};  ///< "panda" or "fr3"
+  std::string arm_id;          ///< prefix in the URDF; empty: the robot's name
+  std::string urdf;            ///< file; empty: the robot with hand that comes with the program
+  std::string world;           ///< MJCF file, or the name of one that comes with the program
+  std::string ip{"127.0.0.1"};
+  std::uint16_t protocol{0};  ///< 0: every version of the robot's generation
+  fci::Pace pace;
+  std::string friction{"none"};
+  bool hand{true};
+  bool viewer{false};
+};
+
+extern const char* const kUsage;
+
+/// @throws std::invalid_argument with a sentence that names what is wrong.
+Options readOptions(int argc, const char* const* argv);
+
+}  // namespace franka_sim_mujoco
