@@ -1,16 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <combined_robot_hw/combined_robot_hw.h>
 #include <gmock/gmock.h>
-#include <rt_guard/rt_guard.h>
 
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "guard.h"
+#include "test_combined.h"
 #include "test_robot.h"
 
+using combined_robot_hw_test::Combined;
 using combined_robot_hw_test::Controllers;
 using combined_robot_hw_test::Robot;
 using hardware_interface::ControllerInfo;
@@ -23,19 +24,6 @@ namespace {
 
 const char* const kEffort = "hardware_interface::EffortJointInterface";
 const char* const kPosition = "hardware_interface::PositionJointInterface";
-
-/// Combines robots that a test made.
-class Combined : public combined_robot_hw::CombinedRobotHW {
- public:
-  using CombinedRobotHW::filterControllerList;
-  Robot& add(const std::vector<std::string>& joints) {
-    const auto robot = std::make_shared<Robot>(joints);
-    robot_hw_list_.push_back(robot);
-    registerInterfaceManager(robot.get());
-    return *robot;
-  }
-  hardware_interface::RobotHWSharedPtr member(std::size_t i) { return robot_hw_list_[i]; }
-};
 
 ControllerInfo controller(const std::string& name,
                           const std::vector<InterfaceResources>& claims = {}) {
@@ -172,22 +160,23 @@ TEST_F(Switching, theWorstResultCounts) {
 }
 
 TEST_F(Switching, theLoopNeitherAllocatesNorLocks) {
+  ASSERT_NE(0u, guard::allocationsAndLocks([this] { left_.prepared.emplace_back(); }))
+      << "the guard sleeps";
   const Controllers start{effort("a controller with quite a long name", {"l1", "r1"})};
   const Controllers stop{effort("another controller with quite a long name", {"l2"})};
   ASSERT_TRUE(combined_.prepareSwitch(start, stop));
   const ros::Time time(1.0);
   const ros::Duration period(0.001);
   int done = 0;
-  rt_guard::Scope scope;
-  for (int i = 0; i < 100; ++i) {
-    combined_.read(time, period);
-    combined_.doSwitch(start, stop);
-    done += combined_.switchResult() == State::DONE;
-    done += combined_.switchResult(start.front()) == State::DONE;
-    combined_.write(time, period);
-  }
-  EXPECT_EQ(0u, scope.allocations());
-  EXPECT_EQ(0u, scope.locks());
+  EXPECT_EQ(0u, guard::allocationsAndLocks([&] {
+              for (int i = 0; i < 100; ++i) {
+                combined_.read(time, period);
+                combined_.doSwitch(start, stop);
+                done += combined_.switchResult() == State::DONE;
+                done += combined_.switchResult(start.front()) == State::DONE;
+                combined_.write(time, period);
+              }
+            }));
   EXPECT_EQ(200, done);
 }
 

@@ -1,0 +1,13 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace guard {
+
+/// How often an action allocates or locks. The guard's own header may stand in one file only.
+std::size_t allocationsAndLocks(const std::function<void()>& action);
+
+}  // namespace guard
