@@ -9,7 +9,10 @@ namespace franka_sim_mujoco {
 
 /// Values as a client reads them from a state of 32 bit floats.
 inline double asEchoed(double value) noexcept {
-  return static_cast<double>(static_cast<float>(value));
+  // Volatile, because GCC 12 at -O2 otherwise drops the rounding of two neighbouring doubles: it
+  // takes the pair of conversions for a copy.
+  const volatile float narrow = static_cast<float>(value);
+  return narrow;
 }
 
 template <std::size_t kSize>

@@ -27,6 +27,7 @@ using MutableMatrix = Eigen::Map<Eigen::Matrix4d>;
 constexpr double kSpeedMargin = 0.005;  // [s]: acceleration times this is kept free
 constexpr double kSpeedShare = 0.985;
 constexpr double kBrakingShare = 0.999;
+constexpr double kDirectionNoise = 1e-4;  // [rad]: of a small acceleration between rounded poses
 
 Vector3d part(const Derivative& values, std::size_t first) noexcept {
   return {values[first], values[first + 1], values[first + 2]};
@@ -39,23 +40,32 @@ double roomFor(const Vector3d& direction, const Vector3d& velocity, double highe
   return std::sqrt(std::max(square, 0.0)) - along;
 }
 
-// Whether the acceleration is one within the jerk limit, shortened because speed ends.
+// How far the ray along a direction, from a length on, stays from a point.
+double distanceToRay(const Vector3d& direction, double from, const Vector3d& point) noexcept {
+  const double nearest = std::max(from, direction.dot(point));
+  return (nearest * direction - point).norm();
+}
+
+// Whether the acceleration is one within the jerk limit, shortened because speed ends; beyond the
+// sphere the limiter turns it round.
 bool isShortened(const CartesianSample& step, const CartesianSample& last, std::size_t first,
                  const franka_core::DerivativeLimits& limits) noexcept {
   const Vector3d acceleration = part(step.acceleration, first);
   const Vector3d before = part(last.acceleration, first);
+  const Vector3d velocity = part(last.twist, first);
   const double size = acceleration.norm();
   const double highest = kSpeedShare * (limits.velocity - kSpeedMargin * limits.acceleration);
   if (!(size > 0.0)) {
-    return part(last.twist, first).norm() >= highest;
+    return velocity.norm() >= highest;
   }
   const Vector3d direction = acceleration / size;
-  const double room = roomFor(direction, part(last.twist, first), highest);
-  const double needed = limits.jerk / limits.acceleration * room * kBrakingShare;
-  // The point of the ray along the acceleration that is nearest to the one before.
-  const double along = std::max(size, direction.dot(before));
-  const double distance = (along * direction - before).norm();
-  return size >= needed && distance <= limits.jerk * kTick;
+  const double gain = limits.jerk / limits.acceleration;
+  const double reach = limits.jerk * kTick;
+  const double noise = kDirectionNoise * limits.velocity;
+  const double least = gain * (roomFor(direction, velocity, highest) - noise) * kBrakingShare;
+  const double hardest = gain * (noise - roomFor(-direction, velocity, highest)) / kBrakingShare;
+  return (size >= least && distanceToRay(direction, size, before) <= reach) ||
+         (size <= hardest && distanceToRay(-direction, 0.0, before) <= reach);
 }
 
 bool positionFails(const ElbowSample& step, const ElbowSample& last,

@@ -49,12 +49,16 @@ bool comesDown(const Directed& joint, double ddq_max) noexcept {
 }
 
 // Brakes suddenly, but no harder than the limiter's law: jerk / acceleration times what is left to
-// the shrinking limit.
+// the limit. (Where the limit shrinks, the law may even exceed the acceleration.)
 bool mustBrake(const Directed& joint, double ddq_max, double dddq_max) noexcept {
-  const double law = dddq_max / ddq_max * (joint.limit - kClientMargin - joint.last_dq);
-  const double hardest = std::max(law, -ddq_max);
+  const double hardest = dddq_max / ddq_max * (joint.limit - kClientMargin - joint.last_dq);
   const double tolerance = (1.0 - kBrakingShare) * std::abs(hardest) + 1e-9;
-  return joint.limit < joint.far_limit && joint.ddq >= hardest - tolerance;
+  return joint.ddq >= hardest - tolerance;
+}
+
+Directed againstChange(double change, const JointSample& step, const JointSample& last,
+                       const MotionLimits& limits, std::size_t i) noexcept {
+  return change < 0.0 ? upwards(step, last, limits, i) : downwards(step, last, limits, i);
 }
 
 bool positionsFail(const JointSample& step, const JointSample& last,
@@ -83,9 +87,13 @@ bool velocitiesFail(const JointSample& step, const JointSample& last,
   return false;
 }
 
-bool accelerationsFail(const JointSample& step, const MotionLimits& limits) noexcept {
+bool accelerationsFail(const JointSample& step, const JointSample& last,
+                       const MotionLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
-    if (!(std::abs(step.ddq[i]) <= limits.arm.ddq[i])) {
+    const Directed joint = againstChange(step.ddq[i], step, last, limits, i);
+    const bool shrinks = joint.limit < joint.far_limit;
+    if (!(std::abs(step.ddq[i]) <= limits.arm.ddq[i]) &&
+        !(shrinks && mustBrake(joint, limits.arm.ddq[i], limits.arm.dddq[i]))) {
       return true;
     }
   }
@@ -95,12 +103,9 @@ bool accelerationsFail(const JointSample& step, const MotionLimits& limits) noex
 bool jerksFail(const JointSample& step, const JointSample& last, double factor,
                const MotionLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
-    if (std::abs(step.dddq[i]) <= limits.arm.dddq[i] * factor) {
-      continue;
-    }
-    const Directed joint =
-        step.dddq[i] < 0.0 ? upwards(step, last, limits, i) : downwards(step, last, limits, i);
-    if (!mustBrake(joint, limits.arm.ddq[i], limits.arm.dddq[i])) {
+    if (!(std::abs(step.dddq[i]) <= limits.arm.dddq[i] * factor) &&
+        !mustBrake(againstChange(step.dddq[i], step, last, limits, i), limits.arm.ddq[i],
+                   limits.arm.dddq[i])) {
       return true;
     }
   }
@@ -124,7 +129,7 @@ MotionFault judge(const JointSample& step, const JointSample& last, const JointF
   if (velocitiesFail(step, last, limits)) {
     return flags.velocity;
   }
-  if (accelerationsFail(step, limits)) {
+  if (accelerationsFail(step, last, limits)) {
     return flags.acceleration;
   }
   if (jerksFail(step, last, flags.jerk_factor, limits)) {
