@@ -54,8 +54,9 @@ Eigen::Vector3d limitVelocity(const Bounds& bounds, const Eigen::Vector3d& veloc
   const double square =
       along * along - last_velocity.squaredNorm() + bounds.velocity * bounds.velocity;
   const double distance = -along + std::sqrt(std::max(square, 0.0));
+  // Beyond the sphere the room is negative, and as an acceleration it could exceed the limit.
   const double allowed =
-      std::min(bounds.jerk / bounds.acceleration * distance, bounds.acceleration);
+      clampMagnitude(bounds.jerk / bounds.acceleration * distance, bounds.acceleration);
   return last_velocity + direction * std::min(acceleration_norm, allowed) * kDeltaT;
 }
 
