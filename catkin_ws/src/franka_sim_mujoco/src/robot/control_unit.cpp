@@ -1,11 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+// The first half of a tick: from a measurement to a state, and what is wrong with it.
 #include <franka_sim_mujoco/robot/control_unit.h>
-#include <franka_sim_mujoco/robot/friction.h>
+#include <franka_sim_mujoco/robot/deviation.h>
+#include <franka_sim_mujoco/robot/link_accelerometers.h>
+#include <franka_sim_mujoco/robot/measured_limits.h>
 #include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/robot/tick.h>
 #include <franka_sim_mujoco/robot/transforms.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -18,8 +23,7 @@ using franka_core::RobotMode;
 
 namespace {
 
-constexpr double kJointElasticity = 14250.0;       // [Nm/rad], decision 2
-constexpr double kElbowFlip = -0.467002423653011;  // [rad], fci.md 5.5
+constexpr double kJointElasticity = 14250.0;  // [Nm/rad], decision 2
 
 const ControlUnitParameters& checked(const ControlUnitParameters& parameters) {
   checkParameters(parameters);
@@ -42,7 +46,24 @@ ArmMeasurement restingAt(const std::array<double, 7>& q) noexcept {
 }
 
 std::array<double, 2> elbowOf(const std::array<double, 7>& q) noexcept {
-  return {{q[2], q[3] >= kElbowFlip ? 1.0 : -1.0}};
+  return {{q[2], q[3] >= franka_core::kElbowFlip ? 1.0 : -1.0}};
+}
+
+std::array<double, 6> twist(const std::array<double, 42>& jacobian,
+                            const std::array<double, 7>& dq) noexcept {
+  std::array<double, 6> result;
+  Eigen::Map<Eigen::Matrix<double, 6, 1>>(result.data()) =
+      Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data())
+          .lazyProduct(Eigen::Map<const Eigen::Matrix<double, 7, 1>>(dq.data()));
+  return result;
+}
+
+bool any(const std::array<double, 7>& values) noexcept {
+  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
+}
+
+bool any(const std::array<double, 6>& values) noexcept {
+  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
 }
 
 }  // namespace
@@ -50,13 +71,14 @@ std::array<double, 2> elbowOf(const std::array<double, 7>& q) noexcept {
 ControlUnit::ControlUnit(const ControlUnitParameters& parameters)
     : parameters_(checked(parameters)),
       external_torque_(parameters.substeps),
+      self_collision_(parameters.has_hand),
+      generator_(motionLimitsOfProtocol(parameters.protocol_version)),
+      torque_command_(parameters.max_torque),
       hold_(parameters.joint_stiffness, parameters.rotor_inertia),
-      torque_command_(parameters.max_torque) {
+      joint_controller_(parameters.joint_stiffness, parameters.rotor_inertia) {
   showConfiguration();
   showModes();
 }
-
-// --- observe: measurement -> state ---------------------------------------------------------------
 
 const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measurement) noexcept {
   const bool good = isFinite(measurement);
@@ -65,6 +87,7 @@ const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measur
   continuous_ = good;
   started_ = true;
   const ArmMeasurement now = good ? measurement : restingAt(state_.q);
+  const std::array<double, 7> dq_before = measured ? state_.dq : now.dq;
 
   state_.message_id++;
   state_.q = now.q;
@@ -73,13 +96,21 @@ const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measur
                                     state_.EE_T_K, total_, parameters_.gravity, dynamics_);
   state_.O_T_EE = dynamics_.pose;
   state_.elbow = elbowOf(now.q);
+  O_dP_EE_ = twist(dynamics_.zero_jacobian, now.dq);
   if (first) {
     state_.tau_J = dynamics_.gravity;
     holdHere();
+  } else if (mode() == RobotMode::kGuiding) {
+    holdHere();
   }
   observeTorques(now, measured);
+  observeContacts();
+  observeAccelerometers(dq_before);
   observeDesired();
-  state_.control_command_success_rate = command_window_.rate();
+  if (parameters_.reflexes && measured) {
+    checkMeasurement();
+  }
+  state_.control_command_success_rate = losses_.rate();
   return state_;
 }
 
@@ -95,30 +126,28 @@ void ControlUnit::observeTorques(const ArmMeasurement& measurement, bool measure
     state_.theta[i] = state_.q[i] + state_.tau_J[i] / kJointElasticity;
     state_.dtheta[i] = state_.dq[i] + state_.dtau_J[i] / kJointElasticity;
   }
-  state_.tau_J_d = torque_command_.value();
-
-  std::array<double, 7> tau_ext{};
   if (measured) {
-    tau_ext = external_torque_.update(parameters_.model, total_, parameters_.gravity, measurement);
+    tau_ext_ = external_torque_.update(parameters_.model, total_, parameters_.gravity, measurement);
   } else {
+    tau_ext_.fill(0.0);
     external_torque_.restart(measurement);
   }
-  state_.tau_ext_hat_filtered = tau_ext_filter_.update(tau_ext);
-  observeContacts(tau_ext);
+  state_.tau_ext_hat_filtered = tau_ext_filter_.update(tau_ext_);
 }
 
-void ControlUnit::observeContacts(const std::array<double, 7>& tau_ext) noexcept {
+void ControlUnit::observeContacts() noexcept {
   external_wrench_.update(dynamics_.pose, dynamics_.zero_jacobian, state_.EE_T_K);
   state_.O_F_ext_hat_K = external_wrench_.inBase(state_.tau_ext_hat_filtered);
   state_.K_F_ext_hat_K = external_wrench_.inStiffness(state_.O_F_ext_hat_K);
 
   // Thresholds act on what the filters have not yet delayed (decision 3).
-  std::array<double, 6> wrench = external_wrench_.inBase(tau_ext);
+  std::array<double, 6> wrench = external_wrench_.inBase(tau_ext_);
   if (parameters_.threshold_frame == ThresholdFrame::kStiffness) {
     wrench = external_wrench_.inStiffness(wrench);
   }
-  const CollisionThresholds& thresholds = parameters_.nominal;
-  joint_contacts_.update(tau_ext, thresholds.lower_torque, thresholds.upper_torque);
+  const CollisionThresholds& thresholds =
+      phase_.update(accelerating_) ? parameters_.acceleration : parameters_.nominal;
+  joint_contacts_.update(tau_ext_, thresholds.lower_torque, thresholds.upper_torque);
   cartesian_contacts_.update(wrench, thresholds.lower_force, thresholds.upper_force);
   state_.joint_contact = joint_contacts_.contact();
   state_.joint_collision = joint_contacts_.collision();
@@ -126,6 +155,18 @@ void ControlUnit::observeContacts(const std::array<double, 7>& tau_ext) noexcept
   state_.cartesian_collision = cartesian_contacts_.collision();
 }
 
+void ControlUnit::observeAccelerometers(const std::array<double, 7>& dq_before) noexcept {
+  std::array<double, 7> ddq;
+  for (std::size_t i = 0; i < 7; i++) {
+    ddq[i] = (state_.dq[i] - dq_before[i]) / kTick;
+  }
+  const LinkAccelerations readings =
+      linkAccelerations(parameters_.model, state_.q, state_.dq, ddq, parameters_.gravity);
+  state_.accelerometer_top = readings.top;
+  state_.accelerometer_bottom = readings.bottom;
+}
+
+// While no generator shows them: at rest or braking.
 void ControlUnit::observeDesired() noexcept {
   if (!desired_stale_) {
     return;
@@ -134,185 +175,75 @@ void ControlUnit::observeDesired() noexcept {
   state_.O_T_EE_d =
       parameters_.model.pose(ArmFrame::kEndEffector, state_.q_d, state_.F_T_EE, state_.EE_T_K);
   state_.O_T_EE_c = state_.O_T_EE_d;
+  state_.O_dP_EE_d.fill(0.0);
+  if (any(state_.dq_d)) {
+    state_.O_dP_EE_d = twist(parameters_.model.zeroJacobian(ArmFrame::kEndEffector, state_.q_d,
+                                                            state_.F_T_EE, state_.EE_T_K),
+                             state_.dq_d);
+  }
+  state_.O_dP_EE_c = state_.O_dP_EE_d;
+  state_.O_ddP_EE_c.fill(0.0);
   state_.elbow_d = elbowOf(state_.q_d);
   state_.elbow_c = state_.elbow_d;
+  state_.delbow_c = {{state_.dq_d[2], 0.0}};
+  state_.ddelbow_c = {{state_.ddq_d[2], 0.0}};
 }
 
-// --- actuate: command -> torques -----------------------------------------------------------------
+// --- what is wrong -------------------------------------------------------------------------------
 
-const std::array<double, 7>& ControlUnit::actuate(
-    const franka_core::RobotCommand* command) noexcept {
-  std::array<double, 7> tau{};
-  if (takeCommand(command)) {
-    tau = torque_command_.value();
-  } else if (modes_.mode() == RobotMode::kIdle) {
-    tau = saturate(hold_.torque(state_.q_d, state_.dq_d, state_.q, state_.dq, dynamics_.mass,
-                                dynamics_.coriolis),
-                   parameters_.max_torque);
+void ControlUnit::checkMeasurement() noexcept {
+  if (mode() != RobotMode::kIdle && mode() != RobotMode::kMove) {
+    return;
   }
-  if (brakesClosed() || !started_) {
-    motor_torque_.fill(0.0);
-    return motor_torque_;
+  const std::optional<ErrorFlag> violation =
+      measuredViolation(generator_.limits().arm, state_, O_dP_EE_);
+  if (violation) {
+    flag(indexOf(*violation));
   }
-  const std::array<double, 7> friction =
-      frictionCompensation(parameters_.coulomb_friction, parameters_.viscous_friction, state_.dq);
-  for (std::size_t i = 0; i < 7; i++) {
-    motor_torque_[i] = tau[i] + dynamics_.gravity[i] + friction[i];
+  checkContacts();
+  if (mode() == RobotMode::kMove) {
+    checkMotion();
   }
-  return motor_torque_;
+  react();
 }
 
-bool ControlUnit::takeCommand(const franka_core::RobotCommand* command) noexcept {
-  if (modes_.mode() != RobotMode::kMove) {
-    return false;
+void ControlUnit::checkContacts() noexcept {
+  if (any(state_.joint_collision)) {
+    flag(indexOf(ErrorFlag::kJointReflex));
   }
-  const bool received = command != nullptr && torque_command_.receive(command->tau_J_d);
-  command_window_.record(received);
-  if (received && command->torque_command_finished) {
-    stopMotion();
-    return false;
+  if (any(state_.cartesian_collision)) {
+    flag(indexOf(ErrorFlag::kCartesianReflex));
   }
-  return true;
 }
 
-// --- requests ------------------------------------------------------------------------------------
-
-RequestStatus ControlUnit::startTorqueControl() noexcept {
-  if (!started_ || !handle(ModeEvent::kMotionStarted)) {
-    return RequestStatus::kNotPossible;
+void ControlUnit::checkMotion() noexcept {
+  const bool generated = generates();
+  if (self_collision_.violated(parameters_.model, generated ? state_.q_d : state_.q)) {
+    flag(indexOf(ErrorFlag::kSelfCollision));
   }
-  return RequestStatus::kSuccess;
-}
-
-RequestStatus ControlUnit::stopMotion() noexcept {
-  return handle(ModeEvent::kMotionEnded) ? RequestStatus::kSuccess : RequestStatus::kNotPossible;
-}
-
-void ControlUnit::setUserStop(bool pressed) noexcept {
-  handle(pressed ? ModeEvent::kUserStopPressed : ModeEvent::kUserStopReleased);
-}
-
-RequestStatus ControlUnit::automaticErrorRecovery() noexcept {
-  if (modes_.mode() == RobotMode::kUserStopped) {
-    return RequestStatus::kNotPossible;
+  if (walls_.violated(state_.O_T_EE)) {
+    flag(indexOf(ErrorFlag::kVirtualWall));
   }
-  state_.errors.fill(false);
-  joint_contacts_.clear();
-  cartesian_contacts_.clear();
-  return RequestStatus::kSuccess;
-}
-
-RequestStatus ControlUnit::setEE(const std::array<double, 16>& NE_T_EE) noexcept {
-  if (!settersAllowed()) {
-    return RequestStatus::kNotPossible;
+  if (controlledOutside()) {
+    const std::optional<ErrorFlag> fault =
+        force_watch_.update(tau_ext_, state_.tau_J, motor_torque_, parameters_.max_torque);
+    if (fault) {
+      flag(indexOf(*fault));
+    }
+    return;
   }
-  if (!isTransform(NE_T_EE)) {
-    return RequestStatus::kInvalidArgument;
+  if (deviates(state_, move_.max_path_deviation)) {
+    flag(indexOf(ErrorFlag::kPathDeviation));
   }
-  parameters_.NE_T_EE = NE_T_EE;
-  showConfiguration();
-  return RequestStatus::kSuccess;
-}
-
-RequestStatus ControlUnit::setK(const std::array<double, 16>& EE_T_K) noexcept {
-  if (!settersAllowed()) {
-    return RequestStatus::kNotPossible;
+  const bool cartesian = move_.motion_generator_mode == MotionGeneratorMode::kCartesianPosition ||
+                         move_.motion_generator_mode == MotionGeneratorMode::kCartesianVelocity;
+  // No rule is published; ours: the hand moves against its profile, by more than the speed limit.
+  const double difference =
+      std::hypot(O_dP_EE_[0] - state_.O_dP_EE_d[0], O_dP_EE_[1] - state_.O_dP_EE_d[1],
+                 O_dP_EE_[2] - state_.O_dP_EE_d[2]);
+  if (cartesian && difference > generator_.limits().arm.translation.velocity) {
+    flag(indexOf(ErrorFlag::kVelocityProfile));
   }
-  if (!isTransform(EE_T_K)) {
-    return RequestStatus::kInvalidArgument;
-  }
-  parameters_.EE_T_K = EE_T_K;
-  showConfiguration();
-  return RequestStatus::kSuccess;
-}
-
-RequestStatus ControlUnit::setLoad(const franka_core::Payload& load) noexcept {
-  if (!settersAllowed()) {
-    return RequestStatus::kNotPossible;
-  }
-  if (!isPayload(load)) {
-    return RequestStatus::kInvalidArgument;
-  }
-  parameters_.load = load;
-  showConfiguration();
-  return RequestStatus::kSuccess;
-}
-
-RequestStatus ControlUnit::setCollisionBehavior(const CollisionThresholds& acceleration,
-                                                const CollisionThresholds& nominal) noexcept {
-  if (!settersAllowed()) {
-    return RequestStatus::kNotPossible;
-  }
-  if (!areThresholds(acceleration) || !areThresholds(nominal)) {
-    return RequestStatus::kInvalidArgument;
-  }
-  parameters_.acceleration = acceleration;
-  parameters_.nominal = nominal;
-  return RequestStatus::kSuccess;
-}
-
-void ControlUnit::restart() noexcept {
-  started_ = false;
-  continuous_ = false;
-  tau_ext_filter_.restart();
-  dtau_J_filter_.restart();
-  joint_contacts_.clear();
-  cartesian_contacts_.clear();
-  torque_command_.clear();
-}
-
-// --- what requests change ------------------------------------------------------------------------
-
-bool ControlUnit::settersAllowed() const noexcept {
-  return parameters_.setters_in_motion || modes_.mode() != RobotMode::kMove;
-}
-
-bool ControlUnit::handle(ModeEvent event) noexcept {
-  if (!modes_.handle(event)) {
-    return false;
-  }
-  // Every transition starts at rest from the measured pose; no torque survives it.
-  torque_command_.clear();
-  command_window_.clear();
-  holdHere();
-  showModes();
-  return true;
-}
-
-void ControlUnit::holdHere() noexcept {
-  state_.q_d = state_.q;
-  state_.dq_d.fill(0.0);
-  state_.ddq_d.fill(0.0);
-  desired_stale_ = true;
-}
-
-void ControlUnit::showModes() noexcept {
-  const bool moving = modes_.mode() == RobotMode::kMove;
-  state_.robot_mode = modes_.mode();
-  state_.motion_generator_mode = moving ? MotionGeneratorMode::kNone : MotionGeneratorMode::kIdle;
-  state_.controller_mode = moving ? ControllerMode::kExternalController : ControllerMode::kOther;
-  state_.control_command_success_rate = command_window_.rate();
-}
-
-void ControlUnit::showConfiguration() noexcept {
-  const franka_core::Payload& ee = parameters_.end_effector;
-  const franka_core::Payload& load = parameters_.load;
-  total_ = franka_core::combine(ee, load);
-  state_.F_T_NE = parameters_.F_T_NE;
-  state_.NE_T_EE = parameters_.NE_T_EE;
-  state_.EE_T_K = parameters_.EE_T_K;
-  state_.F_T_EE = multiply(parameters_.F_T_NE, parameters_.NE_T_EE);
-  state_.m_ee = ee.mass;
-  state_.F_x_Cee = ee.com;
-  state_.I_ee = ee.inertia;
-  state_.m_load = load.mass;
-  state_.F_x_Cload = load.com;
-  state_.I_load = load.inertia;
-  state_.m_total = total_.mass;
-  state_.F_x_Ctotal = total_.com;
-  state_.I_total = total_.inertia;
-  state_.O_ddP_O = parameters_.gravity;
-  desired_stale_ = true;
 }
 
 }  // namespace franka_sim_mujoco

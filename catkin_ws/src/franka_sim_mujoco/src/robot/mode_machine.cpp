@@ -17,9 +17,33 @@ struct Transition {
 constexpr Transition kTransitions[] = {
     {RobotMode::kIdle, ModeEvent::kMotionStarted, RobotMode::kMove},
     {RobotMode::kMove, ModeEvent::kMotionEnded, RobotMode::kIdle},
+
+    {RobotMode::kIdle, ModeEvent::kError, RobotMode::kReflex},
+    {RobotMode::kMove, ModeEvent::kError, RobotMode::kReflex},
+    {RobotMode::kReflex, ModeEvent::kRecoveryStarted, RobotMode::kAutomaticErrorRecovery},
+    {RobotMode::kAutomaticErrorRecovery, ModeEvent::kRecoveryEnded, RobotMode::kIdle},
+    {RobotMode::kAutomaticErrorRecovery, ModeEvent::kRecoveryFailed, RobotMode::kReflex},
+
+    {RobotMode::kIdle, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
+    {RobotMode::kMove, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
+    // A person must be able to lead the arm out of what no recovery can leave.
+    {RobotMode::kReflex, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
+    {RobotMode::kGuiding, ModeEvent::kGuidingEnded, RobotMode::kIdle},
+
     {RobotMode::kIdle, ModeEvent::kUserStopPressed, RobotMode::kUserStopped},
     {RobotMode::kMove, ModeEvent::kUserStopPressed, RobotMode::kUserStopped},
+    {RobotMode::kGuiding, ModeEvent::kUserStopPressed, RobotMode::kUserStopped},
+    {RobotMode::kReflex, ModeEvent::kUserStopPressed, RobotMode::kUserStopped},
+    {RobotMode::kAutomaticErrorRecovery, ModeEvent::kUserStopPressed, RobotMode::kUserStopped},
     {RobotMode::kUserStopped, ModeEvent::kUserStopReleased, RobotMode::kIdle},
+
+    {RobotMode::kIdle, ModeEvent::kBrakesClosed, RobotMode::kOther},
+    {RobotMode::kMove, ModeEvent::kBrakesClosed, RobotMode::kOther},
+    {RobotMode::kGuiding, ModeEvent::kBrakesClosed, RobotMode::kOther},
+    {RobotMode::kReflex, ModeEvent::kBrakesClosed, RobotMode::kOther},
+    {RobotMode::kAutomaticErrorRecovery, ModeEvent::kBrakesClosed, RobotMode::kOther},
+    {RobotMode::kUserStopped, ModeEvent::kBrakesClosed, RobotMode::kOther},
+    {RobotMode::kOther, ModeEvent::kBrakesOpened, RobotMode::kIdle},
 };
 
 }  // namespace

@@ -78,6 +78,15 @@ bool areThresholds(const CollisionThresholds& thresholds) noexcept {
          allFiniteNotNegative(thresholds.upper_force);
 }
 
+bool isJointStiffness(const std::array<double, 7>& K) noexcept {
+  return std::all_of(K.begin(), K.end(), [](double k) { return k >= 0.0 && k <= 14250.0; });
+}
+
+bool isCartesianStiffness(const std::array<double, 6>& K) noexcept {
+  return std::all_of(K.begin(), K.begin() + 3, [](double k) { return k >= 10.0 && k <= 3000.0; }) &&
+         std::all_of(K.begin() + 3, K.end(), [](double k) { return k >= 1.0 && k <= 300.0; });
+}
+
 void checkParameters(const ControlUnitParameters& parameters) {
   const std::string not_negative = "must hold seven finite numbers that are not negative";
   require(allFiniteNotNegative(parameters.max_torque), "max_torque", not_negative);
@@ -85,6 +94,10 @@ void checkParameters(const ControlUnitParameters& parameters) {
   require(allFiniteNotNegative(parameters.coulomb_friction), "coulomb_friction", not_negative);
   require(allFiniteNotNegative(parameters.viscous_friction), "viscous_friction", not_negative);
   require(allFiniteNotNegative(parameters.joint_stiffness), "joint_stiffness", not_negative);
+  require(isCartesianStiffness(parameters.cartesian_stiffness), "cartesian_stiffness",
+          "must hold three numbers from 10 to 3000 N/m and three from 1 to 300 Nm/rad");
+  require(parameters.protocol_version >= 3 && parameters.protocol_version <= 10, "protocol_version",
+          "is " + std::to_string(parameters.protocol_version) + " but must be 3 to 10");
   require(parameters.substeps >= 1, "substeps",
           "is " + std::to_string(parameters.substeps) + " but must be 1 or more");
   require(allFinite(parameters.gravity), "gravity_vector", "must hold three finite numbers");

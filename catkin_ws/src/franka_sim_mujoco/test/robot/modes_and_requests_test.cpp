@@ -118,9 +118,16 @@ TEST_F(ArmTest, StoppedMotionIsCaughtAndHeld) {
   startTorqueControl();
   const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
   run(100, &push);
-  EXPECT_GT(std::abs(arm.dq()[0]), 0.5);
+  const double speed = unit.state().dq[0];
+  const double begin = unit.state().q[0];
+  EXPECT_GT(speed, 0.5);
   unit.stopMotion();
+  EXPECT_TRUE(unit.settling());
+  run(1000);
+  EXPECT_FALSE(unit.settling());
   const std::array<double, 7> held = unit.state().q_d;
+  // Joint 1 brakes with 15 rad/s^2.
+  EXPECT_NEAR(speed * speed / 30.0, held[0] - begin, 1e-3 * speed);
   run(1000);
   EXPECT_EQ(held, unit.state().q_d);
   EXPECT_EQ((std::array<double, 7>{}), unit.state().tau_J_d);

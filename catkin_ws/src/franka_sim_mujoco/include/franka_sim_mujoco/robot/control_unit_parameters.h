@@ -43,10 +43,27 @@ struct ControlUnitParameters {
                               {{20, 20, 20, 25, 25, 25}},
                               {{20, 20, 20, 25, 25, 25}}};
   CollisionThresholds acceleration{nominal};
-  std::array<double, 7> joint_stiffness{{3000, 3000, 3000, 2500, 2500, 2000, 2000}};  ///< [Nm/rad]
+  /// Of the idle hold, and of joint impedance control until it is set [Nm/rad].
+  std::array<double, 7> joint_stiffness{{3000, 3000, 3000, 2500, 2500, 2000, 2000}};
+  /// Of Cartesian impedance control until it is set [N/m, Nm/rad] (decision 11).
+  std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
+  bool has_hand{true};           ///< for the avoidance of self-collisions
+  unsigned protocol_version{5};  ///< whose limits hold (decisions 8 and 25)
   /// Whether setters are taken in Move: the ROS simulation does, the FCI refuses (fci.md 5.1).
   bool setters_in_motion{true};
   ThresholdFrame threshold_frame{ThresholdFrame::kStiffness};
+  /// Whether collisions, violated limits and lost commands end a motion. The robot does so; the ROS
+  /// simulation only shows contacts and collisions.
+  bool reflexes{false};
 };
+
+/// Makes a unit behave as behind its own interface: reflexes, setters refused while it moves,
+/// thresholds for O_F_ext_hat_K.
+inline void behaveAsOverFci(ControlUnitParameters& parameters, unsigned protocol_version) {
+  parameters.protocol_version = protocol_version;
+  parameters.reflexes = true;
+  parameters.setters_in_motion = false;
+  parameters.threshold_frame = ThresholdFrame::kBase;
+}
 
 }  // namespace franka_sim_mujoco

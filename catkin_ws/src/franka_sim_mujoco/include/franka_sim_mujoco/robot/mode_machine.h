@@ -10,9 +10,18 @@ namespace franka_sim_mujoco {
 enum class ModeEvent {
   kMotionStarted,
   kMotionEnded,
+  kError,  ///< a check has failed
+  kRecoveryStarted,
+  kRecoveryEnded,
+  kRecoveryFailed,
+  kGuidingStarted,
+  kGuidingEnded,
   kUserStopPressed,
   kUserStopReleased,
+  kBrakesClosed,
+  kBrakesOpened,
 };
+constexpr int kModeEventCount = 12;
 
 /// The robot's mode and the table of its transitions (fci.md 5.1). Events that the present mode
 /// does not know change nothing. Real-time safe; one thread.

@@ -5,6 +5,8 @@
 #include <franka_core/arm_model.h>
 #include <franka_sim_mujoco/robot/control_unit_parameters.h>
 
+#include <array>
+
 namespace franka_sim_mujoco {
 
 /// Whether a body can have these: finite, mass not negative, inertia symmetric without a negative
@@ -13,6 +15,12 @@ bool isPayload(const franka_core::Payload& payload) noexcept;
 
 /// Whether all thresholds are finite and not negative. Real-time safe.
 bool areThresholds(const CollisionThresholds& thresholds) noexcept;
+
+/// Whether the robot accepts these stiffnesses: 0 to 14250 Nm/rad (fci.md 5.2). Real-time safe.
+bool isJointStiffness(const std::array<double, 7>& K) noexcept;
+
+/// Likewise: 10 to 3000 N/m, 1 to 300 Nm/rad. Real-time safe.
+bool isCartesianStiffness(const std::array<double, 6>& K) noexcept;
 
 /// @throws std::invalid_argument with a sentence that names the first parameter which makes no
 /// sense.

@@ -20,12 +20,18 @@ class TorqueCommand {
   /// @param tau without gravity [Nm]; ignored as a whole when any value is not finite
   /// @returns whether it was taken.
   bool receive(const std::array<double, 7>& tau) noexcept;
-  void clear() noexcept { tau_.fill(0.0); }
+  /// Whether a step to `tau` exceeds the rate of 1000 Nm/s (tolerance 0.01 Nm/s, decision 14), seen
+  /// both from the last torque as commanded and as it was cut; or is not finite.
+  bool jumps(const std::array<double, 7>& tau) const noexcept;
+  void clear() noexcept {
+    tau_.fill(0.0);
+    asked_.fill(0.0);
+  }
   const std::array<double, 7>& value() const noexcept { return tau_; }
 
  private:
   std::array<double, 7> limit_;
-  std::array<double, 7> tau_{};
+  std::array<double, 7> tau_{}, asked_{};  // cut, and as commanded
 };
 
 }  // namespace franka_sim_mujoco
