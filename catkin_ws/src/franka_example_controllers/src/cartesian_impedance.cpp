@@ -72,8 +72,13 @@ Eigen::Matrix<double, 6, 1> CartesianImpedance::poseError(
     orientation.coeffs() = -orientation.coeffs();  // the same rotation, reached the short way round
   }
   const Eigen::Quaterniond left_to_turn = orientation.conjugate() * orientation_d_;
+  Eigen::Vector3d turn = left_to_turn.vec();
+  if (rotation_error_ == RotationError::kAxisAngle) {
+    const Eigen::AngleAxisd angle_axis(left_to_turn);
+    turn = angle_axis.axis() * angle_axis.angle();
+  }
   Wrench error;
-  error << pose.topRightCorner<3, 1>() - position_d_, -(rotation * left_to_turn.vec());
+  error << pose.topRightCorner<3, 1>() - position_d_, -(rotation * turn);
   return error;
 }
 
@@ -87,12 +92,6 @@ void CartesianImpedance::approachTargets() noexcept {
   nullspace_stiffness_ = filtered(nullspace_stiffness_, compliance_target_.nullspace_stiffness);
   position_d_ = filtered(position_d_, position_target_);
   orientation_d_ = orientation_d_.slerp(kFilter, orientation_target_).normalized();
-}
-
-CartesianImpedance::Vector7 saturateTorqueRate(const CartesianImpedance::Vector7& tau,
-                                               const CartesianImpedance::Vector7& tau_J_d,
-                                               double largest_step) noexcept {
-  return tau_J_d + (tau - tau_J_d).cwiseMax(-largest_step).cwiseMin(largest_step);
 }
 
 }  // namespace franka_example_controllers

@@ -4,8 +4,7 @@
 #include <franka/robot_state.h>
 #include <franka_example_controllers/cartesian_impedance_example_controller.h>
 #include <franka_example_controllers/controller_parameters.h>
-#include <hardware_interface/hardware_interface.h>
-#include <hardware_interface/internal/demangle_symbol.h>
+#include <franka_example_controllers/robot_handles.h>
 #include <pluginlib/class_list_macros.h>
 #include <ros/console.h>
 #include <ros/transport_hints.h>
@@ -19,17 +18,6 @@ namespace {
 constexpr char kName[] = "CartesianImpedanceExampleController";
 constexpr double kShortestQuaternion = 1e-3;  ///< below it a quaternion names no rotation
 constexpr double kComplaintPeriod = 1.0;      ///< [s] between complaints about bad messages
-
-template <typename Interface>
-auto takeHandle(hardware_interface::RobotHW* robot_hw, const std::string& resource) {
-  auto* interface = robot_hw->get<Interface>();
-  if (interface == nullptr) {
-    throw hardware_interface::HardwareInterfaceException(
-        "The robot does not offer " + hardware_interface::internal::demangledTypeName<Interface>() +
-        ".");
-  }
-  return interface->getHandle(resource);
-}
 
 bool isFinite(const compliance_paramConfig& config) {
   return std::isfinite(config.translational_stiffness) &&
@@ -63,24 +51,13 @@ bool CartesianImpedanceExampleController::init(hardware_interface::RobotHW* robo
 bool CartesianImpedanceExampleController::takeHandles(hardware_interface::RobotHW* robot_hw,
                                                       const std::string& arm_id,
                                                       const std::vector<std::string>& joint_names) {
-  try {
+  return franka_example_controllers::takeHandles(kName, arm_id, [&] {
     model_handle_ = std::make_unique<franka_hw::FrankaModelHandle>(
         takeHandle<franka_hw::FrankaModelInterface>(robot_hw, arm_id + "_model"));
     state_handle_ = std::make_unique<franka_hw::FrankaStateHandle>(
         takeHandle<franka_hw::FrankaStateInterface>(robot_hw, arm_id + "_robot"));
-    joint_handles_.clear();
-    for (const std::string& joint_name : joint_names) {
-      joint_handles_.push_back(
-          takeHandle<hardware_interface::EffortJointInterface>(robot_hw, joint_name));
-    }
-  } catch (const hardware_interface::HardwareInterfaceException& error) {
-    ROS_ERROR(
-        "%s: the robot lacks something of arm '%s'; check the parameters arm_id and joint_names. "
-        "%s",
-        kName, arm_id.c_str(), error.what());
-    return false;
-  }
-  return true;
+    joint_handles_ = takeJoints<hardware_interface::EffortJointInterface>(robot_hw, joint_names);
+  });
 }
 
 void CartesianImpedanceExampleController::starting(const ros::Time& /*time*/) {

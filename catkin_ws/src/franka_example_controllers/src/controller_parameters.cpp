@@ -3,6 +3,9 @@
 #include <franka_example_controllers/controller_parameters.h>
 #include <ros/console.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace franka_example_controllers {
 
 namespace {
@@ -28,6 +31,18 @@ bool readJointNames(const char* controller, const ros::NodeHandle& node_handle,
         "%s: the parameter %s/joint_names must be a list of the arm's seven joint names; it has "
         "%zu.",
         controller, node_handle.getNamespace().c_str(), joint_names.size());
+    return false;
+  }
+  return true;
+}
+
+bool readGains(const char* controller, const ros::NodeHandle& node_handle, const std::string& name,
+               std::vector<double>& gains) {
+  gains.clear();
+  if (!node_handle.getParam(name, gains) || gains.size() != kJoints ||
+      !std::all_of(gains.begin(), gains.end(), [](double gain) { return std::isfinite(gain); })) {
+    ROS_ERROR("%s: the parameter %s must be a list of seven numbers, one for each joint.",
+              controller, node_handle.resolveName(name).c_str());
     return false;
   }
   return true;

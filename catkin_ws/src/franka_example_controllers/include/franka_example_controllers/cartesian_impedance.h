@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_example_controllers/torque_rate.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -21,6 +23,13 @@ struct Compliance {
 /// 10 Nm/rad drew the end effector 5 cm off its equilibrium.
 constexpr double kNullSpaceDamping = 2e-3;
 
+/// How an orientation error becomes a vector.
+enum class RotationError {
+  kQuaternion,  ///< vector part of the unit quaternion: for small angles half of the rotation
+                ///< vector
+  kAxisAngle    ///< rotation vector: axis times angle [rad]
+};
+
 /// A Cartesian impedance with a null-space impedance for one seven-joint arm.
 ///
 /// The end effector is drawn to an equilibrium pose by springs and critical dampers (2 sqrt(K)),
@@ -32,6 +41,9 @@ constexpr double kNullSpaceDamping = 2e-3;
 class CartesianImpedance {
  public:
   using Vector7 = Eigen::Matrix<double, 7, 1>;
+
+  explicit CartesianImpedance(RotationError rotation_error = RotationError::kQuaternion)
+      : rotation_error_(rotation_error) {}
 
   /// What the law needs to know of the arm in one cycle.
   struct Arm {
@@ -67,6 +79,7 @@ class CartesianImpedance {
   Eigen::Matrix<double, 6, 1> poseError(const std::array<double, 16>& O_T_EE) const noexcept;
   void approachTargets() noexcept;
 
+  RotationError rotation_error_;
   Gains gains_;
   double nullspace_stiffness_{0.0};
   Compliance compliance_target_;
@@ -76,11 +89,5 @@ class CartesianImpedance {
   Eigen::Quaterniond orientation_target_{Eigen::Quaterniond::Identity()};
   Vector7 q_nullspace_{Vector7::Zero()};
 };
-
-/// Limits the change of the torques from one cycle to the next, as the robot demands it.
-/// @param tau wanted, @param tau_J_d commanded in the last cycle, @param largest_step [Nm]
-CartesianImpedance::Vector7 saturateTorqueRate(const CartesianImpedance::Vector7& tau,
-                                               const CartesianImpedance::Vector7& tau_J_d,
-                                               double largest_step = 1.0) noexcept;
 
 }  // namespace franka_example_controllers

@@ -19,4 +19,9 @@ bool readArmId(const char* controller, const ros::NodeHandle& node_handle, std::
 bool readJointNames(const char* controller, const ros::NodeHandle& node_handle,
                     std::vector<std::string>& joint_names);
 
+/// Reads seven numbers, one for each joint, from a parameter in a controller's namespace.
+/// @returns false, after one sentence in the log, when there are not seven finite ones
+bool readGains(const char* controller, const ros::NodeHandle& node_handle, const std::string& name,
+               std::vector<double>& gains);
+
 }  // namespace franka_example_controllers

@@ -1,0 +1,38 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <controller_interface/multi_interface_controller.h>
+#include <franka_hw/franka_cartesian_command_interface.h>
+#include <franka_hw/franka_state_interface.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace franka_example_controllers {
+
+/// Leads the end effector to and fro along an arc of 0.15 m radius, by its pose.
+///
+/// Parameter in the controller's namespace: `arm_id`.
+class CartesianPoseExampleController
+    : public controller_interface::MultiInterfaceController<franka_hw::FrankaPoseCartesianInterface,
+                                                            franka_hw::FrankaStateInterface> {
+ public:
+  /// @returns false, after one sentence in the log, when a parameter is missing or wrong, the robot
+  /// lacks a handle or does not stand where the motion begins.
+  bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
+  void starting(const ros::Time& time) override;
+  void update(const ros::Time& time, const ros::Duration& period) override;
+
+ private:
+  std::unique_ptr<franka_hw::FrankaCartesianPoseHandle> pose_handle_;
+  std::array<double, 16> O_T_EE_start_{};  // 4x4 column-major
+  double elapsed_{0.0};                    // [s]
+};
+
+}  // namespace franka_example_controllers

@@ -1,0 +1,92 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <controller_interface/multi_interface_controller.h>
+#include <dynamic_reconfigure/server.h>
+#include <franka_example_controllers/cartesian_impedance.h>
+#include <franka_example_controllers/dual_arm_compliance_paramConfig.h>
+#include <franka_hw/franka_model_interface.h>
+#include <franka_hw/franka_state_interface.h>
+#include <franka_hw/trigger_rate.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/robot_hw.h>
+#include <realtime_tools/realtime_buffer.h>
+#include <realtime_tools/realtime_publisher.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace franka_example_controllers {
+
+/// One of the two arms.
+struct FrankaDataContainer {
+  std::string arm_id;
+  std::unique_ptr<franka_hw::FrankaStateHandle> state_handle;
+  std::unique_ptr<franka_hw::FrankaModelHandle> model_handle;
+  std::vector<hardware_interface::JointHandle> joint_handles;
+  CartesianImpedance impedance{RotationError::kAxisAngle};
+};
+
+/// Draws two end effectors to equilibrium poses that keep their pose relative to each other: both
+/// follow a centering frame C half way between them.
+///
+/// Parameters in the controller's namespace: `left/arm_id`, `left/joint_names` and the same for
+/// `right`. Topics there: `centering_frame_target_pose` (geometry_msgs/PoseStamped in the left
+/// arm's link0) leads C, `centering_frame` (30 Hz, latched) shows where it is. Stiffness is set by
+/// dynamic_reconfigure at `dynamic_reconfigure_compliance_param_node`, beside the controllers.
+/// Where the arms stand to each other comes from tf, once.
+class DualArmCartesianImpedanceExampleController
+    : public controller_interface::MultiInterfaceController<
+          franka_hw::FrankaModelInterface, hardware_interface::EffortJointInterface,
+          franka_hw::FrankaStateInterface> {
+ public:
+  /// Waits up to 4 s for tf. @returns false, after one sentence in the log, when a parameter is
+  /// missing or wrong, the robot lacks a handle, or tf does not know both arms.
+  bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
+  void starting(const ros::Time& time) override;
+  void update(const ros::Time& time, const ros::Duration& period) override;
+
+ private:
+  typedef franka_combined_example_controllers::dual_arm_compliance_paramConfig Config;
+
+  struct Target {
+    Eigen::Affine3d Ol_T_C{Eigen::Affine3d::Identity()};
+    std::uint64_t number{0};  ///< counts the poses received
+  };
+  struct Stiffness {
+    Compliance left, right;
+  };
+
+  bool initArm(hardware_interface::RobotHW* robot_hw, const ros::NodeHandle& node_handle,
+               FrankaDataContainer& arm);
+  bool findArms();
+  void targetCallback(const geometry_msgs::PoseStampedConstPtr& message);
+  void complianceCallback(Config& config);
+  void lead(const Eigen::Affine3d& Ol_T_C) noexcept;
+  static void updateArm(FrankaDataContainer& arm);
+  void publishCenteringFrame(const ros::Time& time);
+
+  FrankaDataContainer left_, right_;
+  Eigen::Affine3d Ol_T_Or_{Eigen::Affine3d::Identity()};
+  Eigen::Affine3d EEr_T_EEl_{Eigen::Affine3d::Identity()};
+  Eigen::Affine3d EEl_T_C_{Eigen::Affine3d::Identity()};
+
+  std::uint64_t target_in_use_{0};
+  std::uint64_t targets_received_{0};
+  franka_hw::TriggerRate rate_{30.0, ros::Time(0.0)};
+  realtime_tools::RealtimePublisher<geometry_msgs::PoseStamped> publisher_;
+  realtime_tools::RealtimeBuffer<Target> target_;
+  realtime_tools::RealtimeBuffer<Stiffness> stiffness_;
+  // Last, so that their callbacks end before anything they touch goes.
+  std::unique_ptr<dynamic_reconfigure::Server<Config>> compliance_server_;
+  ros::Subscriber target_subscriber_;
+};
+
+}  // namespace franka_example_controllers

@@ -1,0 +1,88 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace franka_example_controllers {
+
+/// Keeps a joint away from the ends of its range by a torque, as a padded wall would.
+///
+/// Before each soft limit lie two zones: next to it one with spring and damper, before that one
+/// with a damper only. A joint that stands in a zone when this begins is not pushed out: the zones
+/// shrink to where it stands and grow back as it leaves. One thread; real-time safe but for the
+/// throw.
+class JointWall {
+ public:
+  /// @param soft_upper_joint_position_limit, @param soft_lower_joint_position_limit [rad]
+  /// @param PD_zone_width, @param D_zone_width [rad] @param PD_zone_stiffness [Nm/rad]
+  /// @param PD_zone_damping, @param D_zone_damping [Nm s/rad]
+  /// Widths, stiffness and damping below zero are taken as positive, with a warning.
+  JointWall(double soft_upper_joint_position_limit, double soft_lower_joint_position_limit,
+            double PD_zone_width, double D_zone_width, double PD_zone_stiffness,
+            double PD_zone_damping, double D_zone_damping);
+  JointWall() = delete;
+
+  /// Torque against the wall [Nm]. @param q [rad] @param dq [rad/s]
+  /// @throws std::runtime_error when the first q after a reset lies outside the soft limits
+  double computeTorque(double q, double dq);
+
+  /// Forgets where the joint was.
+  void reset();
+
+ private:
+  /// How deep q stands in the zones of the nearer limit: 0 outside, 1 at the limit.
+  double depth(double q) const noexcept;
+  void begin(double q);
+
+  double upper_, lower_;
+  double pd_width_, d_width_;
+  double stiffness_, pd_damping_, d_damping_;
+  bool begun_{false};
+  double scale_{1.0};  // of the zones' widths
+};
+
+/// One wall for each joint.
+template <std::size_t num_dof>
+class JointWallContainer {
+ public:
+  /// As JointWall, for each joint.
+  JointWallContainer(const std::array<double, num_dof>& soft_upper_joint_position_limits,
+                     const std::array<double, num_dof>& soft_lower_joint_position_limits,
+                     const std::array<double, num_dof>& PD_zone_widths,
+                     const std::array<double, num_dof>& D_zone_widths,
+                     const std::array<double, num_dof>& PD_zone_stiffnesses,
+                     const std::array<double, num_dof>& PD_zone_dampings,
+                     const std::array<double, num_dof>& D_zone_dampings) {
+    for (std::size_t i = 0; i < num_dof; i++) {
+      walls_[i] = std::make_unique<JointWall>(
+          soft_upper_joint_position_limits[i], soft_lower_joint_position_limits[i],
+          PD_zone_widths[i], D_zone_widths[i], PD_zone_stiffnesses[i], PD_zone_dampings[i],
+          D_zone_dampings[i]);
+    }
+  }
+
+  /// Torques of all joints [Nm]. @throws as JointWall::computeTorque
+  std::array<double, num_dof> computeTorque(const std::array<double, num_dof>& q,
+                                            const std::array<double, num_dof>& dq) {
+    std::array<double, num_dof> torque;
+    for (std::size_t i = 0; i < num_dof; i++) {
+      torque[i] = walls_[i]->computeTorque(q[i], dq[i]);
+    }
+    return torque;
+  }
+
+  void reset() {
+    for (auto& wall : walls_) {
+      wall->reset();
+    }
+  }
+
+ private:
+  std::array<std::unique_ptr<JointWall>, num_dof> walls_;
+};
+
+}  // namespace franka_example_controllers

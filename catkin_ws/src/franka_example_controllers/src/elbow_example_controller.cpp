@@ -1,0 +1,49 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_example_controllers/controller_parameters.h>
+#include <franka_example_controllers/elbow_example_controller.h>
+#include <franka_example_controllers/robot_handles.h>
+#include <pluginlib/class_list_macros.h>
+
+#include <cmath>
+
+namespace franka_example_controllers {
+
+namespace {
+
+constexpr char kName[] = "ElbowExampleController";
+constexpr double kPi = 3.14159265358979323846;
+
+}  // namespace
+
+bool ElbowExampleController::init(hardware_interface::RobotHW* robot_hw,
+                                  ros::NodeHandle& node_handle) {
+  std::string arm_id;
+  return readArmId(kName, node_handle, arm_id) &&
+         takeHandles(kName, arm_id,
+                     [&] {
+                       pose_handle_ = std::make_unique<franka_hw::FrankaCartesianPoseHandle>(
+                           takeHandle<franka_hw::FrankaPoseCartesianInterface>(robot_hw,
+                                                                               arm_id + "_robot"));
+                     }) &&
+         isAtStartPose(kName, pose_handle_->getRobotState().q_d);
+}
+
+void ElbowExampleController::starting(const ros::Time& /*time*/) {
+  const franka::RobotState& state = pose_handle_->getRobotState();
+  O_T_EE_start_ = state.O_T_EE_d;
+  elbow_start_ = state.elbow_d;
+  elapsed_ = 0.0;
+}
+
+void ElbowExampleController::update(const ros::Time& /*time*/, const ros::Duration& period) {
+  elapsed_ += period.toSec();
+  std::array<double, 2> elbow = elbow_start_;
+  elbow[0] += kPi / 10.0 * (1.0 - std::cos(kPi / 5.0 * elapsed_));
+  pose_handle_->setCommand(O_T_EE_start_, elbow);
+}
+
+}  // namespace franka_example_controllers
+
+PLUGINLIB_EXPORT_CLASS(franka_example_controllers::ElbowExampleController,
+                       controller_interface::ControllerBase)

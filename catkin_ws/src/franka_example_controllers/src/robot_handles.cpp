@@ -1,0 +1,32 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_example_controllers/robot_handles.h>
+
+#include <cmath>
+
+namespace franka_example_controllers {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::array<double, 7> kStartPose{
+    {0.0, -kPi / 4.0, 0.0, -3.0 * kPi / 4.0, 0.0, kPi / 2.0, kPi / 4.0}};  // [rad]
+constexpr double kTolerance = 0.1;                                         // [rad]
+
+}  // namespace
+
+bool isAtStartPose(const char* controller, const std::array<double, 7>& q) {
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    if (std::abs(q[i] - kStartPose[i]) > kTolerance) {
+      ROS_ERROR(
+          "%s: joint %zu stands at %.3f rad, and this motion begins at %.3f. Run `roslaunch "
+          "franka_example_controllers move_to_start.launch robot_ip:=<robot-ip> "
+          "load_gripper:=<has-attached-gripper>` first.",
+          controller, i + 1, q[i], kStartPose[i]);
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace franka_example_controllers
