@@ -170,6 +170,17 @@ TEST_F(Limits, positionSoftLimitsMatchTheTable) {
   }
 }
 
+TEST_F(Limits, positionSoftLimitsBeyondTheHardOnesDoNotWidenThem) {
+  soft_.min_position = -9.0;
+  soft_.max_position = 9.0;
+  PositionJointSoftLimitsHandle handle(joint_, limits_, soft_);
+  pos_ = 1.999;
+  EXPECT_EQ(2.0, limited(handle, 10.0));
+  pos_ = -0.999;
+  handle.reset();
+  EXPECT_EQ(-1.0, limited(handle, -10.0));
+}
+
 TEST_F(Limits, positionSoftLimitsPullBackFromBeyondTheSoftLimit) {
   pos_ = 1.8;  // 20/s * 0.1 rad = 2 rad/s back
   PositionJointSoftLimitsHandle handle(joint_, limits_, soft_);
