@@ -240,7 +240,9 @@ TEST(ConnectLimits, ADescriptionWithoutLimitsLeavesThePublishedOnes) {
   refuses.script([](FakeRobot::Script& s) {
     s.replies[Command::kGetRobotModel] = Status::kCommandNotPossibleRejected;
   });
-  EXPECT_NEAR(2.619, connect(fake)->getUpperJointVelocityLimits({})[0], 1e-12);
+  // -0.6599 + sqrt(12 (2.9007 - 2.8)) - 1e-3
+  EXPECT_NEAR(-0.6599 + std::sqrt(12.0 * 0.1007) - 1e-3,
+              connect(fake)->getUpperJointVelocityLimits({2.8})[0], 1e-12);
   EXPECT_NEAR(2.619, connect(refuses)->getUpperJointVelocityLimits({})[0], 1e-12);
 }
 

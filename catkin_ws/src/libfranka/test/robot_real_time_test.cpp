@@ -101,6 +101,26 @@ TEST_P(RealTime, ActiveControlNeitherAllocatesNorLocks) {
   }
 }
 
+// The count would show it.
+TEST(RealTimeWindow, SeesWhatACallbackAllocates) {
+  if (!rt_guard::kActive) {
+    GTEST_SKIP() << "a sanitizer owns malloc";
+  }
+  FakeRobot fake(5);
+  const auto robot = connect(fake);
+  int cycles = 0;
+  std::size_t allocations = 0;
+  rt_guard::Scope scope;
+  robot->control([&](const RobotState&, Duration) {
+    const std::size_t before = scope.allocations();
+    std::unique_ptr<volatile int> allocated(new volatile int(1));
+    allocations += scope.allocations() - before;
+    const franka::Torques torques({0, 0, 0, 0, 0, 0, 0});
+    return ++cycles == 10 ? franka::MotionFinished(torques) : torques;
+  });
+  EXPECT_EQ(10u, allocations);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, RealTime, ::testing::ValuesIn(kVersions), versionName);
 
 }  // namespace

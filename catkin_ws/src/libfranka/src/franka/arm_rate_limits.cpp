@@ -34,13 +34,13 @@ ArmRateLimits pandaLimits() {
           {kMaxElbowVelocity, kMaxElbowAcceleration, kMaxElbowJerk}};
 }
 
-ArmRateLimits fr3Limits() {
+ArmRateLimits fr3Limits(const franka_core::PositionVelocityLimits& velocities) {
   const franka_core::ArmLimits& arm = franka_core::kFr3Limits;
   return {rate_limiting_detail::withMargin(arm.dtau),
           rate_limiting_detail::withMargin(arm.ddq),
           rate_limiting_detail::withMargin(arm.dddq),
           Joints{},
-          franka_core::kFr3PositionVelocityLimits,
+          velocities,
           kLimitEps,
           withMargin(arm.translation),
           withMargin(arm.rotation),
@@ -126,7 +126,11 @@ Joints ArmRateLimits::limitPositions(const Joints& positions, const Joints& last
 }
 
 ArmRateLimits rateLimitsOfProtocol(std::uint16_t version) {
-  return franka_core::fci::isPandaVersion(version) ? pandaLimits() : fr3Limits();
+  if (franka_core::fci::isPandaVersion(version)) {
+    return pandaLimits();
+  }
+  return fr3Limits(version < 10 ? franka_core::kFr3PositionVelocityLimits
+                                : franka_core::kFr3PositionVelocityLimitsFrom59);
 }
 
 std::optional<franka_core::PositionVelocityLimits> velocityLimitsFromUrdf(const std::string& urdf) {

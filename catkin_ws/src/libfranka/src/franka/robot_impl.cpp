@@ -131,7 +131,7 @@ void Robot::Impl::readLimits() {
   try {
     const std::vector<std::uint8_t> urdf = download(fci::GetRobotModelRequest{}, timeouts_.connect);
     const auto limits = velocityLimitsFromUrdf(std::string(urdf.begin(), urdf.end()));
-    // A description without limits leaves those of the FR3's published table, the stricter ones.
+    // A description without limits leaves those of the published table.
     if (limits) {
       limits_.position_velocity = limits;
     }
