@@ -57,9 +57,7 @@ def rotation_to_quaternion(m):
         (1, 3): m[0][2] - m[2][0],
         (2, 3): m[1][0] - m[0][1],
     }
-    quaternion = [
-        squares[i] if i == largest else sums[tuple(sorted((i, largest)))] for i in range(4)
-    ]
+    quaternion = [squares[i] if i == largest else sums[tuple(sorted((i, largest)))] for i in range(4)]
     length = math.sqrt(sum(value * value for value in quaternion))
     return tuple(value / length for value in quaternion)
 
@@ -116,9 +114,7 @@ class EquilibriumPoseMarker:
         marker = InteractiveMarker()
         marker.header.frame_id = self._link_name
         marker.name = "equilibrium_pose"
-        marker.description = (
-            "Equilibrium pose\nThe impedance controller draws the end effector here"
-        )
+        marker.description = "Equilibrium pose\nThe impedance controller draws the end effector here"
         marker.scale = MARKER_SCALE
         marker.pose = self._pose
         marker.controls = axis_controls()
@@ -169,8 +165,7 @@ def main():
     link_name = rospy.get_param("~link_name", None)
     if not isinstance(link_name, str) or not link_name:
         rospy.logfatal(
-            "interactive_marker.py: set the parameter %s to the base link of the arm, such as "
-            "'panda_link0'.",
+            "interactive_marker.py: set the parameter %s to the base link of the arm, such as 'panda_link0'.",
             rospy.resolve_name("~link_name"),
         )
         return 1

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Moves the arm to where the example controllers begin, by a joint trajectory controller."""
+
+import sys
+
+import actionlib
+import rospy
+from control_msgs.msg import (
+    FollowJointTrajectoryAction,
+    FollowJointTrajectoryGoal,
+    FollowJointTrajectoryResult,
+)
+from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectoryPoint
+
+SHORTEST = 0.5  # [s]
+WAIT = 30.0  # [s] for the controller and the joints
+
+
+def fail(text):
+    rospy.logerr("move_to_start: %s", text)
+    return 1
+
+
+def goal_for(pose, present, max_dq):
+    """A goal of one point at rest, as slow as max_dq [rad/s] asks."""
+    farthest = max(abs(pose[name] - present[name]) for name in pose)
+    point = JointTrajectoryPoint()
+    point.time_from_start = rospy.Duration.from_sec(max(farthest / max_dq, SHORTEST))
+    goal = FollowJointTrajectoryGoal()
+    goal.trajectory.joint_names, point.positions = map(list, zip(*pose.items()))
+    point.velocities = [0.0] * len(pose)
+    goal.trajectory.points.append(point)
+    goal.goal_time_tolerance = rospy.Duration.from_sec(0.5)
+    return goal, point.time_from_start
+
+
+def main():
+    rospy.init_node("move_to_start")
+    pose = rospy.get_param("~joint_pose", None)
+    max_dq = rospy.get_param("~max_dq", 0.5)
+    if not isinstance(pose, dict) or not pose:
+        return fail("the parameter joint_pose must map the joints' names to positions [rad].")
+    if not isinstance(max_dq, (int, float)) or not max_dq > 0.0:
+        return fail("the parameter max_dq must be a number above zero [rad/s].")
+
+    client = actionlib.SimpleActionClient("~follow_joint_trajectory", FollowJointTrajectoryAction)
+    if not client.wait_for_server(rospy.Duration.from_sec(WAIT)):
+        return fail(
+            "no trajectory controller answers at "
+            + rospy.resolve_name("~follow_joint_trajectory")
+            + ". Is it running?"
+        )
+    try:
+        message = rospy.wait_for_message("~joint_states", JointState, WAIT)
+    except rospy.ROSException:
+        return fail(f"no joint states arrive at {rospy.resolve_name('~joint_states')}.")
+    present = dict(zip(message.name, message.position))
+    missing = sorted(set(pose) - set(present))
+    if missing:
+        return fail(f"the robot has no joint named {', '.join(missing)}.")
+
+    goal, duration = goal_for(pose, present, max_dq)
+    rospy.loginfo("move_to_start: on the way, for %.1f s.", duration.to_sec())
+    client.send_goal(goal)
+    if not client.wait_for_result(duration + rospy.Duration.from_sec(WAIT)):
+        client.cancel_goal()
+        return fail("the controller does not end; the goal was cancelled.")
+    result = client.get_result()
+    if result is None or result.error_code != FollowJointTrajectoryResult.SUCCESSFUL:
+        reason = result.error_string if result else client.get_goal_status_text()
+        return fail(f"the pose was not reached. {reason}")
+    rospy.loginfo("move_to_start: arrived.")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
