@@ -1,0 +1,186 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A session of panda-python (libfranka 0.9.2, protocol 5) with a robot; prints what it saw as JSON."""
+
+import json
+import math
+import sys
+import time
+
+from panda_py import libfranka
+
+IMPEDANCE = libfranka.ControllerMode.kJointImpedance
+CARTESIAN = libfranka.ControllerMode.kCartesianImpedance
+LOOSE = ([100.0] * 7, [100.0] * 7, [200.0] * 6, [200.0] * 6)
+
+
+def smooth(x):
+    """From 0 to 1 with velocity and acceleration zero at both ends."""
+    x = min(max(x, 0.0), 1.0)
+    return x * x * x * (10.0 + x * (6.0 * x - 15.0))
+
+
+class Motion:
+    """A callback that counts its cycles and the robot's time."""
+
+    def __init__(self, seconds, command):
+        self.seconds, self.command = seconds, command
+        self.time, self.cycles, self.first = 0.0, 0, None
+
+    def __call__(self, state, period):
+        self.time += period.to_sec()
+        self.cycles += 1
+        if self.first is None:
+            self.first = {"q": list(state.q_d), "pose": list(state.O_T_EE_c)}
+        command = self.command(self.first, self.time / self.seconds)
+        if self.time >= self.seconds:
+            command.motion_finished = True
+        return command
+
+
+def joints(amplitude):
+    def command(first, x):
+        q = list(first["q"])
+        q[3] += amplitude * smooth(x)
+        return libfranka.JointPositions(q)
+
+    return command
+
+
+def joint_velocities(amplitude):
+    def command(_, x):
+        return libfranka.JointVelocities([0, 0, 0, 0, amplitude * math.sin(math.pi * min(x, 1.0)) ** 2, 0, 0])
+
+    return command
+
+
+def pose(amplitude):
+    def command(first, x):
+        values = list(first["pose"])
+        values[14] += amplitude * (smooth(2 * x) - smooth(2 * x - 1))
+        return libfranka.CartesianPose(values)
+
+    return command
+
+
+def rise(height):
+    def command(first, x):
+        values = list(first["pose"])
+        values[14] += height * smooth(x)
+        return libfranka.CartesianPose(values)
+
+    return command
+
+
+def down(speed):
+    def command(_, x):
+        return libfranka.CartesianVelocities([0, 0, -speed * smooth(x / 0.1), 0, 0, 0])
+
+    return command
+
+
+def torques(_, x):
+    return libfranka.Torques([0.0] * 7)
+
+
+def attempt(act):
+    try:
+        act()
+        return "ok"
+    except Exception as error:  # noqa: BLE001 - what it says is what is tested
+        return f"{type(error).__name__}: {error}"
+
+
+def mode(robot):
+    return str(robot.read_once().robot_mode).split(".")[-1]
+
+
+def session(address):
+    robot = libfranka.Robot(address)
+    state = robot.read_once()
+    seen = {"version": robot.server_version(), "mode": mode(robot), "m_ee": state.m_ee}
+    model = robot.load_model()
+    seen["gravity_error"] = max(abs(a - b) for a, b in zip(model.gravity(state), state.tau_J))
+
+    load = (0.5, [0.0, 0.0, 0.1], [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0.001])
+    frame = [1.0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.05, 1]
+    seen["setters"] = {
+        "load": attempt(lambda: robot.set_load(*load)),
+        "m_load": robot.read_once().m_load,
+        "no load": attempt(lambda: robot.set_load(0.0, [0.0] * 3, [0.0] * 9)),
+        "ee": attempt(lambda: robot.set_ee(frame)),
+        "k": attempt(lambda: robot.set_k(frame)),
+        "F_T_EE": robot.read_once().F_T_EE[14],
+        "joint impedance": attempt(lambda: robot.set_joint_impedance([2000.0] * 7)),
+        "cartesian impedance": attempt(lambda: robot.set_cartesian_impedance([1000.0] * 3 + [100.0] * 3)),
+        "guiding mode": attempt(lambda: robot.set_guiding_mode([True] * 6, False)),
+        "collision behavior": attempt(lambda: robot.set_collision_behavior(*LOOSE)),
+        "bad impedance": attempt(lambda: robot.set_joint_impedance([1e6] * 7)),
+    }
+
+    motions = {
+        "torque": (Motion(1.0, torques), lambda m: robot.control(m, False)),
+        "joint position": (
+            Motion(2.0, joints(0.2)),
+            lambda m: robot.control_joint_position(m, IMPEDANCE, False),
+        ),
+        "joint velocity": (
+            Motion(1.0, joint_velocities(0.2)),
+            lambda m: robot.control_joint_velocity(m, IMPEDANCE, False),
+        ),
+        "pose": (Motion(2.0, pose(-0.03)), lambda m: robot.control_cartesian_pose(m, CARTESIAN, False)),
+        "limited": (Motion(2.0, joints(-0.2)), lambda m: robot.control_joint_position(m, IMPEDANCE, True)),
+    }
+    seen["motions"] = {}
+    for name, (motion, run) in motions.items():
+        begin = time.monotonic()
+        outcome = attempt(lambda run=run, motion=motion: run(motion))
+        seen["motions"][name] = {
+            "outcome": outcome,
+            "cycles": motion.cycles,
+            "robot seconds": motion.time,
+            "wall seconds": time.monotonic() - begin,
+            "q": list(robot.read_once().q),
+            "mode": mode(robot),
+        }
+
+    def leap(state, _):
+        return libfranka.JointPositions([q + 0.05 for q in state.q_d])
+
+    seen["leap"] = attempt(lambda: robot.control_joint_position(leap, IMPEDANCE, False))
+    seen["mode after leap"] = mode(robot)
+    seen["motion in reflex"] = attempt(
+        lambda: robot.control_joint_position(Motion(1.0, joints(0.1)), IMPEDANCE, False)
+    )
+    seen["recovery"] = attempt(robot.automatic_error_recovery)
+    seen["mode after recovery"] = mode(robot)
+
+    def throw(*_):
+        raise ValueError("a mistake of the program")
+
+    seen["callback throws"] = attempt(lambda: robot.control_joint_position(throw, IMPEDANCE, False))
+    seen["second client"] = attempt(lambda: libfranka.Robot(address))
+
+    seen["thresholds"] = attempt(
+        lambda: robot.set_collision_behavior([20.0] * 7, [20.0] * 7, [10.0] * 6, [15.0] * 6)
+    )
+    seen["contact"] = attempt(
+        lambda: robot.control_cartesian_velocity(Motion(5.0, down(0.05)), IMPEDANCE, False)
+    )
+    seen["mode after contact"] = mode(robot)
+    seen["recovery after contact"] = attempt(robot.automatic_error_recovery)
+    seen["retreat"] = attempt(lambda: robot.control_cartesian_pose(Motion(2.0, rise(0.05)), IMPEDANCE, False))
+
+    gripper = libfranka.Gripper(address)
+    seen["gripper"] = {
+        "version": gripper.server_version(),
+        "homing": gripper.homing(),
+        "move": gripper.move(0.02, 0.1),
+        "width": gripper.read_once().width,
+        "empty grasp": gripper.grasp(0.01, 0.1, 20.0, 0.001, 0.001),
+        "stop": gripper.stop(),
+    }
+    return seen
+
+
+print(json.dumps(session(sys.argv[1])))

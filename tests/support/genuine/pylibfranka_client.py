@@ -1,0 +1,123 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A session of pylibfranka (protocol 10) with a robot; what it saw goes to stdout as JSON."""
+
+import json
+import sys
+import time
+
+import pylibfranka as franka
+
+IMPEDANCE = franka.ControllerMode.JointImpedance
+
+
+def smooth(x):
+    """From 0 to 1 with velocity and acceleration zero at both ends."""
+    x = min(max(x, 0.0), 1.0)
+    return x * x * x * (10.0 + x * (6.0 * x - 15.0))
+
+
+def attempt(act):
+    try:
+        act()
+        return "ok"
+    except Exception as error:  # noqa: BLE001 - what it says is what is tested
+        return f"{type(error).__name__}: {error}"
+
+
+def drive(control, seconds, command):
+    """Runs one motion. @returns cycles and the robot's seconds."""
+    passed, cycles, first = 0.0, 0, None
+    while True:
+        state, period = control.readOnce()
+        passed += period.to_sec() if cycles else 0.0
+        cycles += 1
+        first = first or {"q": list(state.q_d), "pose": list(state.O_T_EE_c)}
+        value = command(first, passed / seconds)
+        value.motion_finished = passed >= seconds
+        control.writeOnce(value)
+        if passed >= seconds:
+            return cycles, passed
+
+
+def joints(amplitude):
+    def command(first, x):
+        q = list(first["q"])
+        q[3] += amplitude * smooth(x)
+        return franka.JointPositions(q)
+
+    return command
+
+
+def pose(amplitude):
+    def command(first, x):
+        values = list(first["pose"])
+        values[14] += amplitude * (smooth(2 * x) - smooth(2 * x - 1))
+        return franka.CartesianPose(values)
+
+    return command
+
+
+def session(address):
+    robot = franka.Robot(address, franka.RealtimeConfig.kIgnore)
+    state = robot.read_once()
+    seen = {"mode": state.robot_mode.name, "m_ee": state.m_ee}
+    model = robot.load_model()
+    seen["gravity_error"] = max(abs(a - b) for a, b in zip(model.gravity(state), state.tau_J))
+    seen["setters"] = {
+        "load": attempt(lambda: robot.set_load(0.5, [0, 0, 0.1], [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0.001])),
+        "m_load": robot.read_once().m_load,
+        "no load": attempt(lambda: robot.set_load(0.0, [0.0] * 3, [0.0] * 9)),
+        "joint impedance": attempt(lambda: robot.set_joint_impedance([2000.0] * 7)),
+        "collision behavior": attempt(
+            lambda: robot.set_collision_behavior([100.0] * 7, [100.0] * 7, [200.0] * 6, [200.0] * 6)
+        ),
+        "bad impedance": attempt(lambda: robot.set_joint_impedance([1e6] * 7)),
+    }
+    starts = {
+        "torque": (robot.start_torque_control, (), lambda first, x: franka.Torques([0.0] * 7), 1.0),
+        "joint position": (robot.start_joint_position_control, (IMPEDANCE,), joints(0.2), 2.0),
+        "pose": (robot.start_cartesian_pose_control, (IMPEDANCE,), pose(-0.03), 2.0),
+    }
+    seen["motions"] = {}
+    for name, (start, arguments, command, seconds) in starts.items():
+        begin = time.monotonic()
+        counted = []
+
+        def run(start=start, arguments=arguments, command=command, seconds=seconds, counted=counted):
+            counted.extend(drive(start(*arguments), seconds, command))
+
+        outcome = attempt(run)
+        state = robot.read_once()
+        seen["motions"][name] = {
+            "outcome": outcome,
+            "cycles": counted[0] if counted else 0,
+            "robot seconds": counted[1] if counted else 0.0,
+            "wall seconds": time.monotonic() - begin,
+            "q": list(state.q),
+            "mode": state.robot_mode.name,
+        }
+
+    def leap():
+        control = robot.start_joint_position_control(IMPEDANCE)
+        state, _ = control.readOnce()
+        for _ in range(10):
+            control.writeOnce(franka.JointPositions([q + 0.05 for q in state.q_d]))
+            state, _ = control.readOnce()
+
+    seen["leap"] = attempt(leap)
+    seen["mode after leap"] = robot.read_once().robot_mode.name
+    seen["recovery"] = attempt(robot.automatic_error_recovery)
+    seen["mode after recovery"] = robot.read_once().robot_mode.name
+    seen["again"] = attempt(lambda: drive(robot.start_joint_position_control(IMPEDANCE), 1.0, joints(-0.1)))
+    seen["second client"] = attempt(lambda: franka.Robot(address, franka.RealtimeConfig.kIgnore))
+    gripper = franka.Gripper(address)
+    seen["gripper"] = {
+        "homing": gripper.homing(),
+        "move": gripper.move(0.02, 0.1),
+        "width": gripper.read_once().width,
+    }
+    return seen
+
+
+print(json.dumps(session(sys.argv[1])))

@@ -1,0 +1,249 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Franka's own client libraries, from PyPI, against the simulated robot.
+
+panda-python bundles libfranka 0.9.2 (protocol 5), pylibfranka libfranka 0.21.3 (protocol 10). Each lives in
+an environment of its own without Debian's packages (decision 33), made once in out/genuine.
+"""
+
+import json
+import os
+import select
+import subprocess
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+TOP = Path(__file__).resolve().parent.parent
+CLIENTS = Path(__file__).resolve().parent / "support" / "genuine"
+PACKAGES = {
+    "panda": ["panda-python==1.1.1", "requests", "websockets", "numpy"],
+    "pylibfranka": ["pylibfranka==0.21.3", "numpy"],
+}
+FLOOR = """<mujoco><worldbody>
+  <light pos="0 0 3"/>
+  <geom name="block" type="box" size="0.3 0.3 0.05" pos="0.4 0 {height}"/>
+</worldbody></mujoco>"""
+
+
+def client_python(name: str) -> Path:
+    folder = TOP / "out" / "genuine" / name
+    python, stamp = folder / "bin" / "python", folder / "installed"
+    if not (stamp.exists() and stamp.read_text() == " ".join(PACKAGES[name])):
+        subprocess.run(["/usr/bin/python3", "-m", "venv", "--clear", folder], check=True, timeout=120)
+        subprocess.run(
+            [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PACKAGES[name]],
+            check=True,
+            timeout=600,
+        )
+        stamp.write_text(" ".join(PACKAGES[name]))
+    return python
+
+
+def simulator() -> Path:
+    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
+        program = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
+        if program.exists():
+            return program
+    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
+
+
+@contextmanager
+def simulated(*arguments):
+    """A simulated robot that has opened its ports."""
+    process = subprocess.Popen(
+        [str(simulator()), *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    try:
+        ready, _, _ = select.select([process.stdout], [], [], 30)
+        line = process.stdout.readline() if ready else ""
+        assert "waits for clients" in line, line + (process.stdout.read() if process.poll() else "")
+        yield process
+        assert process.poll() is None, "The simulation has ended by itself: " + process.stdout.read()
+    finally:
+        process.terminate()
+        try:
+            process.wait(10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            pytest.fail("The simulation did not end when it was told to.")
+
+
+def run_session(client: str, script: str, address: str) -> dict:
+    result = subprocess.run(
+        [client_python(client), CLIENTS / script, address], capture_output=True, text=True, timeout=120
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    return json.loads(result.stdout.splitlines()[-1])
+
+
+@pytest.fixture(scope="module", params=["lockstep", "realtime"])
+def panda(request, tmp_path_factory):
+    world = tmp_path_factory.mktemp("world") / "block.xml"
+    world.write_text(FLOOR.format(height=0.3))
+    address = "127.0.21.1" if request.param == "lockstep" else "127.0.21.2"
+    with simulated("--robot", "panda", "--ip", address, "--pace", request.param, "--world", str(world)):
+        seen = run_session("panda", "panda_client.py", address)
+    seen["pace"] = request.param
+    return seen
+
+
+@pytest.fixture(scope="module", params=["lockstep", "realtime"])
+def fr3(request):
+    address = "127.0.21.3" if request.param == "lockstep" else "127.0.21.4"
+    with simulated("--robot", "fr3", "--ip", address, "--pace", request.param):
+        seen = run_session("pylibfranka", "pylibfranka_client.py", address)
+    seen["pace"] = request.param
+    return seen
+
+
+def tolerance(seen) -> float:
+    """Of a motion's goal [rad]: on a busy machine, cycles that the wall clock took are extrapolated."""
+    return 1e-3 if seen["pace"] == "lockstep" else 1e-2
+
+
+def check_motions(seen, names):
+    assert list(seen["motions"]) == names
+    for name, motion in seen["motions"].items():
+        assert motion["outcome"] == "ok", (name, motion)
+        assert motion["mode"] in ("Idle", "kIdle"), (name, motion)
+        assert motion["cycles"] >= 900 * motion["robot seconds"], (name, motion)
+        if seen["pace"] == "realtime":
+            assert motion["wall seconds"] >= motion["robot seconds"] - 0.05, (name, motion)
+
+
+def test_panda_connects(panda):
+    assert panda["version"] == 5
+    assert panda["mode"] == "kIdle"
+    assert panda["m_ee"] == pytest.approx(0.76, abs=1e-6)
+    # The library that the robot served agrees with what the robot carries.
+    assert panda["gravity_error"] < 1e-6
+
+
+def test_panda_setters(panda):
+    setters = dict(panda["setters"])
+    assert setters.pop("m_load") == 0.5
+    assert setters.pop("F_T_EE") == pytest.approx(0.1034 + 0.05, abs=1e-9)
+    assert "Set Joint Impedance command rejected: invalid argument!" in setters.pop("bad impedance")
+    assert set(setters.values()) == {"ok"}, setters
+
+
+def test_panda_moves(panda):
+    check_motions(panda, ["torque", "joint position", "joint velocity", "pose", "limited"])
+    assert panda["motions"]["joint position"]["q"][3] == pytest.approx(-2.35619 + 0.2, abs=tolerance(panda))
+    assert panda["motions"]["joint velocity"]["q"][4] == pytest.approx(0.1, abs=tolerance(panda))
+    assert panda["motions"]["limited"]["q"][3] == pytest.approx(-2.35619, abs=2 * tolerance(panda))
+
+
+def test_panda_reflex_and_recovery(panda):
+    assert "motion aborted by reflex!" in panda["leap"]
+    assert '["joint_position_motion_generator_start_pose_invalid"]' in panda["leap"]
+    assert panda["mode after leap"] == "kReflex"
+    assert 'not possible in the current mode ("Reflex")' in panda["motion in reflex"]
+    assert panda["recovery"] == "ok"
+    assert panda["mode after recovery"] == "kIdle"
+    assert "a mistake of the program" in panda["callback throws"]
+    assert panda["second client"] != "ok"
+
+
+def test_panda_meets_a_block(panda):
+    assert panda["thresholds"] == "ok"
+    assert "_reflex" in panda["contact"], panda["contact"]
+    assert panda["mode after contact"] == "kReflex"
+    assert panda["recovery after contact"] == "ok"
+    assert panda["retreat"] == "ok"
+
+
+def test_panda_gripper(panda):
+    assert panda["gripper"] == {
+        "version": 3,
+        "homing": True,
+        "move": True,
+        "width": pytest.approx(0.02, abs=1e-3),
+        "empty grasp": False,
+        "stop": True,
+    }
+
+
+def test_fr3_connects(fr3):
+    assert fr3["mode"] == "Idle"
+    assert fr3["m_ee"] == pytest.approx(0.76, abs=1e-6)
+    # The client's model is pinocchio on the URDF that the robot served; the state is single precision.
+    assert fr3["gravity_error"] < 1e-4
+
+
+def test_fr3_setters(fr3):
+    setters = dict(fr3["setters"])
+    assert setters.pop("m_load") == 0.5
+    assert "invalid argument!" in setters.pop("bad impedance")
+    assert set(setters.values()) == {"ok"}, setters
+
+
+def test_fr3_moves(fr3):
+    check_motions(fr3, ["torque", "joint position", "pose"])
+    assert fr3["motions"]["joint position"]["q"][3] == pytest.approx(-2.35619 + 0.2, abs=tolerance(fr3))
+
+
+def test_fr3_reflex_and_recovery(fr3):
+    assert "motion aborted by reflex!" in fr3["leap"], fr3["leap"]
+    assert fr3["mode after leap"] == "Reflex"
+    assert fr3["recovery"] == "ok"
+    assert fr3["mode after recovery"] == "Idle"
+    assert fr3["again"] == "ok"
+    assert fr3["second client"] != "ok"
+
+
+def test_fr3_gripper(fr3):
+    assert fr3["gripper"]["homing"] and fr3["gripper"]["move"]
+    assert fr3["gripper"]["width"] == pytest.approx(0.02, abs=1e-3)
+
+
+def test_versions_are_told_apart():
+    with simulated("--robot", "panda", "--ip", "127.0.21.5"):
+        result = subprocess.run(
+            [client_python("pylibfranka"), CLIENTS / "pylibfranka_client.py", "127.0.21.5"],
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+    assert "server version: 5, library version: 10" in result.stderr
+
+
+def test_silence_ends_a_motion_and_a_dead_client_makes_room():
+    script = """
+import sys, os
+from panda_py import libfranka
+robot = libfranka.Robot(sys.argv[1])
+count = [0]
+def callback(state, period):
+    count[0] += 1
+    if count[0] == 100:
+        os.kill(os.getpid(), 9)
+    return libfranka.Torques([0.0] * 7)
+robot.control(callback, False)
+"""
+    after = """
+import sys
+from panda_py import libfranka
+robot = libfranka.Robot(sys.argv[1])
+state = robot.read_once()
+print(state.robot_mode, state.last_motion_errors)
+robot.automatic_error_recovery()
+print(robot.read_once().robot_mode)
+"""
+    python = client_python("panda")
+    with simulated("--robot", "panda", "--ip", "127.0.21.6"):
+        killed = subprocess.run([python, "-c", script, "127.0.21.6"], timeout=60)
+        assert killed.returncode == -9
+        deadline = time.monotonic() + 10
+        while True:
+            result = subprocess.run(
+                [python, "-c", after, "127.0.21.6"], capture_output=True, text=True, timeout=60
+            )
+            if result.returncode == 0 or time.monotonic() > deadline:
+                break
+    assert "kReflex" in result.stdout and "communication_constraints_violation" in result.stdout, result
+    assert "kIdle" in result.stdout
