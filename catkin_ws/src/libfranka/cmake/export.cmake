@@ -10,7 +10,7 @@ install(TARGETS franka franka_core EXPORT FrankaTargets
         RUNTIME DESTINATION ${franka_bin_destination})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/franka ${PROJECT_SOURCE_DIR}/include/franka_core
                   ${PROJECT_SOURCE_DIR}/include/research_interface
-        DESTINATION ${franka_include_destination} FILES_MATCHING PATTERN "*.h")
+        DESTINATION ${franka_include_destination} FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 install(EXPORT FrankaTargets NAMESPACE Franka:: DESTINATION ${franka_config_destination})
 
 # Config and version are the same in both places; beside the built libraries the targets carry absolute

@@ -1,0 +1,83 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/active_control_base.h>
+#include <franka/robot.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// @file
+/// Joint targets to which the robot finds its own way (protocol 10).
+
+namespace franka {
+
+/// How far the way to a target has come.
+enum class TargetStatus {
+  kIdle,           ///< no target has been set
+  kExecuting,      ///< on the way
+  kTargetReached,  ///< there, and at rest
+  kAborted         ///< the motion has ended; configure a new handler
+};
+
+/// Sends the robot from one joint position to the next; a new target may be set at any time, also
+/// on the way to another. Failures are told in the results, not thrown. To be used from one thread;
+/// not for the 1 kHz loop.
+class AsyncPositionControlHandler {
+ public:
+  /// How the targets are approached.
+  struct Configuration {
+    std::vector<double> maximum_joint_velocities;  ///< seven limits [rad/s]
+    double goal_tolerance{0.001};  ///< a target is reached within this norm of joint angles [rad]
+  };
+  /// A handler, or why there is none.
+  struct ConfigurationResult {
+    std::shared_ptr<AsyncPositionControlHandler> handler;
+    std::optional<std::string> error_message;
+  };
+  /// Where to go.
+  struct JointPositionTarget {
+    std::vector<double> joint_positions;  ///< seven positions [rad]
+  };
+  /// Whether a target was sent.
+  struct CommandResult {
+    std::string motion_uuid;  ///< names this target in logs; empty where there is none
+    bool was_successful{false};
+    std::optional<std::string> error_message;
+  };
+  /// What became of the last target.
+  struct TargetFeedback {
+    TargetStatus status{TargetStatus::kIdle};
+    std::optional<std::string> error_message;
+  };
+
+  /// Joint velocities whose norm is below this count as rest [rad/s].
+  static constexpr double kRestVelocity = 0.01;
+
+  /// Starts the motion under joint impedance control. The robot is busy until the handler is
+  /// stopped or destroyed.
+  static ConfigurationResult configure(const std::shared_ptr<Robot>& robot,
+                                       const Configuration& configuration);
+  ~AsyncPositionControlHandler();
+
+  /// Sends a target.
+  CommandResult setJointPositionTarget(const JointPositionTarget& target);
+  /// @param robot_state the newest state; without it the next one is waited for.
+  TargetFeedback getTargetFeedback(const std::optional<RobotState>& robot_state = std::nullopt);
+  /// Stops the robot and ends the motion.
+  void stopControl();
+
+ private:
+  AsyncPositionControlHandler(std::unique_ptr<ActiveControlBase> motion, double goal_tolerance);
+  bool isReached(const RobotState& state) const;
+
+  std::unique_ptr<ActiveControlBase> motion_;
+  double goal_tolerance_;
+  std::optional<std::array<double, 7>> target_;
+  std::optional<std::string> abort_message_;
+};
+
+}  // namespace franka
