@@ -6,6 +6,9 @@ find_package(benchmark REQUIRED)
 add_executable(control_unit_bench test/robot/control_unit_bench.cpp)
 target_link_libraries(control_unit_bench franka_sim_robot benchmark::benchmark)
 
+add_executable(motion_bench test/robot/motion/motion_bench.cpp)
+target_link_libraries(motion_bench franka_sim_robot benchmark::benchmark)
+
 add_executable(physics_bench test/physics/physics_bench.cpp)
 target_include_directories(physics_bench PRIVATE src ${MUJOCO_INCLUDE_DIR})
 target_link_libraries(physics_bench franka_sim_physics ${MUJOCO_LIBRARY} benchmark::benchmark)

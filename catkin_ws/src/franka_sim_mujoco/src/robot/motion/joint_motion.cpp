@@ -12,8 +12,11 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr double kStartTolerance = 1e-3;    // [rad] (decision 13)
-constexpr double kSolvedJerkFactor = 10.0;  // decision 14
+constexpr double kStartTolerance = 1e-3;  // [rad] (decision 13)
+// How much harder than commanded joints those may jerk that follow a Cartesian command (our
+// choice). Steps from one acceleration limit to the other are 4 times the jerk limit, so that any
+// factor above would leave the flag without a meaning.
+constexpr double kSolvedJerkFactor = 3.5;
 
 JointFlags commanded(const MotionLimits& limits) noexcept {
   return {limits.positionFlag(false), MotionFlag::kJointVelocity, MotionFlag::kJointAcceleration,

@@ -43,7 +43,7 @@ MotionLimits motionLimitsOfProtocol(unsigned version) noexcept {
   MotionLimits limits;
   limits.arm = franka_core::limitsOfProtocol(version);
   limits.position_velocity = version >= kFirstFr3;
-  limits.velocity_near_ends = version >= kFirstOf59 ? kFr3PositionVelocityLimits59
+  limits.velocity_near_ends = version >= kFirstOf59 ? franka_core::kFr3PositionVelocityLimitsFrom59
                                                     : franka_core::kFr3PositionVelocityLimits;
   limits.own_position_flags = version < kFirstOf572;
   limits.echoes_floats = version >= kFirstOf59;

@@ -31,12 +31,4 @@ struct MotionLimits {
 /// Protocol 10 takes the velocity limits of system 5.9, which its clients read from the URDF.
 MotionLimits motionLimitsOfProtocol(unsigned version) noexcept;
 
-/// Velocity limits towards the joints' ends of an FR3 with system 5.9 (fci.md 4.2).
-constexpr franka_core::PositionVelocityLimits kFr3PositionVelocityLimits59{
-    {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}},
-    {{0.6599, 0.2517, 0.2000, 0.3533, 0.5757, 0.4878, 0.4628}},
-    {{12.0, 5.17, 7.0, 8.0, 34.0, 11.0, 34.0}},
-    franka_core::kFr3Limits.q_min,
-    franka_core::kFr3Limits.q_max};
-
 }  // namespace franka_sim_mujoco
