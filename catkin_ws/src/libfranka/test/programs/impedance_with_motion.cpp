@@ -52,8 +52,8 @@ int main(int argc, char** argv) {
         initial_pose = state.O_T_EE_c;
       }
       franka::CartesianPose pose_desired = initial_pose;
-      pose_desired.O_T_EE[12] += 0.01 * std::sin(time);
-      return time < 0.3 ? pose_desired : franka::MotionFinished(pose_desired);
+      pose_desired.O_T_EE[12] += 0.01 * (1.0 - std::cos(2.0 * M_PI * time));
+      return time < 1.0 ? pose_desired : franka::MotionFinished(pose_desired);
     };
     std::function<franka::Torques(const franka::RobotState&, franka::Duration)>
         impedance_control_callback =
