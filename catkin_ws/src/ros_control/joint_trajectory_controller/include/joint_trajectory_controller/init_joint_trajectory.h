@@ -1,0 +1,316 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <joint_trajectory_controller/joint_trajectory_msg_utils.h>
+#include <joint_trajectory_controller/joint_trajectory_segment.h>
+#include <ros/console.h>
+#include <ros/time.h>
+#include <trajectory_interface/trajectory_interface.h>
+#include <trajectory_msgs/JointTrajectory.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace joint_trajectory_controller {
+
+/// What initJointTrajectory() may take into account; null pointers switch the matter off.
+/// @tparam Trajectory a vector (joints) of vectors (time) of segments of one joint
+template <class Trajectory>
+struct InitJointTrajectoryOptions {
+  typedef typename Trajectory::value_type TrajectoryPerJoint;
+  typedef typename TrajectoryPerJoint::value_type Segment;
+  typedef typename Segment::Scalar Scalar;
+  typedef typename Segment::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
+
+  Trajectory* current_trajectory{nullptr};                 ///< what the message continues
+  std::vector<std::string>* joint_names{nullptr};          ///< order of joints in the result
+  std::vector<bool>* angle_wraparound{nullptr};            ///< which joints are continuous
+  RealtimeGoalHandlePtr rt_goal_handle;                    ///< goal of the new segments
+  SegmentTolerances<Scalar>* default_tolerances{nullptr};  ///< of the goal, before its own
+  ros::Time* other_time_base{nullptr};  ///< what `time` is called in the trajectories
+  bool allow_partial_joints_goal{false};
+  std::string* error_string{nullptr};  ///< gets the reason of an empty result
+
+  void setErrorString(const std::string& text) const {
+    if (error_string != nullptr) {
+      *error_string = text;
+    }
+  }
+};
+
+namespace internal {
+
+/// The steps of initJointTrajectory().
+template <class Trajectory>
+class TrajectoryInitializer {
+ public:
+  typedef InitJointTrajectoryOptions<Trajectory> Options;
+  typedef typename Options::TrajectoryPerJoint TrajectoryPerJoint;
+  typedef typename Options::Segment Segment;
+  typedef typename Options::Scalar Scalar;
+  typedef typename Segment::State State;
+  typedef std::vector<trajectory_msgs::JointTrajectoryPoint>::const_iterator PointIterator;
+
+  TrajectoryInitializer(const trajectory_msgs::JointTrajectory& msg, const ros::Time& time,
+                        const Options& options)
+      : msg_(msg), time_(time), options_(options) {}
+
+  Trajectory run() {
+    if (!isUsable() || !selectJoints() || !selectPoints()) {
+      return Trajectory();
+    }
+    const ros::Time base = options_.other_time_base ? *options_.other_time_base : time_;
+    now_ = base.toSec();
+    start_ = now_ + (startTime(msg_, time_) - time_).toSec();
+
+    Trajectory result(joint_count_);
+    for (std::size_t joint = 0; joint < joint_count_; ++joint) {
+      const auto found = std::find(mapping_.begin(), mapping_.end(), joint);
+      result[joint] = found == mapping_.end()
+                          ? continued(joint)
+                          : replaced(joint, std::size_t(found - mapping_.begin()));
+    }
+    return result;
+  }
+
+ private:
+  bool refuse(const std::string& text) const {
+    ROS_ERROR_STREAM(text);
+    options_.setErrorString(text);
+    return false;
+  }
+
+  bool isUsable() const {
+    if (msg_.points.empty()) {
+      const std::string text = "Trajectory message contains empty trajectory. Nothing to convert.";
+      ROS_DEBUG_STREAM(text);
+      options_.setErrorString(text);
+      return false;
+    }
+    if (!isTimeStrictlyIncreasing(msg_)) {
+      return refuse(
+          "Trajectory message contains waypoints that are not strictly increasing in time.");
+    }
+    for (const trajectory_msgs::JointTrajectoryPoint& point : msg_.points) {
+      // Where the message names no joints, a point's positions tell how many there are.
+      const std::size_t size =
+          msg_.joint_names.empty() ? msg_.points[0].positions.size() : msg_.joint_names.size();
+      if (point.positions.size() != size || !isValid(point, static_cast<unsigned int>(size))) {
+        throw std::invalid_argument(
+            "Size mismatch in trajectory point position, velocity or acceleration data.");
+      }
+      if (!isFinite(point.positions) || !isFinite(point.velocities) ||
+          !isFinite(point.accelerations)) {
+        return refuse("Trajectory message contains numbers that are not finite.");
+      }
+    }
+    return true;
+  }
+
+  bool selectJoints() {
+    const std::vector<std::string>& names =
+        options_.joint_names ? *options_.joint_names : msg_.joint_names;
+    joint_count_ = names.empty() ? msg_.points[0].positions.size() : names.size();
+    if (joint_count_ == 0) {
+      return refuse("Cannot create trajectory from message. It does not contain any joints.");
+    }
+    if (options_.angle_wraparound && options_.angle_wraparound->size() != joint_count_) {
+      return refuse(
+          "Cannot create trajectory from message. Vector specifying whether joints wrap "
+          "around has an invalid size.");
+    }
+    if (names.empty()) {
+      for (std::size_t i = 0; i < joint_count_; ++i) {
+        mapping_.push_back(static_cast<unsigned int>(i));
+      }
+    } else {
+      mapping_ = mapping(msg_.joint_names, names);
+    }
+    const bool complete = mapping_.size() == joint_count_;
+    const bool partial = options_.allow_partial_joints_goal && !mapping_.empty();
+    if (!complete && !partial) {
+      return refuse(
+          "Cannot create trajectory from message. It does not contain the expected joints.");
+    }
+    const Trajectory* current = options_.current_trajectory;
+    const bool has_current =
+        current && current->size() == joint_count_ &&
+        std::none_of(current->begin(), current->end(),
+                     [](const TrajectoryPerJoint& joint) { return joint.empty(); });
+    if ((current || !complete) && !has_current) {
+      return refuse(
+          "Cannot create trajectory from message. The current trajectory does not have "
+          "the expected joints.");
+    }
+    return true;
+  }
+
+  /// Drops the points that lie in the past.
+  bool selectPoints() {
+    const PointIterator past = findPoint(msg_, time_);
+    first_point_ = past == msg_.points.end() ? msg_.points.begin() : past + 1;
+    const auto dropped = std::size_t(first_point_ - msg_.points.begin());
+    if (first_point_ == msg_.points.end()) {
+      const ros::Duration since =
+          time_ - (startTime(msg_, time_) + msg_.points.back().time_from_start);
+      char text[200];
+      std::snprintf(text, sizeof(text),
+                    "Dropping all %zu trajectory point(s), as they occur before the current "
+                    "time.\nLast point is %fs in the past.",
+                    msg_.points.size(), since.toSec());
+      ROS_WARN_STREAM(text);
+      options_.setErrorString(text);
+      return false;
+    }
+    // Planners begin with the present state; dropping that alone is nobody's mistake.
+    const bool expected =
+        dropped == 1 && msg_.header.stamp.isZero() && msg_.points[0].time_from_start.isZero();
+    if (dropped > 0 && !expected) {
+      ROS_WARN_STREAM("Dropping first " << dropped << " trajectory point(s) out of "
+                                        << msg_.points.size()
+                                        << ", as they occur before the current time.");
+    }
+    return true;
+  }
+
+  /// A joint the message does not name goes on as before, now for the new goal.
+  TrajectoryPerJoint continued(std::size_t joint) const {
+    const TrajectoryPerJoint& current = (*options_.current_trajectory)[joint];
+    auto first = trajectory_interface::findSegment(current, now_);
+    if (first == current.end()) {
+      first = current.begin();
+    }
+    TrajectoryPerJoint result(first, current.end());
+    for (Segment& segment : result) {
+      segment.setGoalHandle(options_.rt_goal_handle);
+    }
+    return result;
+  }
+
+  TrajectoryPerJoint replaced(std::size_t joint, std::size_t index) const {
+    TrajectoryPerJoint result;
+    const SegmentTolerancesPerJoint<Scalar> tolerances = tolerancesOf(joint);
+    Scalar offset = 0;
+    if (options_.current_trajectory) {
+      offset = bridge(joint, index, tolerances, result);
+    } else if (first_point_ + 1 == msg_.points.end()) {
+      const State only = stateOf(*first_point_, index, 0);
+      append(timeOf(*first_point_), only, timeOf(*first_point_), only, tolerances, result);
+    }
+    for (PointIterator point = first_point_; point + 1 != msg_.points.end(); ++point) {
+      append(timeOf(*point), stateOf(*point, index, offset), timeOf(*(point + 1)),
+             stateOf(*(point + 1), index, offset), tolerances, result);
+    }
+    return result;
+  }
+
+  /// Keeps the current trajectory until the message starts and leads from there to its first point.
+  /// @return the wraparound offset of the positions in the message
+  Scalar bridge(std::size_t joint, std::size_t index,
+                const SegmentTolerancesPerJoint<Scalar>& tolerances,
+                TrajectoryPerJoint& result) const {
+    const TrajectoryPerJoint& current = (*options_.current_trajectory)[joint];
+    const Scalar arrival = timeOf(*first_point_);
+    // A first point at the very start of a later message leaves no time for the way to it: it is
+    // taken from now on, instead of in one jump.
+    Scalar departure = std::max(start_, now_);
+    if (departure >= arrival) {
+      departure = now_;
+    }
+    auto first = trajectory_interface::findSegment(current, now_);
+    auto last = trajectory_interface::findSegment(current, departure);
+    if (first == current.end()) {
+      first = current.begin();
+    }
+    if (last == current.end()) {
+      last = current.begin();
+    }
+    result.assign(first, last + 1);
+
+    State from;
+    last->sample(departure, from);
+    const bool wraps = options_.angle_wraparound && (*options_.angle_wraparound)[joint];
+    const Scalar offset =
+        wraparoundJointOffset(from.position[0], Scalar(first_point_->positions[index]), wraps);
+    append(departure, from, arrival, stateOf(*first_point_, index, offset), tolerances, result);
+    return offset;
+  }
+
+  void append(Scalar start_time, const State& start, Scalar end_time, const State& end,
+              const SegmentTolerancesPerJoint<Scalar>& tolerances,
+              TrajectoryPerJoint& result) const {
+    Segment segment(start_time, start, end_time, end);
+    segment.setGoalHandle(options_.rt_goal_handle);
+    if (options_.rt_goal_handle) {
+      segment.setTolerances(tolerances);
+    }
+    result.push_back(segment);
+  }
+
+  Scalar timeOf(const trajectory_msgs::JointTrajectoryPoint& point) const {
+    return start_ + point.time_from_start.toSec();
+  }
+
+  static State stateOf(const trajectory_msgs::JointTrajectoryPoint& point, std::size_t index,
+                       Scalar offset) {
+    State state;
+    state.position = {Scalar(point.positions[index]) + offset};
+    if (!point.velocities.empty()) {
+      state.velocity = {Scalar(point.velocities[index])};
+    }
+    if (!point.accelerations.empty()) {
+      state.acceleration = {Scalar(point.accelerations[index])};
+    }
+    state.time_from_start = point.time_from_start.toSec();
+    return state;
+  }
+
+  SegmentTolerancesPerJoint<Scalar> tolerancesOf(std::size_t joint) const {
+    SegmentTolerancesPerJoint<Scalar> result;
+    if (!options_.rt_goal_handle || !options_.default_tolerances) {
+      return result;
+    }
+    SegmentTolerances<Scalar> all = *options_.default_tolerances;
+    const auto goal = options_.rt_goal_handle->gh_.getGoal();
+    if (goal && options_.joint_names) {
+      updateSegmentTolerances(*goal, *options_.joint_names, all);
+    }
+    result.state_tolerance = all.state_tolerance[joint];
+    result.goal_state_tolerance = all.goal_state_tolerance[joint];
+    result.goal_time_tolerance = all.goal_time_tolerance;
+    return result;
+  }
+
+  const trajectory_msgs::JointTrajectory& msg_;
+  const ros::Time time_;
+  const Options& options_;
+  std::size_t joint_count_{0};
+  std::vector<unsigned int> mapping_;  ///< from joints of the message to those of the result
+  PointIterator first_point_;
+  Scalar now_{0};    ///< `time_` in the trajectories' time base [s]
+  Scalar start_{0};  ///< when the message starts, likewise
+};
+
+}  // namespace internal
+
+/// Turns a message into a trajectory, spliced to the current one.
+///
+/// Points at or before `time` are dropped; each joint keeps its current trajectory until the
+/// message starts, then goes in one segment to the first point left.
+///
+/// @param time now, in the time base of the message
+/// @returns an empty trajectory, with a reason in the log and in the options' error string, when
+/// there is nothing to do or the message is not usable.
+/// @throws std::invalid_argument when a point has not as many elements as there are joints.
+/// Not real-time safe.
+template <class Trajectory>
+Trajectory initJointTrajectory(const trajectory_msgs::JointTrajectory& msg, const ros::Time& time,
+                               const InitJointTrajectoryOptions<Trajectory>& options =
+                                   InitJointTrajectoryOptions<Trajectory>()) {
+  return internal::TrajectoryInitializer<Trajectory>(msg, time, options).run();
+}
+
+}  // namespace joint_trajectory_controller

@@ -1,0 +1,236 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <actionlib/server/action_server.h>
+#include <control_msgs/FollowJointTrajectoryAction.h>
+#include <control_msgs/JointTrajectoryControllerState.h>
+#include <control_msgs/QueryTrajectoryState.h>
+#include <controller_interface/controller.h>
+#include <hardware_interface/joint_command_interface.h>
+#include <joint_trajectory_controller/hardware_interface_adapter.h>
+#include <joint_trajectory_controller/hold_trajectory_builder.h>
+#include <joint_trajectory_controller/init_joint_trajectory.h>
+#include <joint_trajectory_controller/internal/command_exchange.h>
+#include <joint_trajectory_controller/internal/latest_value.h>
+#include <joint_trajectory_controller/joint_trajectory_segment.h>
+#include <joint_trajectory_controller/stop_trajectory_builder.h>
+#include <realtime_tools/realtime_publisher.h>
+#include <ros/node_handle.h>
+#include <trajectory_msgs/JointTrajectory.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace joint_trajectory_controller {
+
+/// Room for the reason of a goal's end that the control loop writes [characters].
+constexpr std::size_t kReasonCapacity = 512;
+
+/// Moves joints along trajectories that come as messages or as goals of an action.
+///
+/// Topics: `command` (in), `state` (out); action `follow_joint_trajectory`; service `query_state`;
+/// all in the controller's namespace. [rad] or [m], and their derivatives.
+///
+/// The control loop calls update(), starting(), stopping(), waiting() and aborting(): they neither
+/// allocate nor lock. Everything else runs in callbacks under one mutex the loop never touches;
+/// commands pass to the loop through a CommandExchange and what the loop does comes back as a
+/// Snapshot. When the loop overrides what it was told (it starts, or holds after a violated
+/// tolerance) it counts an *epoch*; a command computed for an earlier epoch is not followed but
+/// computed again, so nothing ever continues from where the robot is not.
+///
+/// @tparam SegmentImpl such as trajectory_interface::QuinticSplineSegment<double>
+/// @tparam HardwareInterface one with a HardwareInterfaceAdapter
+template <class SegmentImpl, class HardwareInterface>
+class JointTrajectoryController : public controller_interface::Controller<HardwareInterface> {
+ public:
+  JointTrajectoryController();
+  ~JointTrajectoryController() override;
+
+  /// Reads the parameters, takes the joints and opens topics, action and service.
+  /// @returns false, with the reason in the log, when a parameter or a joint is missing or wrong.
+  bool init(HardwareInterface* hw, ros::NodeHandle& root_nh,
+            ros::NodeHandle& controller_nh) override;
+
+  /// Holds the present position.
+  void starting(const ros::Time& time) override;
+  /// Gives up; a goal under way is cancelled a moment later.
+  void stopping(const ros::Time& time) override;
+  void waiting(const ros::Time& time) override { stopping(time); }
+  void aborting(const ros::Time& time) override { stopping(time); }
+  void update(const ros::Time& time, const ros::Duration& period) override;
+
+ protected:
+  struct TimeData {
+    ros::Time time;        ///< of the last update, in ROS time
+    ros::Duration period;  ///< of the last update
+    ros::Time uptime;      ///< since starting(), the time base of trajectories
+  };
+
+  typedef actionlib::ActionServer<control_msgs::FollowJointTrajectoryAction> ActionServer;
+  typedef std::shared_ptr<ActionServer> ActionServerPtr;
+  typedef ActionServer::GoalHandle GoalHandle;
+  typedef JointTrajectorySegment<SegmentImpl> Segment;
+  typedef std::vector<Segment> TrajectoryPerJoint;
+  typedef std::vector<TrajectoryPerJoint> Trajectory;
+  typedef std::shared_ptr<Trajectory> TrajectoryPtr;
+  typedef typename Segment::RealtimeGoalHandle RealtimeGoalHandle;
+  typedef typename Segment::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
+  typedef trajectory_msgs::JointTrajectory::ConstPtr JointTrajectoryConstPtr;
+  typedef realtime_tools::RealtimePublisher<control_msgs::JointTrajectoryControllerState>
+      StatePublisher;
+  typedef std::unique_ptr<StatePublisher> StatePublisherPtr;
+  typedef typename Segment::Scalar Scalar;
+  typedef typename Segment::State State;
+  typedef typename HardwareInterface::ResourceHandleType JointHandle;
+  typedef HardwareInterfaceAdapter<HardwareInterface, typename Segment::State> HwIfaceAdapter;
+
+  /// Lays a new trajectory before the control loop, spliced to the current one; a message without
+  /// points asks to hold.
+  /// @param gh goal it belongs to, or null
+  /// @param[out] error_string why it was refused; may be null
+  /// @returns whether it was accepted. Thread-safe, not real-time safe.
+  virtual bool updateTrajectoryCommand(const JointTrajectoryConstPtr& msg, RealtimeGoalHandlePtr gh,
+                                       std::string* error_string = nullptr);
+  virtual void trajectoryCommandCB(const JointTrajectoryConstPtr& msg);
+  virtual void goalCB(GoalHandle gh);
+  virtual void cancelCB(GoalHandle gh);
+  /// Cancels the goal under way, if any, because another command replaces it.
+  virtual void preemptActiveGoal();
+  virtual bool queryStateService(control_msgs::QueryTrajectoryState::Request& req,
+                                 control_msgs::QueryTrajectoryState::Response& resp);
+
+  std::string name_;  ///< last part of the controller's namespace
+  std::vector<JointHandle> joints_;
+  std::vector<bool> angle_wraparound_;  ///< which joints are continuous
+  std::vector<std::string> joint_names_;
+  SegmentTolerances<Scalar> default_tolerances_;
+  HwIfaceAdapter hw_iface_adapter_;
+  bool allow_partial_joints_goal_{false};
+
+  // Of the control loop.
+  State current_state_;  ///< measured
+  State desired_state_;
+  State state_error_;  ///< desired minus measured
+  TimeData time_data_;
+
+  ros::NodeHandle controller_nh_;
+  ros::Subscriber trajectory_command_sub_;
+  ActionServerPtr action_server_;
+  ros::ServiceServer query_state_service_;
+  StatePublisherPtr state_publisher_;
+  ros::WallTimer monitor_timer_;
+  ros::Duration state_publisher_period_;  ///< 0: no state is published
+
+ private:
+  /// What callbacks lay before the loop.
+  struct Command {
+    TrajectoryPtr trajectory;  ///< null: hold
+    RealtimeGoalHandlePtr goal;
+    JointTrajectoryConstPtr message;
+    double start{0.0};         ///< of the message, in uptime [s]
+    std::uint64_t epoch{0};    ///< for which the trajectory was computed
+    std::uint64_t session{0};  ///< during which it was given
+    std::uint64_t number{0};   ///< counts commands
+    bool outdated{false};      ///< the loop refused it because of its epoch
+    Command* next{nullptr};
+  };
+
+  /// What the loop tells callbacks after each update.
+  struct Snapshot {
+    TimeData time;
+    std::uint64_t epoch{0};
+    bool holding{true};  ///< of its own accord or when told to, since `hold_start`
+    double hold_start{0.0};
+    State hold_origin;
+    State desired;
+    State actual;
+    State error;
+    double time_from_start{0.0};
+  };
+
+  typedef std::unique_ptr<TrajectoryBuilder<SegmentImpl>> BuilderPtr;
+
+  // Set-up.
+  bool readParameters(ros::NodeHandle& controller_nh);
+  bool readRates(ros::NodeHandle& controller_nh);
+  bool takeJoints(HardwareInterface* hw, ros::NodeHandle& root_nh);
+  void sizeStates();
+  void openInterfaces(ros::NodeHandle& controller_nh);
+  BuilderPtr makeHoldBuilder(const State& origin) const;
+
+  // In the control loop.
+  virtual void updateFuncExtensionPoint(const Trajectory& /*curr_traj*/,
+                                        const TimeData& /*time_data*/) {}
+  void readMeasuredState();
+  void takeCommand();
+  void follow(Command* command);
+  void beginHold();
+  const Trajectory& trajectory() const {
+    return holding_ ? hold_trajectory_ : *command_->trajectory;
+  }
+  double uptime() const { return time_data_.uptime.toSec(); }
+  double timeFromStart() const { return uptime() - (holding_ ? hold_start_ : command_->start); }
+  void sampleDesiredState();
+  /// @returns false when a violated tolerance ended the goal, and the joints hold from now on.
+  bool judgeGoal();
+  bool judgeJoint(std::size_t joint, RealtimeGoalHandle& goal);
+  void failGoal(RealtimeGoalHandle& goal, int code, std::size_t joint, const char* kind,
+                const StateTolerances<Scalar>& tolerance);
+  static void succeed(RealtimeGoalHandle& goal);
+  void publishState();
+  void publishSnapshot();
+
+  // In callbacks.
+  bool checkJoints(const trajectory_msgs::JointTrajectory& msg, std::string& reason) const;
+  void putHold(const JointTrajectoryConstPtr& msg, const RealtimeGoalHandlePtr& goal);
+  Trajectory callbackTrajectory(const Snapshot& snapshot);
+  void cancelActiveGoal(const std::string& reason);
+  static void endGoal(RealtimeGoalHandle& goal, typename RealtimeGoalHandle::Outcome outcome,
+                      int code, const std::string& reason);
+  void monitor(const ros::WallTimerEvent& event);
+  void reissue(const Command& command);
+  void publishFeedback();
+
+  Scalar stop_trajectory_duration_{0};
+  double action_monitor_rate_{20.0};
+
+  // Of the control loop.
+  Command* command_{nullptr};  ///< being followed; owned
+  bool holding_{true};
+  double hold_start_{0.0};
+  State hold_origin_;
+  BuilderPtr hold_builder_;
+  Trajectory hold_trajectory_;
+  std::uint64_t epoch_{0};
+  State joint_state_;
+  std::vector<const Segment*> segments_;  ///< in which the joints are
+  std::vector<char> joint_succeeded_;
+  ros::Time last_state_publish_time_;
+
+  // Shared.
+  internal::CommandExchange<Command> exchange_;
+  internal::LatestValue<Snapshot> snapshot_;
+  std::atomic<bool> running_{false};
+  std::atomic<std::uint64_t> session_{0};  ///< changes with every start and stop
+
+  // Of callbacks, under mutex_.
+  std::recursive_mutex mutex_;
+  RealtimeGoalHandlePtr active_goal_;
+  std::uint64_t active_goal_session_{0};
+  TrajectoryPtr latest_trajectory_;  ///< last laid before the loop; null: hold
+  std::uint64_t latest_epoch_{0};
+  std::uint64_t number_{0};
+  State callback_hold_origin_;
+  BuilderPtr callback_hold_builder_;
+};
+
+}  // namespace joint_trajectory_controller
+
+#include <joint_trajectory_controller/joint_trajectory_controller_callbacks.h>
+#include <joint_trajectory_controller/joint_trajectory_controller_impl.h>
+#include <joint_trajectory_controller/joint_trajectory_controller_setup.h>

@@ -1,0 +1,130 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <control_msgs/FollowJointTrajectoryAction.h>
+#include <joint_trajectory_controller/realtime_goal.h>
+#include <joint_trajectory_controller/tolerances.h>
+#include <trajectory_msgs/JointTrajectoryPoint.h>
+
+#include <boost/shared_ptr.hpp>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace joint_trajectory_controller {
+
+/// A segment of a trajectory, with the goal it belongs to and that goal's tolerances.
+/// @tparam Segment a segment type such as trajectory_interface::QuinticSplineSegment
+template <class Segment>
+class JointTrajectorySegment : public Segment {
+ public:
+  typedef typename Segment::Scalar Scalar;
+  typedef typename Segment::Time Time;
+  typedef RealtimeGoal<control_msgs::FollowJointTrajectoryAction> RealtimeGoalHandle;
+  typedef boost::shared_ptr<RealtimeGoalHandle> RealtimeGoalHandlePtr;
+
+  struct State : public Segment::State {
+    typedef typename Segment::State::Scalar Scalar;
+    State() = default;
+    explicit State(unsigned int size) : Segment::State(size) {}
+    /// As init().
+    State(const trajectory_msgs::JointTrajectoryPoint& point,
+          const std::vector<unsigned int>& permutation = {},
+          const std::vector<Scalar>& position_offset = {}) {
+      init(point, permutation, position_offset);
+    }
+
+    /// Takes over a point of a message.
+    /// @param permutation element i tells where element i of the point goes; empty: as it is.
+    /// @param position_offset added to the positions of the result, in its order; empty: none.
+    /// @throws std::invalid_argument when sizes do not fit.
+    void init(const trajectory_msgs::JointTrajectoryPoint& point,
+              const std::vector<unsigned int>& permutation = {},
+              const std::vector<Scalar>& position_offset = {}) {
+      const std::size_t size = point.positions.size();
+      const auto fits = [size](std::size_t other) { return other == 0 || other == size; };
+      if (!fits(point.velocities.size()) || !fits(point.accelerations.size())) {
+        throw std::invalid_argument(
+            "Size mismatch in trajectory point position, velocity or acceleration data.");
+      }
+      if (!fits(permutation.size())) {
+        throw std::invalid_argument("Size mismatch between trajectory point and permutation.");
+      }
+      for (const unsigned int target : permutation) {
+        if (target >= size) {
+          throw std::invalid_argument("Permutation of a trajectory point is out of range.");
+        }
+      }
+      if (!fits(position_offset.size())) {
+        throw std::invalid_argument("Size mismatch between trajectory point and position offset.");
+      }
+      const auto permuted = [&](const std::vector<double>& values) {
+        std::vector<Scalar> result(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          result[permutation.empty() ? i : permutation[i]] = static_cast<Scalar>(values[i]);
+        }
+        return result;
+      };
+      this->position = permuted(point.positions);
+      this->velocity = permuted(point.velocities);
+      this->acceleration = permuted(point.accelerations);
+      for (std::size_t i = 0; i < position_offset.size(); ++i) {
+        this->position[i] += position_offset[i];
+      }
+      this->time_from_start = static_cast<Scalar>(point.time_from_start.toSec());
+    }
+  };
+
+  JointTrajectorySegment() = default;
+  JointTrajectorySegment(const Time& start_time, const State& start_state, const Time& end_time,
+                         const State& end_state)
+      : Segment(start_time, start_state, end_time, end_state) {}
+  /// Between two points of a message that starts at `traj_start_time` [s].
+  JointTrajectorySegment(const Time& traj_start_time,
+                         const trajectory_msgs::JointTrajectoryPoint& start_point,
+                         const trajectory_msgs::JointTrajectoryPoint& end_point,
+                         const std::vector<unsigned int>& permutation = {},
+                         const std::vector<Scalar>& position_offset = {})
+      : Segment(traj_start_time + start_point.time_from_start.toSec(),
+                State(start_point, permutation, position_offset),
+                traj_start_time + end_point.time_from_start.toSec(),
+                State(end_point, permutation, position_offset)) {}
+
+  RealtimeGoalHandlePtr getGoalHandle() const { return goal_handle_; }
+  /// The same without taking part in its ownership, for the control loop.
+  RealtimeGoalHandle* goalHandle() const noexcept { return goal_handle_.get(); }
+  void setGoalHandle(const RealtimeGoalHandlePtr& goal_handle) { goal_handle_ = goal_handle; }
+
+  const SegmentTolerancesPerJoint<Scalar>& getTolerances() const { return tolerances_; }
+  void setTolerances(const SegmentTolerancesPerJoint<Scalar>& tolerances) {
+    tolerances_ = tolerances;
+  }
+
+ private:
+  RealtimeGoalHandlePtr goal_handle_;
+  SegmentTolerancesPerJoint<Scalar> tolerances_;
+};
+
+/// From one angle to another on the shorter way, in [-pi, pi]. Real-time safe.
+template <class Scalar>
+Scalar shortestAngularDistance(Scalar from, Scalar to) {
+  return std::remainder(to - from, Scalar(2 * M_PI));
+}
+
+/// What must be added to the next position of a joint so that it lies at most half a turn from the
+/// previous one [rad]; 0 unless `angle_wraparound`. A half turn goes the way the positions say.
+template <class Scalar>
+Scalar wraparoundJointOffset(const Scalar& prev_position, const Scalar& next_position,
+                             const bool& angle_wraparound) {
+  if (!angle_wraparound) {
+    return Scalar(0);
+  }
+  Scalar distance = shortestAngularDistance(prev_position, next_position);
+  if (std::abs(std::abs(distance) - M_PI) < 1e-9) {
+    distance = std::copysign(distance, next_position - prev_position);
+  }
+  return (prev_position + distance) - next_position;
+}
+
+}  // namespace joint_trajectory_controller
