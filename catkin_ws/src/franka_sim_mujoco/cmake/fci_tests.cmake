@@ -1,0 +1,10 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+
+# The robots' network face; after tests.cmake, which brings sim_test.
+sim_test(fci_test
+  SOURCES
+    test/fci/host_test.cpp
+    test/fci/robot_server_test.cpp
+    test/fci/served_models_test.cpp
+  LIBRARIES franka_sim_fci franka_sim_physics PkgConfig::TINYXML2)
