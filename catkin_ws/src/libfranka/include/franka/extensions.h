@@ -51,6 +51,7 @@ struct Timeouts {
 };
 
 /// The timeouts of the Robots constructed from now on in this process. Any thread.
+/// @throws std::invalid_argument for one that is not positive.
 void setTimeouts(const Timeouts& timeouts);
 /// What setTimeouts set, or the defaults. Any thread.
 Timeouts timeouts();

@@ -9,7 +9,7 @@
 namespace franka {
 
 std::string reflexText(const std::string& text, const franka_core::RobotState& state,
-                       const std::vector<MotionLog::Entry>& log, std::uint16_t /*version*/) {
+                       const std::vector<MotionLog::Entry>& log, std::uint16_t version) {
   std::ostringstream message;
   message << text << " " << Errors(state.reflex_reason);
   if (log.size() >= 2) {
@@ -21,6 +21,9 @@ std::string reflexText(const std::string& text, const franka_core::RobotState& s
     if (lost > 0) {
       message << " packets lost in a row in the last sample: " << lost;
     }
+  }
+  for (const std::string& sentence : franka_core::diagnoseAbort(log, version)) {
+    message << "\n" << sentence;
   }
   return message.str();
 }

@@ -10,9 +10,13 @@ namespace franka {
 namespace {
 
 // What two numbers mean, and what to do about them.
-std::string adviceFor(uint16_t server_version) {
+std::string adviceFor(uint16_t server_version, uint16_t library_version) {
   const auto& oldest = franka_core::kRobotVersions.front();
   const auto& newest = franka_core::kRobotVersions.back();
+  if (library_version != newest.version) {
+    // A gripper's protocol, which is not in the table.
+    return "Please update the robot's system or the library so that both match.";
+  }
   if (server_version < oldest.version) {
     return std::string(
                "The robot's system is older than any this library knows. Please update it: "
@@ -35,8 +39,9 @@ std::string adviceFor(uint16_t server_version) {
 IncompatibleVersionException::IncompatibleVersionException(uint16_t server_version,
                                                            uint16_t library_version) noexcept
     : Exception("libfranka: Robot and library speak different protocols (server version: " +
-                std::to_string(server_version) + ", library version: " +
-                std::to_string(library_version) + "). " + adviceFor(server_version)),
+                std::to_string(server_version) +
+                ", library version: " + std::to_string(library_version) + "). " +
+                adviceFor(server_version, library_version)),
       server_version(server_version),
       library_version(library_version) {}
 

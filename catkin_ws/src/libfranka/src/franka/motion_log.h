@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka/log.h>
+#include <franka_core/abort_diagnosis.h>
 #include <franka_core/robot_state.h>
 
 #include <cstddef>
@@ -15,10 +16,7 @@ namespace franka {
 class MotionLog {
  public:
   /// A received state and the command sent just before it.
-  struct Entry {
-    franka_core::RobotState state;
-    franka_core::RobotCommand command;
-  };
+  using Entry = franka_core::AbortRecord;
 
   /// @param size how many entries are kept; may be 0.
   explicit MotionLog(std::size_t size) : ring_(size) {}

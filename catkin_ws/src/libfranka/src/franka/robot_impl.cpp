@@ -60,8 +60,9 @@ Robot::Impl::Operation::Operation(Impl& robot) : robot_(robot) {
     throw InvalidOperationException(fci::kOtherOperationRunning);
   }
   // A thread that waits for a reply may be looking for states just now; it never does so for long.
+  // Sleeping lets it go on even where this thread has realtime priority on the same core.
   while (robot_.states_in_use_.test_and_set(std::memory_order_acquire)) {
-    std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
   }
 }
 

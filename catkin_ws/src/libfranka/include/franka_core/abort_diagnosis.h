@@ -1,0 +1,32 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/robot_state.h>
+
+#include <string>
+#include <vector>
+
+namespace franka_core {
+
+/// A state, and the command that had been sent just before it arrived.
+struct AbortRecord {
+  RobotState state;
+  RobotCommand command;
+};
+
+/// Why a motion was aborted, in sentences for a person: for each flag of the last state's
+/// reflex_reason which joint or axis broke it, and the value against the limit, as far as the
+/// logged states and commands show it.
+///
+/// Velocities, accelerations, jerks and torque rates are those the robot computes (backward Euler
+/// over 1 ms, from the state the command answered). Pure; not for the 1 kHz loop.
+/// @param log oldest first, as kept by the client
+/// @param version of the robot's protocol, which says whose limits hold
+/// @returns one sentence a flag; none for an empty log
+std::vector<std::string> diagnoseAbort(const std::vector<AbortRecord>& log, unsigned version);
+
+/// The number of states that did not arrive before the last one of the log.
+std::uint64_t statesLost(const std::vector<AbortRecord>& log) noexcept;
+
+}  // namespace franka_core

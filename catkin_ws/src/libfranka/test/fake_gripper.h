@@ -1,0 +1,176 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <arpa/inet.h>
+#include <franka_core/fci/gripper_codec.h>
+#include <franka_core/fci/vacuum_codec.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace franka_test {
+
+/// A gripper for tests: real sockets on 127.0.0.1, port 0. It answers requests as it is told and
+/// sends a state every 5 ms. Of either kind: the framing and Connect are the same.
+class FakeGripper {
+ public:
+  using Header = franka_core::fci::gripper::Header;
+  using Status = franka_core::fci::gripper::Status;
+  using Bytes = std::vector<std::uint8_t>;
+
+  explicit FakeGripper(std::uint16_t version) : version_(version) {
+    listener_ = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    if (bind(listener_, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
+        listen(listener_, 4) != 0 ||
+        getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
+      throw std::runtime_error("no socket for the fake gripper");
+    }
+    port_ = ntohs(address.sin_port);
+    datagrams_ = socket(AF_INET, SOCK_DGRAM, 0);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~FakeGripper() {
+    ended_ = true;
+    thread_.join();
+    close(listener_);
+    close(datagrams_);
+  }
+
+  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+
+  std::atomic<Status> answer{Status::kSuccess};
+  std::atomic<bool> answers{true};  ///< else requests other than Connect and Stop wait
+  std::atomic<bool> sends_states{true};
+  std::atomic<bool> closes{false};  ///< closes the connection in the place of a reply
+  Bytes state;                      ///< what it sends; set before a client connects
+  std::atomic<std::uint16_t> stop_command{4};
+
+  /// The requests it got, Connect left out.
+  std::vector<Bytes> requests() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return requests_;
+  }
+
+ private:
+  void run() {
+    while (!ended_) {
+      pollfd waiting{listener_, POLLIN, 0};
+      if (poll(&waiting, 1, 5) == 1) {
+        const int client = accept(listener_, nullptr, nullptr);
+        serve(client);
+        close(client);
+      }
+    }
+  }
+
+  void serve(int client) {
+    Bytes stream;
+    udp_port_ = 0;
+    pending_.clear();
+    while (!ended_) {
+      pollfd waiting{client, POLLIN, 0};
+      if (poll(&waiting, 1, 5) == 1) {
+        std::uint8_t buffer[256];
+        const ssize_t count = recv(client, buffer, sizeof(buffer), 0);
+        if (count <= 0) {
+          return;
+        }
+        stream.insert(stream.end(), buffer, buffer + count);
+      }
+      Header header;
+      while (franka_core::fci::gripper::nextMessage({stream.data(), stream.size()}, 64, header) ==
+                 franka_core::fci::CodecError::kNone &&
+             stream.size() >= header.size && header.size > 0) {
+        const Bytes request(stream.begin(), stream.begin() + header.size);
+        stream.erase(stream.begin(), stream.begin() + header.size);
+        if (!handle(client, header, request)) {
+          return;
+        }
+      }
+      if (sends_states && udp_port_ != 0) {
+        sockaddr_in to{};
+        to.sin_family = AF_INET;
+        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        to.sin_port = htons(udp_port_);
+        sendto(datagrams_, state.data(), state.size(), 0, reinterpret_cast<sockaddr*>(&to),
+               sizeof(to));
+      }
+    }
+  }
+
+  bool handle(int client, const Header& header, const Bytes& request) {
+    if (header.command == 0) {
+      const auto wanted = static_cast<std::uint16_t>(request[10] | request[11] << 8);
+      udp_port_ = static_cast<std::uint16_t>(request[12] | request[13] << 8);
+      const bool agrees = wanted == version_;
+      reply(client, header, agrees ? 0 : 1, true);
+      return agrees;
+    }
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      requests_.push_back(request);
+    }
+    if (closes) {
+      return false;
+    }
+    if (header.command == stop_command) {
+      for (const Header& waiting : pending_) {
+        reply(client, waiting, static_cast<std::uint16_t>(Status::kAborted), false);
+      }
+      pending_.clear();
+      reply(client, header, 0, false);
+    } else if (answers) {
+      reply(client, header, static_cast<std::uint16_t>(answer.load()), false);
+    } else {
+      pending_.push_back(header);
+    }
+    return true;
+  }
+
+  void reply(int client, const Header& header, std::uint16_t status, bool with_version) {
+    const std::uint32_t size = with_version ? 14 : 12;
+    Bytes bytes;
+    const auto put = [&bytes](std::uint32_t value, int count) {
+      for (int i = 0; i < count; i++) {
+        bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+      }
+    };
+    put(header.command, 2);
+    put(header.command_id, 4);
+    put(size, 4);
+    put(status, 2);
+    if (with_version) {
+      put(version_, 2);
+    }
+    send(client, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  }
+
+  const std::uint16_t version_;
+  int listener_{-1};
+  int datagrams_{-1};
+  std::uint16_t port_{0};
+  std::uint16_t udp_port_{0};
+  std::vector<Header> pending_;
+  std::mutex mutex_;
+  std::vector<Bytes> requests_;
+  std::atomic<bool> ended_{false};
+  std::thread thread_;
+};
+
+}  // namespace franka_test
