@@ -22,6 +22,13 @@ foreach(name control_unit external_force gripper_unit modes_and_requests parts r
   sim_test(robot_${name}_test SOURCES test/robot/${name}_test.cpp LIBRARIES franka_sim_robot)
 endforeach()
 
+sim_test(robot_unit_test
+  SOURCES
+    test/robot/error_flags_test.cpp
+    test/robot/laws_test.cpp
+    test/robot/unit_motion_test.cpp
+  LIBRARIES franka_sim_robot)
+
 sim_test(robot_motion_test
   SOURCES
     test/robot/motion/cartesian_limits_test.cpp

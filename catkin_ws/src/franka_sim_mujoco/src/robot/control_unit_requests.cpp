@@ -398,6 +398,13 @@ void ControlUnit::enter(RobotMode before) noexcept {
 
 // Idle that cannot stay: the stop is still pressed, or an error has not been recovered from.
 void ControlUnit::settle() noexcept {
+  if (parameters_.reflexes) {
+    // The shock of closing brakes, or the hands of a person, are no collisions.
+    joint_contacts_.clear();
+    cartesian_contacts_.clear();
+    state_.joint_collision.fill(0.0);
+    state_.cartesian_collision.fill(0.0);
+  }
   if (user_stop_) {
     handle(ModeEvent::kUserStopPressed);
   } else if (std::any_of(state_.errors.begin(), state_.errors.end(), [](bool e) { return e; })) {

@@ -9,15 +9,16 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr double kSpeedMargin = 1.05;  // decision 14
-constexpr double kTorqueMargin = 1.2;  // decision 14
+constexpr double kPositionMargin = 0.005;  // [rad], ours: within the stops' 0.02 (decision 8)
+constexpr double kSpeedMargin = 1.05;      // decision 14
+constexpr double kTorqueMargin = 1.2;      // decision 14
 
 }  // namespace
 
 bool beyondJointLimits(const franka_core::ArmLimits& limits,
                        const std::array<double, 7>& q) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
-    if (q[i] < limits.q_min[i] || q[i] > limits.q_max[i]) {
+    if (q[i] < limits.q_min[i] - kPositionMargin || q[i] > limits.q_max[i] + kPositionMargin) {
       return true;
     }
   }

@@ -16,8 +16,9 @@ namespace franka_sim_mujoco {
 /// arm which follows well is not stopped.
 /// @param O_dP_EE measured twist of EE in O [m/s, rad/s]
 /// @returns the first error of: tau_J_range_violation (|tau_J| above 1.2 times the motors' range),
-/// joint_position_limits_violation, joint_velocity_violation (1.05 times), cartesian velocity
-/// (1.05 times that of the translation), power_limit_violation (kPowerLimit). Real-time safe.
+/// joint_position_limits_violation (0.005 rad beyond), joint_velocity_violation (1.05 times),
+/// cartesian velocity (1.05 times that of the translation), power_limit_violation (kPowerLimit).
+/// Real-time safe.
 std::optional<ErrorFlag> measuredViolation(const franka_core::ArmLimits& limits,
                                            const franka_core::RobotState& state,
                                            const std::array<double, 6>& O_dP_EE) noexcept;
@@ -26,7 +27,8 @@ std::optional<ErrorFlag> measuredViolation(const franka_core::ArmLimits& limits,
 /// as about 350 W; what the joints give mechanically cannot be more (our choice).
 constexpr double kPowerLimit = 350.0;
 
-/// Whether a joint stands beyond its limits, which only a person can mend. Real-time safe.
+/// Whether a joint stands 0.005 rad or more beyond its limits, which only a person can mend.
+/// Real-time safe.
 bool beyondJointLimits(const franka_core::ArmLimits& limits,
                        const std::array<double, 7>& q) noexcept;
 
