@@ -1,0 +1,173 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// A robot with an arm that turns (limits -1 to 2 rad), a wheel without limits and a slide (limits
+// -0.5 to 0.5 m), a controller manager for it, and time that passes when a test says so.
+
+#include <controller_manager/controller_manager.h>
+#include <gmock/gmock.h>
+#include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/joint_state_interface.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/console.h>
+#include <ros/ros.h>
+
+#include <array>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace three_joints {
+
+typedef std::vector<std::string> Names;
+
+enum Joint { kArm, kWheel, kSlide };
+
+class Robot : public hardware_interface::RobotHW {
+ public:
+  Robot() {
+    const std::array<std::string, 3> names{"arm", "wheel", "slide"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const hardware_interface::JointStateHandle state(names[i], &position_[i], &velocity_[i],
+                                                       &effort_[i]);
+      states_.registerHandle(state);
+      positions_.registerHandle(hardware_interface::JointHandle(state, &position_command_[i]));
+      velocities_.registerHandle(hardware_interface::JointHandle(state, &velocity_command_[i]));
+      efforts_.registerHandle(hardware_interface::JointHandle(state, &effort_command_[i]));
+    }
+    registerInterface(&states_);
+    registerInterface(&positions_);
+    registerInterface(&velocities_);
+    registerInterface(&efforts_);
+  }
+
+  std::array<double, 3> position_{{0.3, 0.2, 0.1}}, velocity_{}, effort_{};
+  std::array<double, 3> position_command_{}, velocity_command_{}, effort_command_{};
+
+ private:
+  hardware_interface::JointStateInterface states_;
+  hardware_interface::PositionJointInterface positions_;
+  hardware_interface::VelocityJointInterface velocities_;
+  hardware_interface::EffortJointInterface efforts_;
+};
+
+/// Catches what is logged while it lives.
+class LogCatcher : public ros::console::LogAppender {
+ public:
+  LogCatcher() { ros::console::register_appender(this); }
+  ~LogCatcher() override { ros::console::deregister_appender(this); }
+  void log(ros::console::Level /*level*/, const char* text, const char* /*file*/,
+           const char* /*function*/, int /*line*/) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    text_ += std::string(text) + "\n";
+  }
+  std::string text() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return text_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::string text_;
+};
+
+/// Each test has a namespace of its own, named after it.
+class ControllerTest : public testing::Test {
+ protected:
+  ControllerTest()
+      : nh_(testing::UnitTest::GetInstance()->current_test_info()->name()), manager_(&robot_, nh_) {
+    ros::param::set("robot_description", R"(
+      <robot name="three_joints">
+        <link name="base"/><link name="a"/><link name="b"/><link name="c"/>
+        <joint name="arm" type="revolute">
+          <parent link="base"/><child link="a"/>
+          <limit lower="-1" upper="2" effort="1" velocity="1"/>
+        </joint>
+        <joint name="wheel" type="continuous"><parent link="a"/><child link="b"/></joint>
+        <joint name="slide" type="prismatic">
+          <parent link="b"/><child link="c"/>
+          <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/>
+        </joint>
+      </robot>)");
+  }
+
+  /// Loads the controller "c" for one joint.
+  bool load(const std::string& type, const std::string& joint) {
+    nh_.setParam("c/type", type);
+    nh_.setParam("c/joint", joint);
+    return manager_.loadController("c");
+  }
+  /// Loads the controller "c" for several joints.
+  bool load(const std::string& type, const Names& joints) {
+    nh_.setParam("c/type", type);
+    nh_.setParam("c/joints", joints);
+    return manager_.loadController("c");
+  }
+  void setGains(const std::string& where, double p, double i = 0.0, double d = 0.0) {
+    nh_.setParam(where + "/p", p);
+    nh_.setParam(where + "/i", i);
+    nh_.setParam(where + "/d", d);
+  }
+
+  void start() { ASSERT_TRUE(doSwitch({"c"}, {})); }
+  void stop() { ASSERT_TRUE(doSwitch({}, {"c"})); }
+
+  void step() {
+    time_ += period_;
+    manager_.update(time_, period_);
+  }
+
+  bool doSwitch(const Names& start, const Names& stop) {
+    std::future<bool> answer =
+        std::async(std::launch::async, [&] { return manager_.switchController(start, stop, 2); });
+    while (answer.wait_for(std::chrono::milliseconds(0)) != std::future_status::ready) {
+      step();
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    const bool succeeded = answer.get();
+    step();
+    return succeeded;
+  }
+
+  template <class Condition>
+  static bool eventually(Condition condition) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        return false;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+  }
+
+  /// Steps until a condition holds.
+  template <class Condition>
+  bool stepsUntil(Condition condition) {
+    return eventually([&] {
+      step();
+      return condition();
+    });
+  }
+
+  /// A publisher to the controller's topic `command` that is connected.
+  template <class Message>
+  ros::Publisher commander() {
+    const ros::Publisher publisher = nh_.advertise<Message>("c/command", 1);
+    EXPECT_TRUE(eventually([&] { return publisher.getNumSubscribers() > 0; }));
+    return publisher;
+  }
+
+  ros::NodeHandle nh_;
+  Robot robot_;
+  controller_manager::ControllerManager manager_;
+  ros::Time time_{100.0};
+  const ros::Duration period_{0.001};
+};
+
+}  // namespace three_joints

@@ -1,0 +1,23 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <forward_command_controller/forward_joint_group_command_controller.h>
+
+namespace position_controllers {
+
+/// Passes positions from the topic `command` on to several joints; see
+/// ForwardJointGroupCommandController. It starts with the measured position.
+typedef forward_command_controller::ForwardJointGroupCommandController<
+    hardware_interface::PositionJointInterface>
+    JointGroupPositionController;
+
+}  // namespace position_controllers
+
+namespace forward_command_controller {
+
+template <>
+void ForwardJointGroupCommandController<hardware_interface::PositionJointInterface>::starting(
+    const ros::Time& time);
+
+}  // namespace forward_command_controller

@@ -1,0 +1,23 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <forward_command_controller/forward_command_controller.h>
+
+namespace position_controllers {
+
+/// Passes a position from the topic `command` on to one joint; see ForwardCommandController. It
+/// starts with the measured position.
+typedef forward_command_controller::ForwardCommandController<
+    hardware_interface::PositionJointInterface>
+    JointPositionController;
+
+}  // namespace position_controllers
+
+namespace forward_command_controller {
+
+template <>
+void ForwardCommandController<hardware_interface::PositionJointInterface>::starting(
+    const ros::Time& time);
+
+}  // namespace forward_command_controller

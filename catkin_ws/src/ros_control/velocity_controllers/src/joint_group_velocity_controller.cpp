@@ -1,0 +1,17 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "velocity_controllers/joint_group_velocity_controller.h"
+
+#include <pluginlib/class_list_macros.h>
+
+template <>
+void velocity_controllers::JointGroupVelocityController::starting(const ros::Time& /*time*/) {
+  // Written through the buffer's own copy: nothing is allocated, and older commands are dropped.
+  std::vector<double>& commands = *commands_buffer_.readFromRT();
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    commands[i] = 0.0;
+  }
+}
+
+PLUGINLIB_EXPORT_CLASS(velocity_controllers::JointGroupVelocityController,
+                       controller_interface::ControllerBase)
