@@ -1,0 +1,227 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "joint_state_controller/joint_state_controller.h"
+
+#include <controller_manager/controller_manager.h>
+#include <gmock/gmock.h>
+#include <hardware_interface/robot_hw.h>
+#include <ros/console.h>
+#include <ros/ros.h>
+#include <rt_guard/rt_guard.h>
+
+#include <array>
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+namespace {
+
+class Robot : public hardware_interface::RobotHW {
+ public:
+  Robot() {
+    const std::array<std::string, 3> names{"b", "a", "c"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      states_.registerHandle(hardware_interface::JointStateHandle(names[i], &position_[i],
+                                                                  &velocity_[i], &effort_[i]));
+    }
+    registerInterface(&states_);
+  }
+  std::array<double, 3> position_{{1.0, 2.0, 3.0}}, velocity_{{4.0, 5.0, 6.0}},
+      effort_{{7.0, 8.0, 9.0}};
+
+ private:
+  hardware_interface::JointStateInterface states_;
+};
+
+/// Catches what is logged while it lives.
+class LogCatcher : public ros::console::LogAppender {
+ public:
+  LogCatcher() { ros::console::register_appender(this); }
+  ~LogCatcher() override { ros::console::deregister_appender(this); }
+  void log(ros::console::Level /*level*/, const char* text, const char* /*file*/,
+           const char* /*function*/, int /*line*/) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    text_ += std::string(text) + "\n";
+  }
+  std::string text() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return text_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::string text_;
+};
+
+/// A controller "c" in a namespace named after the test; its messages are collected.
+class JointStateControllerTest : public testing::Test {
+ protected:
+  JointStateControllerTest()
+      : nh_(testing::UnitTest::GetInstance()->current_test_info()->name()), manager_(&robot_, nh_) {
+    nh_.setParam("c/type", "joint_state_controller/JointStateController");
+  }
+
+  void load() {
+    ASSERT_TRUE(manager_.loadController("c"));
+    controller_ = manager_.getControllerByName("c");
+    subscriber_ = nh_.subscribe<sensor_msgs::JointState>(
+        "joint_states", 10000, [this](const sensor_msgs::JointStateConstPtr& message) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          messages_.push_back(*message);
+        });
+    ASSERT_TRUE(eventually([&] { return subscriber_.getNumPublishers() > 0; }));
+  }
+
+  template <class Condition>
+  static bool eventually(Condition condition) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        return false;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+  }
+
+  std::vector<sensor_msgs::JointState> messages() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return messages_;
+  }
+
+  /// One cycle. @return whether it published: then the message has arrived. Waits long for what
+  /// must come, and shortly to see that nothing comes.
+  bool publishesAt(double time, bool expected = true) {
+    const std::size_t before = messages().size();
+    controller_->updateRequest(ros::Time(time), ros::Duration(0.001));
+    const int wait_ms = expected ? 10000 : 10;
+    for (int i = 0; i < wait_ms && messages().size() == before; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return messages().size() > before;
+  }
+  bool isSilentAt(double time) { return !publishesAt(time, false); }
+
+  Robot robot_;
+  ros::NodeHandle nh_;
+  controller_manager::ControllerManager manager_;
+  controller_interface::ControllerBase* controller_{nullptr};
+  std::mutex mutex_;
+  std::vector<sensor_msgs::JointState> messages_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace
+
+TEST_F(JointStateControllerTest, publishesAllJointsInTheFirstCycle) {
+  nh_.setParam("c/publish_rate", 100);
+  load();
+  controller_->startRequest(ros::Time(10.0));
+  ASSERT_TRUE(publishesAt(10.001));
+  const sensor_msgs::JointState message = messages().front();
+  EXPECT_EQ(ros::Time(10.001), message.header.stamp);
+  EXPECT_THAT(message.name, ElementsAre("a", "b", "c"));
+  EXPECT_THAT(message.position, ElementsAre(2.0, 1.0, 3.0));
+  EXPECT_THAT(message.velocity, ElementsAre(5.0, 4.0, 6.0));
+  EXPECT_THAT(message.effort, ElementsAre(8.0, 7.0, 9.0));
+}
+
+TEST_F(JointStateControllerTest, publishesTheJointsAskedForInTheirOrderAndTheExtraOnes) {
+  nh_.setParam("c/publish_rate", 50.0);
+  nh_.setParam("c/joints", std::vector<std::string>{"c", "b"});
+  XmlRpc::XmlRpcValue extra;
+  extra[0]["name"] = "finger";
+  extra[0]["position"] = 0.5;
+  extra[0]["effort"] = 2;
+  extra[1]["position"] = 1.0;  // no name
+  extra[2]["name"] = "b";      // is there already
+  extra[3]["name"] = "wrong";
+  extra[3]["velocity"] = "fast";
+  nh_.setParam("c/extra_joints", extra);
+  LogCatcher log;
+  load();
+  EXPECT_THAT(log.text(), HasSubstr("An entry of extra_joints is skipped"));
+  EXPECT_THAT(log.text(), HasSubstr("The extra joint 'b' is skipped"));
+  EXPECT_THAT(log.text(),
+              HasSubstr("The extra joint 'wrong' is skipped: its velocity is no number"));
+  controller_->startRequest(ros::Time(10.0));
+  ASSERT_TRUE(publishesAt(10.001));
+  const sensor_msgs::JointState message = messages().front();
+  EXPECT_THAT(message.name, ElementsAre("c", "b", "finger"));
+  EXPECT_THAT(message.position, ElementsAre(3.0, 1.0, 0.5));
+  EXPECT_THAT(message.velocity, ElementsAre(6.0, 4.0, 0.0));
+  EXPECT_THAT(message.effort, ElementsAre(9.0, 7.0, 2.0));
+}
+
+TEST_F(JointStateControllerTest, keepsTheBeatOfItsRate) {
+  nh_.setParam("c/publish_rate", 250.0);
+  load();
+  controller_->startRequest(ros::Time(10.0));
+  // Every 4 ms after the start; the first as soon as there is a cycle.
+  for (int i = 1; i <= 40; ++i) {
+    const bool is_due = i == 1 || i % 4 == 0;
+    EXPECT_EQ(is_due, publishesAt(10.0 + 0.001 * i, is_due)) << i;
+  }
+}
+
+TEST_F(JointStateControllerTest, catchesUpWithoutABurstAndFollowsTimeBack) {
+  nh_.setParam("c/publish_rate", 100.0);
+  load();
+  controller_->startRequest(ros::Time(10.0));
+  EXPECT_TRUE(publishesAt(10.001));
+  EXPECT_TRUE(publishesAt(15.0));  // five seconds were lost
+  EXPECT_TRUE(isSilentAt(15.001));
+  EXPECT_TRUE(isSilentAt(15.009));
+  EXPECT_TRUE(publishesAt(15.010));
+  EXPECT_TRUE(publishesAt(2.0));  // the simulation began anew
+  EXPECT_TRUE(isSilentAt(2.001));
+}
+
+TEST_F(JointStateControllerTest, publishesNothingAtARateOfZero) {
+  nh_.setParam("c/publish_rate", 0.0);
+  load();
+  controller_->startRequest(ros::Time(10.0));
+  EXPECT_TRUE(isSilentAt(10.001));
+  EXPECT_TRUE(isSilentAt(1000.0));
+}
+
+TEST_F(JointStateControllerTest, saysWhatIsMissing) {
+  LogCatcher log;
+  EXPECT_FALSE(manager_.loadController("c"));
+  EXPECT_THAT(log.text(), HasSubstr("Parameter 'publish_rate' not set"));
+  nh_.setParam("c/publish_rate", 10.0);
+  nh_.setParam("c/joints", 7);
+  EXPECT_FALSE(manager_.loadController("c"));
+  EXPECT_THAT(log.text(), HasSubstr("The parameter 'joints' (namespace: /saysWhatIsMissing/c) is "
+                                    "no list of joint names"));
+  nh_.setParam("c/joints", std::vector<std::string>{"leg"});
+  EXPECT_FALSE(manager_.loadController("c"));
+  EXPECT_THAT(log.text(), HasSubstr("leg"));
+}
+
+TEST_F(JointStateControllerTest, updatesWithoutAllocationOrLock) {
+  nh_.setParam("c/publish_rate", 1000.0);
+  load();
+  rt_guard::Scope scope;
+  controller_->startRequest(ros::Time(10.0));
+  for (int i = 1; i <= 1000; ++i) {
+    controller_->updateRequest(ros::Time(10.0 + 0.001 * i), ros::Duration(0.001));
+  }
+  controller_->stopRequest(ros::Time(12.0));
+  EXPECT_EQ(0u, scope.allocations());
+  EXPECT_EQ(0u, scope.locks());
+}
+
+int main(int argc, char** argv) {
+  testing::InitGoogleMock(&argc, argv);
+  ros::init(argc, argv, "joint_state_controller_test");
+  ros::NodeHandle keeps_ros_alive;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
