@@ -1,0 +1,93 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// RealtimePublisher at 1 kHz on ten topics: nanoseconds of the real-time side a topic, beside an
+// empty virtual call, and what the whole process costs in CPU time. Needs a ROS master.
+#include <benchmark/benchmark.h>
+#include <realtime_tools/realtime_publisher.h>
+#include <ros/ros.h>
+#include <std_msgs/Float64.h>
+
+#include <chrono>
+#include <ctime>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+constexpr int kTopics = 10;
+constexpr int kTicks = 2000;
+constexpr std::chrono::milliseconds kTick(1);
+
+class Callee {
+ public:
+  virtual ~Callee() = default;
+  virtual void call() {}
+};
+
+double seconds(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+void virtualCalls(benchmark::State& state) {
+  std::unique_ptr<Callee> callee = std::make_unique<Callee>();
+  benchmark::DoNotOptimize(callee);
+  for (auto _ : state) {
+    for (int i = 0; i < kTopics; ++i) {
+      callee->call();
+      benchmark::ClobberMemory();
+    }
+  }
+}
+
+/// Two seconds of a 1 kHz loop; the time measured is that of the publishing calls of one tick.
+/// Counters: cpu_percent of all threads of the process, and the share of messages accepted.
+void publishTick(benchmark::State& state) {
+  typedef realtime_tools::RealtimePublisher<std_msgs::Float64> Publisher;
+  ros::NodeHandle node;
+  std::vector<std::unique_ptr<Publisher>> publishers;
+  for (int i = 0; i < kTopics; ++i) {
+    publishers.push_back(std::make_unique<Publisher>(node, "bench_" + std::to_string(i), 1));
+  }
+  int accepted = 0;
+  int asked = 0;
+  const double cpu_begin = seconds(CLOCK_PROCESS_CPUTIME_ID);
+  const double begin = seconds(CLOCK_MONOTONIC);
+  auto tick = std::chrono::steady_clock::now();
+  for (auto _ : state) {
+    tick += kTick;
+    std::this_thread::sleep_until(tick);
+    const double before = seconds(CLOCK_MONOTONIC);
+    for (const auto& publisher : publishers) {
+      ++asked;
+      if (publisher->trylock()) {
+        publisher->msg_.data += 1.0;
+        publisher->unlockAndPublish();
+        ++accepted;
+      }
+    }
+    state.SetIterationTime(seconds(CLOCK_MONOTONIC) - before);
+  }
+  state.counters["cpu_percent"] =
+      100.0 * (seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin) / (seconds(CLOCK_MONOTONIC) - begin);
+  state.counters["accepted_percent"] = 100.0 * accepted / asked;
+}
+
+BENCHMARK(virtualCalls);
+BENCHMARK(publishTick)->Iterations(kTicks)->UseManualTime();
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "realtime_publisher_bench", ros::init_options::AnonymousName);
+  ros::NodeHandle keeps_ros_alive;
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    return 1;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
