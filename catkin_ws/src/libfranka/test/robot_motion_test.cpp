@@ -4,6 +4,7 @@
 // The life of a motion: start, lock-step, finish, abort, stop, and a robot that misbehaves.
 #include <franka/active_control_base.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <thread>
@@ -151,6 +152,10 @@ TEST_P(Motion, AbortsByReflexWithErrorsRateAndLog) {
         "0.96875"))
         << error.what();
     EXPECT_EQ(std::string::npos, std::string(error.what()).find("packets lost"));
+    // What the log tells about each flag follows on lines of its own.
+    const std::string text = error.what();
+    EXPECT_EQ(3, std::count(text.begin(), text.end(), '\n')) << text;
+    EXPECT_NE(std::string::npos, text.find("\ncartesian_reflex")) << text;
     ASSERT_EQ(5u, error.log.size());
     for (std::size_t i = 1; i < 5; i++) {
       EXPECT_EQ(error.log[i - 1].state.time.toMSec() + 1, error.log[i].state.time.toMSec());
