@@ -27,7 +27,9 @@ using MutableMatrix = Eigen::Map<Eigen::Matrix4d>;
 constexpr double kSpeedMargin = 0.005;  // [s]: acceleration times this is kept free
 constexpr double kSpeedShare = 0.985;
 constexpr double kBrakingShare = 0.999;
-constexpr double kDirectionNoise = 1e-4;  // [rad]: of a small acceleration between rounded poses
+// Floats leave a rotation a little skew, which turns the direction of a small acceleration.
+constexpr double kAccelerationNoise = 5e-4;   // [m/s^2], [rad/s^2]
+constexpr double kMostDirectionNoise = 0.01;  // [rad]
 
 Vector3d part(const Derivative& values, std::size_t first) noexcept {
   return {values[first], values[first + 1], values[first + 2]};
@@ -61,7 +63,7 @@ bool isShortened(const CartesianSample& step, const CartesianSample& last, std::
   const Vector3d direction = acceleration / size;
   const double gain = limits.jerk / limits.acceleration;
   const double reach = limits.jerk * kTick;
-  const double noise = kDirectionNoise * limits.velocity;
+  const double noise = std::min(kAccelerationNoise / size, kMostDirectionNoise) * limits.velocity;
   const double least = gain * (roomFor(direction, velocity, highest) - noise) * kBrakingShare;
   const double hardest = gain * (noise - roomFor(-direction, velocity, highest)) / kBrakingShare;
   return (size >= least && distanceToRay(direction, size, before) <= reach) ||
