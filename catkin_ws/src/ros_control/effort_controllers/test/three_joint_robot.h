@@ -81,6 +81,7 @@ class ControllerTest : public testing::Test {
  protected:
   ControllerTest()
       : nh_(testing::UnitTest::GetInstance()->current_test_info()->name()), manager_(&robot_, nh_) {
+    nh_.deleteParam("c");  // where a master outlives a run
     ros::param::set("robot_description", R"(
       <robot name="three_joints">
         <link name="base"/><link name="a"/><link name="b"/><link name="c"/>

@@ -63,6 +63,7 @@ class JointStateControllerTest : public testing::Test {
  protected:
   JointStateControllerTest()
       : nh_(testing::UnitTest::GetInstance()->current_test_info()->name()), manager_(&robot_, nh_) {
+    nh_.deleteParam("c");  // where a master outlives a run
     nh_.setParam("c/type", "joint_state_controller/JointStateController");
   }
 
