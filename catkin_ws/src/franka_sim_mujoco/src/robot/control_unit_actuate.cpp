@@ -18,10 +18,11 @@ using franka_core::RobotMode;
 
 namespace {
 
-constexpr int kReflexTicks = 200;            // decision 16
-constexpr double kStandstill = 0.01;         // [rad/s]
-constexpr int kStillTicks = 20;              // so long below it
-constexpr int kRecoveryTicks = 5000;         // a recovery that takes longer has failed
+constexpr int kReleaseTicks = 200;    // after a reflex the arm yields so long to what it met (ours)
+constexpr int kReflexTicks = 200;     // decision 16
+constexpr double kStandstill = 0.01;  // [rad/s]
+constexpr int kStillTicks = 20;       // so long below it
+constexpr int kRecoveryTicks = 5000;  // a recovery that takes longer has failed
 constexpr double kGuidingNullspace = 200.0;  // [Nm/rad] where the elbow is not free
 
 }  // namespace
@@ -115,6 +116,11 @@ void ControlUnit::finishMotion() noexcept {
 // --- coming to rest ------------------------------------------------------------------------------
 
 void ControlUnit::advanceRest() noexcept {
+  if (rest_ == Rest::kReleasing) {
+    // The wanted pose follows the measured one, damped, until nothing presses (decision 16).
+    holdHere();
+    rest_ = ++rest_ticks_ < kReleaseTicks ? Rest::kReleasing : Rest::kReached;
+  }
   if (rest_ != Rest::kBraking) {
     return;
   }
@@ -134,7 +140,8 @@ void ControlUnit::advanceRest() noexcept {
   }
   rest_ = Rest::kReached;
   if (reflex) {
-    holdHere();
+    rest_ = Rest::kReleasing;
+    rest_ticks_ = 0;
   }
   if (motion_end_at_rest_) {
     motion_end_ = motion_end_at_rest_;

@@ -115,7 +115,7 @@ std::optional<ControlUnit::Status> ControlUnit::startErrorRecovery() noexcept {
 }
 
 bool ControlUnit::settling() const noexcept {
-  return rest_ == Rest::kBraking || modes_.mode() == RobotMode::kAutomaticErrorRecovery;
+  return rest_ != Rest::kReached || modes_.mode() == RobotMode::kAutomaticErrorRecovery;
 }
 
 RequestStatus ControlUnit::startTorqueControl() noexcept {

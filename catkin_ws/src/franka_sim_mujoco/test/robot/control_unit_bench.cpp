@@ -4,6 +4,8 @@
 #include <benchmark/benchmark.h>
 #include <franka_sim_mujoco/robot/control_unit.h>
 
+#include <cmath>
+
 #include "panda_arm.h"
 
 namespace {
@@ -45,6 +47,50 @@ void tick(benchmark::State& state, bool motion) {
 void idleTick(benchmark::State& state) { tick(state, false); }
 void torqueControlTick(benchmark::State& state) { tick(state, true); }
 
+/// A whole tick as over the FCI, with every check; the arm does as it is told.
+void fciTick(benchmark::State& state, franka_core::MotionGeneratorMode generator,
+             franka_core::ControllerMode controller) {
+  ControlUnitParameters p = parameters();
+  franka_sim_mujoco::behaveAsOverFci(p, 5);
+  p.nominal.upper_torque.fill(1e9);
+  p.nominal.upper_force.fill(1e9);
+  p.acceleration = p.nominal;
+  ControlUnit unit(p);
+  ArmMeasurement m;
+  m.q = franka_sim_mujoco::test::kReady;
+  unit.observe(m);
+  franka_core::fci::MoveRequest move;
+  move.motion_generator_mode = generator;
+  move.controller_mode = controller;
+  unit.startMotion(move);
+  franka_core::RobotCommand command;
+  command.O_T_EE_c = unit.state().O_T_EE_c;
+  command.q_c = unit.state().q_d;
+  const double height = command.O_T_EE_c[14];
+  int i = 0;
+  for (auto _ : state) {
+    const double t = 1e-3 * ++i;
+    command.O_T_EE_c[14] = height + 0.01 * (1 - std::cos(t));
+    m.tau_J = unit.state().tau_J;
+    benchmark::DoNotOptimize(unit.observe(m));
+    benchmark::DoNotOptimize(unit.actuate(&command));
+    m.q = unit.state().q_d;
+    m.dq = unit.state().dq_d;
+  }
+  if (unit.state().robot_mode != franka_core::RobotMode::kMove) {
+    state.SkipWithError("the motion has ended before the benchmark");
+  }
+}
+
+void cartesianImpedanceTick(benchmark::State& state) {
+  fciTick(state, franka_core::MotionGeneratorMode::kCartesianPosition,
+          franka_core::ControllerMode::kCartesianImpedance);
+}
+void jointImpedanceTick(benchmark::State& state) {
+  fciTick(state, franka_core::MotionGeneratorMode::kJointPosition,
+          franka_core::ControllerMode::kJointImpedance);
+}
+
 void modelAlone(benchmark::State& state) {
   const ControlUnitParameters p = parameters();
   franka_core::ArmDynamics dynamics;
@@ -59,6 +105,8 @@ void modelAlone(benchmark::State& state) {
 
 BENCHMARK(idleTick);
 BENCHMARK(torqueControlTick);
+BENCHMARK(jointImpedanceTick);
+BENCHMARK(cartesianImpedanceTick);
 BENCHMARK(modelAlone);
 
 }  // namespace

@@ -82,6 +82,63 @@ TEST(Repeatability, ATickOfTheControlUnitNeitherAllocatesNorLocks) {
   EXPECT_EQ(0, dirty);
 }
 
+/// Over the FCI: a Cartesian motion, a collision, its reflex, recovery, and joints again.
+template <typename AfterTick>
+void fciStory(AfterTick&& after_tick) {
+  ControlUnitParameters parameters = pandaWithHand();
+  behaveAsOverFci(parameters, 5);
+  ControlUnit unit(parameters);
+  FakeArm arm(parameters.model, kReady);
+  arm.payload = parameters.end_effector;
+  franka_core::fci::MoveRequest move;
+  franka_core::RobotCommand command;
+  for (int i = 0; i < 4000; i++) {
+    rt_guard::Scope scope;
+    if (i == 10) {
+      move.motion_generator_mode = franka_core::MotionGeneratorMode::kCartesianVelocity;
+      move.controller_mode = franka_core::ControllerMode::kCartesianImpedance;
+      unit.startMotion(move);
+    } else if (i == 1000) {
+      arm.push = {{0, -80, 0, 0, 0, 0}};
+    } else if (i == 1200) {
+      arm.push.fill(0.0);
+    } else if (i == 1500) {
+      unit.startErrorRecovery();
+    } else if (i == 2500) {
+      move.motion_generator_mode = franka_core::MotionGeneratorMode::kJointVelocity;
+      move.controller_mode = franka_core::ControllerMode::kJointImpedance;
+      unit.startMotion(move);
+    }
+    command.O_dP_EE_c[1] = i < 1000 ? 2e-5 * (i - 10) : 0.0;
+    command.dq_c[0] = i > 2500 ? 1e-4 * (i - 2500) : 0.0;
+    const franka_core::RobotState& state = unit.observe(arm.measure());
+    arm.applyTorques(unit.actuate(i % 11 == 0 ? nullptr : &command));
+    arm.setBrakes(unit.brakesClosed());
+    const bool clean = scope.allocations() == 0 && scope.locks() == 0;
+    arm.step();
+    after_tick(state, clean);
+  }
+}
+
+TEST(Repeatability, MotionsReflexAndRecoveryGiveTheSameBitsAndNeitherAllocateNorLock) {
+  std::vector<double> runs[2];
+  int dirty = 0;
+  std::array<int, 7> modes{};
+  for (std::vector<double>& log : runs) {
+    fciStory([&](const franka_core::RobotState& state, bool clean) {
+      append(log, state);
+      dirty += clean ? 0 : 1;
+      modes[static_cast<std::size_t>(state.robot_mode)]++;
+    });
+  }
+  ASSERT_EQ(runs[0].size(), runs[1].size());
+  EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
+  EXPECT_EQ(0, dirty);
+  EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kMove)], 2 * 2000);
+  EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kReflex)], 2 * 200);
+  EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kAutomaticErrorRecovery)], 2);
+}
+
 TEST(Repeatability, RequestsNeitherAllocateNorLock) {
   ControlUnit unit(pandaWithHand());
   ArmMeasurement m;

@@ -46,6 +46,9 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdfOf(id()), id())};
     parameters.end_effector = handPayload();
     parameters.F_T_NE = handFrame();
+    if (over_fci) {
+      behaveAsOverFci(parameters, id() == "fr3" ? 10 : 5);
+    }
     unit = std::make_unique<ControlUnit>(parameters);
     gripper = std::make_unique<GripperUnit>(GripperParameters{});
   }
@@ -90,6 +93,7 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     return sum;
   }
 
+  bool over_fci{false};
   std::unique_ptr<World> world;
   ArmPlant* arm{nullptr};
   HandPlant* hand{nullptr};
@@ -249,6 +253,96 @@ TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
   run(1000);
   EXPECT_FALSE(gripper->isGrasped());
   EXPECT_GT(pose.position[2] - world->bodyPose("stone").position[2], 0.2) << "it has fallen";
+}
+
+TEST_P(UnitInWorldTest, CollisionAtATenthOfAMetreASecondIsAReflexWithinThreeMilliseconds) {
+  // Down onto the ground with the hand's fingers, which is as fixed as a block can be.
+  over_fci = true;
+  start("empty");
+  tick();
+  franka_core::fci::MoveRequest move;
+  move.motion_generator_mode = franka_core::MotionGeneratorMode::kCartesianVelocity;
+  move.controller_mode = franka_core::ControllerMode::kJointImpedance;
+  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+  const double threshold = unit->parameters().nominal.upper_force[2];
+  int crossed = -1;
+  int reflex = -1;
+  double top = 0.0;
+  for (int i = 0; i < 10000 && reflex < 0; i++) {
+    franka_core::RobotCommand command;
+    command.O_dP_EE_c[2] = -0.1 * std::min(1.0, i / 300.0);
+    tick(&command);
+    double force = 0.0;
+    for (const Contact& contact : world->contacts()) {
+      force += std::abs(contact.force[2]);
+    }
+    top = std::max(top, force);
+    if (crossed < 0 && force > threshold) {
+      crossed = i;
+    }
+    if (unit->state().robot_mode != franka_core::RobotMode::kMove) {
+      reflex = i;
+    }
+  }
+  ASSERT_GE(crossed, 0) << "nothing was touched";
+  ASSERT_GE(reflex, 0);
+  std::printf("%s hits the ground at 0.1 m/s: reflex %d ms after the threshold, %.1f N\n",
+              GetParam(), reflex - crossed, top);
+  EXPECT_LE(reflex - crossed, 3);
+  const RobotState& state = unit->state();
+  EXPECT_EQ(franka_core::RobotMode::kReflex, state.robot_mode);
+  EXPECT_TRUE(state.errors[6] || state.errors[7]);
+  EXPECT_EQ(state.errors, state.reflex_reason);
+  EXPECT_EQ(franka_core::fci::Status::kReflexAborted, unit->takeMotionEnd());
+
+  run(300);
+  ASSERT_FALSE(unit->startErrorRecovery());
+  run(500);
+  EXPECT_EQ(franka_core::fci::Status::kSuccess, unit->takeRecoveryEnd());
+  ASSERT_EQ(franka_core::RobotMode::kIdle, state.robot_mode);
+  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+  const double from = state.O_T_EE[14];
+  for (int i = 0; i < 1000; i++) {
+    franka_core::RobotCommand command;
+    command.O_dP_EE_c[2] = 0.1 * std::min(1.0, i / 300.0);
+    tick(&command);
+  }
+  EXPECT_EQ(franka_core::RobotMode::kMove, state.robot_mode) << "the retreat is free";
+  EXPECT_GT(state.O_T_EE[14], from + 0.05);
+}
+
+TEST_P(UnitInWorldTest, InternalControllersHaveTheStiffnessThatWasSet) {
+  for (const bool cartesian : {false, true}) {
+    over_fci = true;
+    start("empty");
+    tick();
+    const std::array<double, 6> K{{500, 500, 500, 30, 30, 30}};
+    ASSERT_EQ(RequestStatus::kSuccess, unit->setCartesianImpedance(K));
+    ASSERT_EQ(RequestStatus::kSuccess,
+              unit->setJointImpedance({{600, 600, 600, 600, 300, 300, 300}}));
+    franka_core::fci::MoveRequest move;
+    move.controller_mode = cartesian ? franka_core::ControllerMode::kCartesianImpedance
+                                     : franka_core::ControllerMode::kJointImpedance;
+    ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+    franka_core::RobotCommand hold;
+    hold.q_c = unit->state().q_d;
+    run(100, &hold);
+    const RobotState before = unit->state();
+    world->push(id() + "_hand", {{0, 4, 0}}, {{0, 0, 0}}, 7000);
+    run(6900, &hold);
+    const RobotState& s = unit->state();
+    if (!cartesian) {
+      for (std::size_t i = 0; i < 7; i++) {
+        const double k = i < 4 ? 600 : 300;
+        EXPECT_NEAR(s.tau_ext_hat_filtered[i], k * (s.q_d[i] - s.q[i]), 0.005 * k * 1e-2);
+      }
+      continue;
+    }
+    // What the spring gives is what pushes (decision 4: the robot's own force counts).
+    const double force = 500 * (before.O_T_EE_d[13] - s.O_T_EE[13]);
+    EXPECT_NEAR(s.O_F_ext_hat_K[1], force, 0.005 * 4) << GetParam();
+    EXPECT_NEAR(-4.0, s.O_F_ext_hat_K[1], 0.02);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, UnitInWorldTest, ::testing::Values("panda", "fr3"));

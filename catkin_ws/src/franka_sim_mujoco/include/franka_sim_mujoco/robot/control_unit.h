@@ -177,7 +177,7 @@ class ControlUnit {
   const MotionLimits& limits() const noexcept { return generator_.limits(); }
 
  private:
-  enum class Rest { kNone, kBraking, kReached };
+  enum class Rest { kBraking, kReleasing, kReached };
 
   franka_core::RobotMode mode() const noexcept { return modes_.mode(); }
   bool generates() const noexcept;
