@@ -27,6 +27,7 @@ using MutableMatrix = Eigen::Map<Eigen::Matrix4d>;
 constexpr double kSpeedMargin = 0.005;  // [s]: acceleration times this is kept free
 constexpr double kSpeedShare = 0.985;
 constexpr double kBrakingShare = 0.999;
+constexpr double kElbowMargin = 1e-3;  // [rad/s]
 // Floats leave a rotation a little skew, which turns the direction of a small acceleration.
 constexpr double kAccelerationNoise = 5e-4;   // [m/s^2], [rad/s^2]
 constexpr double kMostDirectionNoise = 0.01;  // [rad]
@@ -87,6 +88,22 @@ bool jerkFails(const CartesianSample& step, const CartesianSample& last, std::si
   return !(part(step.jerk, first).norm() <= limits.jerk) && !isShortened(step, last, first, limits);
 }
 
+// The same for the elbow: it may brake as hard as the limiter's law asks of one that comes close to
+// the limiter's speed.
+bool elbowBrakes(const ElbowSample& step, const ElbowSample& last,
+                 const franka_core::DerivativeLimits& limiter) noexcept {
+  const double towards = step.dddq3 < 0.0 ? 1.0 : -1.0;
+  const double room = limiter.velocity - kElbowMargin - towards * last.dq3;
+  const double hardest = limiter.jerk / limiter.acceleration * room;
+  return towards * step.ddq3 >= hardest - (1.0 - kBrakingShare) * std::abs(hardest);
+}
+
+bool elbowJerks(const ElbowSample& step, const ElbowSample& last,
+                const MotionLimits& limits) noexcept {
+  return !(std::abs(step.dddq3) <= limits.arm.elbow.jerk) &&
+         !elbowBrakes(step, last, limits.arm.elbow);
+}
+
 void moveElbow(const ElbowSample& last, double q3, ElbowSample& step) noexcept {
   step.q3 = q3;
   step.dq3 = (q3 - last.q3) / kTick;
@@ -137,7 +154,7 @@ MotionFault judge(const CartesianSample& step, const CartesianSample& last,
       jerkFails(step, last, 3, limits.arm.rotation)) {
     return MotionFlag::kCartesianJerk;
   }
-  if (!(std::abs(step.elbow.dddq3) <= elbow.jerk)) {
+  if (elbowJerks(step.elbow, last.elbow, limits)) {
     return MotionFlag::kElbowLimit;
   }
   return {};
