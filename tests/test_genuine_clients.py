@@ -9,6 +9,7 @@ an environment of its own without Debian's packages (decision 33), made once in 
 import json
 import os
 import select
+import socket
 import subprocess
 import time
 from contextlib import contextmanager
@@ -210,6 +211,85 @@ def test_versions_are_told_apart():
             timeout=60,
         )
     assert "server version: 5, library version: 10" in result.stderr
+
+
+def ask(address: str, line: str) -> str:
+    """One command of the simulation's control interface."""
+    with socket.create_connection((address, 1340), timeout=20) as connection:
+        stream = connection.makefile("rw", newline="\n")
+        stream.write(line + "\n")
+        stream.flush()
+        return stream.readline().strip()
+
+
+def test_a_person_presses_the_user_stop():
+    script = """
+import sys
+from panda_py import libfranka
+robot = libfranka.Robot(sys.argv[1])
+first = [True]
+def callback(state, period):
+    if first[0]:
+        first[0] = False
+        print("moving", flush=True)
+    return libfranka.Torques([0.0] * 7)
+try:
+    robot.control(callback, False)
+except Exception as error:
+    print(error, flush=True)
+print(robot.read_once().robot_mode, flush=True)
+try:
+    robot.control(callback, False)
+except Exception as error:
+    print(error, flush=True)
+"""
+    address = "127.0.21.7"
+    with simulated("--robot", "panda", "--ip", address, "--pace", "lockstep"):
+        client = subprocess.Popen(
+            [client_python("panda"), "-c", script, address], stdout=subprocess.PIPE, text=True
+        )
+        try:
+            assert client.stdout.readline().strip() == "moving"
+            assert ask(address, "user_stop on") == "ok"
+            output, _ = client.communicate(timeout=30)
+        finally:
+            client.kill()
+            client.wait()
+    assert "libfranka: Move command aborted: User Stop pressed!" in output
+    assert "kUserStopped" in output
+    assert 'not possible in the current mode ("User stopped")' in output
+
+
+def test_runs_repeat_bit_for_bit():
+    """A lock-step run of the genuine client with contact, again after the world was reset."""
+    script = """
+import sys
+sys.argv.append("")
+from panda_py import libfranka
+robot = libfranka.Robot(sys.argv[1])
+robot.set_collision_behavior([100.0] * 7, [100.0] * 7, [200.0] * 6, [200.0] * 6)
+count = [0]
+def callback(state, period):
+    count[0] += 1
+    tau = libfranka.Torques([0.0, 2.0 if count[0] < 400 else -1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    tau.motion_finished = count[0] >= 1000
+    return tau
+robot.control(callback, True)
+robot.read_once()
+robot.set_load(0.0, [0.0] * 3, [0.0] * 9)
+"""
+    address = "127.0.21.8"
+    hashes = []
+    stone = ["--world", "stone.xml", "--base", "-0.5,0,0"]
+    with simulated("--robot", "panda", "--ip", address, "--pace", "lockstep", *stone):
+        for _ in range(3):
+            assert ask(address, "reset") == "ok"
+            done = subprocess.run(
+                [client_python("panda"), "-c", script, address], capture_output=True, text=True, timeout=60
+            )
+            assert done.returncode == 0, done.stderr
+            hashes.append(ask(address, "hash"))
+    assert len(set(hashes)) == 1, hashes
 
 
 def test_silence_ends_a_motion_and_a_dead_client_makes_room():

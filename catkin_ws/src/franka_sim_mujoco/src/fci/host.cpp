@@ -47,6 +47,8 @@ void Host::add(HostedRobot& robot) {
   fds_.reserve(16 * guests_.size());
 }
 
+void Host::add(Service& service) { services_.push_back(&service); }
+
 void Host::letRun(std::uint64_t ticks) { rolling_ = std::max(rolling_, ticks + kTicksAfterAction); }
 
 void Host::run(const std::atomic<bool>& stop) {
@@ -97,6 +99,9 @@ void Host::serveAll() {
   for (const Guest& guest : guests_) {
     guest.robot->serve(stops_only);
   }
+  for (Service* service : services_) {
+    service->serve();
+  }
 }
 
 bool Host::receiveAll() {
@@ -115,6 +120,9 @@ void Host::pollUntil(Clock::time_point deadline) {
   fds_.clear();
   for (const Guest& guest : guests_) {
     guest.robot->addDescriptors(fds_);
+  }
+  for (const Service* service : services_) {
+    service->addDescriptors(fds_);
   }
   const auto left = std::max(deadline - Clock::now(), Clock::duration::zero());
   const timespec timeout = toTimespec(left);

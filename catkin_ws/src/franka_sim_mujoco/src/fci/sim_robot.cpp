@@ -30,8 +30,10 @@ SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServer
   }
 }
 
+// Within a tick: what was measured before the reset holds no longer.
 void SimRobot::restart() noexcept {
   unit_.restart();
+  unit_.observe(arm_.measure());
   if (hand_) {
     hand_->unit.restart();
   }
@@ -42,7 +44,7 @@ void SimRobot::restart() noexcept {
 void SimRobot::observe() { unit_.observe(arm_.measure()); }
 
 void SimRobot::actuate() {
-  const franka_core::RobotCommand* command = server_.takeCommand();
+  const franka_core::RobotCommand* command = link_.pass(server_.takeCommand());
   hashing_ = hashing_ || command != nullptr;
   if (hashing_) {
     updateHash();

@@ -16,10 +16,14 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include "files.h"
 #include "options.h"
+#include "person.h"
+#include "viewer.h"
 
 namespace franka_sim_mujoco {
 namespace {
@@ -79,6 +83,7 @@ RobotDescription describeRobot(const Options& options, const std::string& urdf,
   robot.name = options.arm_id;
   robot.urdf = urdf;
   robot.resolve = resolveUri;
+  robot.base.position = options.base;
   for (std::size_t i = 0; i < 7; i++) {
     robot.initial_positions[options.arm_id + "_joint" + std::to_string(i + 1)] = kReady[i];
   }
@@ -151,8 +156,27 @@ void serve(const Options& options) {
   }
   fci::SimRobot robot(unit, world.arm(options.arm_id, options.arm_id),
                       serverParameters(options, unit.model), served_hand);
-  fci::Host host([&world] { world.step(); }, options.pace);
+  std::mutex mutex;
+  const bool viewed = options.viewer;
+  fci::Host host(
+      [&world, &mutex, viewed] {
+        // Without a window the world belongs to this thread alone.
+        const auto lock =
+            viewed ? std::unique_lock<std::mutex>(mutex) : std::unique_lock<std::mutex>();
+        world.step();
+      },
+      options.pace);
   host.add(robot);
+  std::optional<fci::LineServer> lines;
+  if (options.control_port != 0) {
+    lines.emplace(options.ip, options.control_port);
+    addPersonCommands(*lines, robot, host, world, stop_requested);
+    host.add(*lines);
+  }
+  std::optional<Viewer> viewer;
+  if (viewed) {
+    viewer.emplace(world, mutex);
+  }
 
   if (!options.pace.lockstep) {
     preferThisThread();

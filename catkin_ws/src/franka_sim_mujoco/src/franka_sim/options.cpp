@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -21,11 +22,14 @@ const char* const kUsage =
     "  --pace PACE         realtime, lockstep, or a factor such as 0.5 (realtime)\n"
     "  --world FILE        the scene, MJCF: a file or the name of one that comes along, such as\n"
     "                      stone.xml (an empty world)\n"
+    "  --base X,Y,Z        where the robot stands in it [m] (0,0,0)\n"
     "  --urdf FILE         another robot description; its chain is found by --arm-id\n"
     "  --arm-id PREFIX     prefix of the joints' names (the robot's name)\n"
     "  --friction SET      none or fr3 (none)\n"
     "  --no-hand           no gripper server\n"
     "  --viewer            open a window\n"
+    "  --control-port N    where lines of text press the user stop, push the arm and so on (1340;\n"
+    "                      0: nowhere); send the line help for all of them\n"
     "  --help              this text\n";
 
 namespace {
@@ -35,6 +39,29 @@ std::uint16_t toProtocol(const std::string& text) {
   const long number = std::strtol(text.c_str(), &end, 10);
   if (text.empty() || *end != '\0' || number < 3 || number > 10) {
     throw std::invalid_argument("--protocol " + text + ": give a number from 3 to 10.");
+  }
+  return static_cast<std::uint16_t>(number);
+}
+
+std::array<double, 3> toPosition(const std::string& text) {
+  std::array<double, 3> position{};
+  const char* next = text.c_str();
+  for (std::size_t i = 0; i < 3; i++) {
+    char* end = nullptr;
+    position[i] = std::strtod(next, &end);
+    if (end == next || *end != (i == 2 ? '\0' : ',') || !std::isfinite(position[i])) {
+      throw std::invalid_argument("--base " + text + ": give three numbers such as -0.5,0,0.");
+    }
+    next = end + 1;
+  }
+  return position;
+}
+
+std::uint16_t toPort(const std::string& text) {
+  char* end = nullptr;
+  const long number = std::strtol(text.c_str(), &end, 10);
+  if (text.empty() || *end != '\0' || number < 0 || number > 65535) {
+    throw std::invalid_argument("--control-port " + text + ": give a number from 0 to 65535.");
   }
   return static_cast<std::uint16_t>(number);
 }
@@ -79,8 +106,10 @@ Options readOptions(int argc, const char* const* argv) {
       {"--protocol", [&](const std::string& value) { options.protocol = toProtocol(value); }},
       {"--pace", [&](const std::string& value) { options.pace = toPace(value); }},
       {"--world", [&](const std::string& value) { options.world = value; }},
+      {"--base", [&](const std::string& value) { options.base = toPosition(value); }},
       {"--urdf", [&](const std::string& value) { options.urdf = value; }},
       {"--arm-id", [&](const std::string& value) { options.arm_id = value; }},
+      {"--control-port", [&](const std::string& value) { options.control_port = toPort(value); }},
       {"--friction", [&](const std::string& value) { options.friction = value; }},
   };
   const std::map<std::string, std::function<void()>> flags{

@@ -4,6 +4,7 @@
 
 #include <franka_sim_mujoco/fci/host.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -19,9 +20,11 @@ struct Options {
   std::string ip{"127.0.0.1"};
   std::uint16_t protocol{0};  ///< 0: every version of the robot's generation
   fci::Pace pace;
+  std::array<double, 3> base{};  ///< where the robot stands in the world [m]
   std::string friction{"none"};
   bool hand{true};
   bool viewer{false};
+  std::uint16_t control_port{1340};  ///< of the control interface; 0: none
 };
 
 extern const char* const kUsage;

@@ -59,6 +59,14 @@ class HostedRobot {
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
 
+/// Something else with sockets that the host's thread attends to.
+class Service {
+ public:
+  virtual ~Service() = default;
+  virtual void serve() = 0;
+  virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
+};
+
 /// Runs a world and its robots tick by tick, in the order of decision 20: each state k goes out,
 /// its answer is awaited, and the physics from k to k + 1 runs with it.
 class Host {
@@ -68,6 +76,7 @@ class Host {
 
   /// Must outlive the host.
   void add(HostedRobot& robot);
+  void add(Service& service);
 
   /// Runs until `stop` is set.
   void run(const std::atomic<bool>& stop);
@@ -102,6 +111,7 @@ class Host {
   std::function<void()> step_;
   Pace pace_;
   std::vector<Guest> guests_;
+  std::vector<Service*> services_;
   std::vector<pollfd> fds_;
   const std::atomic<bool>* stop_{nullptr};
   Clock::duration period_;

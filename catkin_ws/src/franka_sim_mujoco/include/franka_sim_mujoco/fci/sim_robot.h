@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/fci/command_link.h>
 #include <franka_sim_mujoco/fci/gripper_server.h>
 #include <franka_sim_mujoco/fci/host.h>
 #include <franka_sim_mujoco/fci/robot_server.h>
@@ -32,6 +33,7 @@ class SimRobot final : public HostedRobot {
            const std::optional<Hand>& hand);
 
   ControlUnit& unit() noexcept { return unit_; }
+  CommandLink& link() noexcept { return link_; }
   const RobotServer& server() const noexcept { return server_; }
   std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->server.port() : 0; }
 
@@ -68,6 +70,7 @@ class SimRobot final : public HostedRobot {
   ArmPlant& arm_;
   UnitDesk desk_;
   RobotServer server_;
+  CommandLink link_;
   std::unique_ptr<ServedHand> hand_;
   bool hashing_{false};
   std::uint64_t hash_{0};

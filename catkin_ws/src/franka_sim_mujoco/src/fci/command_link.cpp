@@ -1,0 +1,39 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/fci/command_link.h>
+
+#include <algorithm>
+
+namespace franka_sim_mujoco::fci {
+
+void CommandLink::setLoss(double probability, std::uint64_t seed) noexcept {
+  loss_ = probability;
+  engine_.seed(seed);
+}
+
+void CommandLink::setDelay(unsigned ticks) noexcept {
+  delay_ = std::min(ticks, kLongestDelay);
+  slots_ = {};
+}
+
+bool CommandLink::loses() noexcept {
+  if (lose_next_ > 0) {
+    lose_next_--;
+    return true;
+  }
+  constexpr double kSteps = 9007199254740992.0;  // 2^53
+  return loss_ > 0.0 && static_cast<double>(engine_() >> 11U) < loss_ * kSteps;
+}
+
+const franka_core::RobotCommand* CommandLink::pass(
+    const franka_core::RobotCommand* command) noexcept {
+  now_ = (now_ + 1) % slots_.size();
+  slots_[now_].full = command != nullptr && !loses();
+  if (slots_[now_].full) {
+    slots_[now_].command = *command;
+  }
+  const Slot& out = slots_[(now_ + slots_.size() - delay_) % slots_.size()];
+  return out.full ? &out.command : nullptr;
+}
+
+}  // namespace franka_sim_mujoco::fci

@@ -1,0 +1,178 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "person.h"
+
+#include <franka_core/error_names.h>
+#include <franka_core/fci/texts.h>
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+using fci::LineServer;
+using fci::toNumber;
+using fci::toSwitch;
+using Words = LineServer::Words;
+
+constexpr double kLongest = 1e6;       // [ticks] of a push
+constexpr std::uint64_t kFall = 1000;  // [ticks] in lock-step, for what was let go to come to rest
+
+std::uint64_t toTicks(const std::string& word) {
+  const double ticks = toNumber(word);
+  if (!(ticks >= 1.0 && ticks <= kLongest) || ticks != std::floor(ticks)) {
+    throw std::invalid_argument("'" + word + "' is no number of milliseconds from 1 to 1000000.");
+  }
+  return static_cast<std::uint64_t>(ticks);
+}
+
+std::array<double, 3> toVector(const Words& words, std::size_t first) {
+  return {toNumber(words.at(first)), toNumber(words.at(first + 1)), toNumber(words.at(first + 2))};
+}
+
+std::string toText(const std::array<double, 7>& values) {
+  std::string text;
+  for (const double value : values) {
+    char number[32];
+    std::snprintf(number, sizeof(number), " %.9g", value);
+    text += number;
+  }
+  return text;
+}
+
+std::string errorNames(const std::array<bool, franka_core::kErrorCount>& errors) {
+  std::string text;
+  for (std::size_t i = 0; i < errors.size(); i++) {
+    text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
+  }
+  return text.empty() ? " none" : text;
+}
+
+std::string describe(const fci::SimRobot& robot, const franka_core::RobotState& state) {
+  return std::string(franka_core::fci::modeName(state.robot_mode)) + ", client of protocol " +
+         std::to_string(robot.server().version()) + ", errors" + errorNames(state.errors) + ", q" +
+         toText(state.q);
+}
+
+void require(RequestStatus status, const std::string& sentence) {
+  if (status != RequestStatus::kSuccess) {
+    throw std::invalid_argument(sentence);
+  }
+}
+
+void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
+  constexpr std::uint64_t kReaction = 500;  // [ticks] in lock-step, for the arm to react
+  lines.add("user_stop on|off", [&](const Words& words) {
+    robot.unit().setUserStop(toSwitch(words.at(0)));
+    host.letRun(kReaction);
+    return "";
+  });
+  lines.add("guiding on|off", [&](const Words& words) {
+    robot.unit().setGuiding(toSwitch(words.at(0)));
+    host.letRun(kReaction);
+    return "";
+  });
+  lines.add("brakes open|close", [&](const Words& words) {
+    const std::string& what = words.at(0);
+    if (what != "open" && what != "close") {
+      throw std::invalid_argument("'" + what + "' is neither open nor close.");
+    }
+    what == "open" ? robot.unit().openBrakes() : robot.unit().closeBrakes();
+    host.letRun(kReaction);
+    return "";
+  });
+  lines.add("fci on|off", [&](const Words& words) {
+    robot.unit().setFciActive(toSwitch(words.at(0)));
+    return "";
+  });
+}
+
+void addLink(LineServer& lines, fci::SimRobot& robot) {
+  lines.add("loss PROBABILITY [SEED]", [&](const Words& words) {
+    const double probability = toNumber(words.at(0));
+    if (probability < 0.0 || probability > 1.0) {
+      throw std::invalid_argument("The probability of a loss is a number from 0 to 1.");
+    }
+    robot.link().setLoss(probability,
+                         words.size() > 1 ? static_cast<std::uint64_t>(toNumber(words[1])) : 0);
+    return "";
+  });
+  lines.add("lose COMMANDS", [&](const Words& words) {
+    robot.link().loseNext(static_cast<unsigned>(toTicks(words.at(0))));
+    return "";
+  });
+  lines.add("delay TICKS", [&](const Words& words) {
+    const double ticks = toNumber(words.at(0));
+    if (ticks != 0.0 && ticks != 1.0 && ticks != 2.0) {
+      throw std::invalid_argument("Commands are delayed by 0, 1 or 2 ticks.");
+    }
+    robot.link().setDelay(static_cast<unsigned>(ticks));
+    return "";
+  });
+}
+
+void addWorld(LineServer& lines, fci::Host& host, World& world) {
+  lines.add("push BODY FX FY FZ MILLISECONDS", [&](const Words& words) {
+    const std::uint64_t ticks = toTicks(words.at(4));
+    world.push(words.at(0), toVector(words, 1), {}, ticks);
+    host.letRun(ticks);
+    return "";
+  });
+  lines.add("place BODY X Y Z [QW QX QY QZ]", [&](const Words& words) {
+    Pose pose;
+    pose.position = toVector(words, 1);
+    if (words.size() > 4) {
+      pose.orientation = {toNumber(words.at(4)), toNumber(words.at(5)), toNumber(words.at(6)),
+                          toNumber(words.at(7))};
+    }
+    world.setBodyPose(words.at(0), pose);
+    host.letRun(kFall);
+    return "";
+  });
+  lines.add("where BODY", [&](const Words& words) {
+    const Pose pose = world.bodyPose(words.at(0));
+    char text[128];
+    std::snprintf(text, sizeof(text), "%.9g %.9g %.9g", pose.position[0], pose.position[1],
+                  pose.position[2]);
+    return std::string(text);
+  });
+}
+
+}  // namespace
+
+void addPersonCommands(fci::LineServer& lines, fci::SimRobot& robot, fci::Host& host, World& world,
+                       std::atomic<bool>& stop) {
+  addSwitches(lines, robot, host);
+  addLink(lines, robot);
+  addWorld(lines, host, world);
+  lines.add("load MASS X Y Z", [&](const Words& words) {
+    const franka_core::Payload load{toNumber(words.at(0)), toVector(words, 1), {}};
+    require(robot.unit().setLoad(load),
+            "The load was refused: it has a negative mass, or the robot moves.");
+    return "";
+  });
+  lines.add("state", [&](const Words&) { return describe(robot, robot.unit().state()); });
+  lines.add("hash", [&](const Words&) {
+    char text[24];
+    std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(robot.hash()));
+    return std::string(text);
+  });
+  lines.add("reset", [&](const Words&) {
+    if (robot.expectsCommand()) {
+      throw std::invalid_argument("A motion runs; the world is reset between motions only.");
+    }
+    world.reset();
+    robot.restart();
+    host.letRun(1);
+    return "";
+  });
+  lines.add("quit", [&](const Words&) {
+    stop = true;
+    return "";
+  });
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,31 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim_mujoco/physics/world.h>
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+namespace franka_sim_mujoco {
+
+/// A window on the world in a thread of its own. Closing it leaves the simulation running.
+class Viewer {
+ public:
+  /// @param mutex is held by whoever steps the world, and by the viewer while it copies a moment.
+  Viewer(World& world, std::mutex& mutex);
+  ~Viewer();
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+ private:
+  void loop();
+
+  World& world_;
+  std::mutex& mutex_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace franka_sim_mujoco

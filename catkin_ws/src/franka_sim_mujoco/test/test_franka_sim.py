@@ -1,0 +1,180 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""franka_sim as a person meets it: its command line, and the control interface of one line a command."""
+
+import os
+import select
+import socket
+import subprocess
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+WORLD = """<mujoco><worldbody>
+  <light pos="0 0 3"/>
+  <body name="stone" pos="0.6 0.4 0.05"><freejoint/><geom type="box" size="0.03 0.03 0.03" mass="0.1"/></body>
+  <geom type="plane" size="2 2 0.1"/>
+</worldbody></mujoco>"""
+
+
+def program() -> str:
+    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
+        found = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
+        if found.exists():
+            return str(found)
+    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
+
+
+def run(*arguments):
+    return subprocess.run([program(), *arguments], capture_output=True, text=True, timeout=30)
+
+
+@contextmanager
+def simulated(address, *arguments):
+    """A robot, and a function that sends it a line and returns the answer."""
+    process = subprocess.Popen(
+        [program(), "--ip", address, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    try:
+        ready, _, _ = select.select([process.stdout], [], [], 30)
+        line = process.stdout.readline() if ready else ""
+        assert "waits for clients" in line, line
+        with socket.create_connection((address, 1340), timeout=20) as connection:
+            stream = connection.makefile("rw", newline="\n")
+
+            def say(text):
+                stream.write(text + "\n")
+                stream.flush()
+                return stream.readline().rstrip("\n")
+
+            yield say, process
+    finally:
+        process.terminate()
+        try:
+            assert process.wait(10) == 0
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            raise
+
+
+def test_help_names_every_option():
+    result = run("--help")
+    assert result.returncode == 0
+    for option in ("--robot", "--ip", "--protocol", "--pace", "--world", "--viewer", "--control-port"):
+        assert option in result.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments, sentence",
+    [
+        (["--robot", "ur5"], "there are panda and fr3"),
+        (["--robot", "panda", "--protocol", "10"], "a panda speaks 3 to 5"),
+        (["--robot", "fr3", "--protocol", "5"], "a fr3 speaks 6 to 10"),
+        (["--protocol", "x"], "a number from 3 to 10"),
+        (["--pace", "0"], "a factor from"),
+        (["--pace", "nan"], "a factor from"),
+        (["--control-port", "70000"], "0 to 65535"),
+        (["--base", "1,2"], "three numbers"),
+        (["--nonsense"], "no option"),
+        (["--ip"], "needs a value"),
+    ],
+)
+def test_a_wrong_command_line_is_refused_with_a_sentence(arguments, sentence):
+    result = run(*arguments)
+    assert result.returncode == 2
+    assert sentence in result.stderr
+
+
+@pytest.mark.parametrize(
+    "arguments, sentence",
+    [
+        (["--ip", "localhost"], "is not an IPv4 address"),
+        (["--ip", "192.0.2.1"], "does not have that address"),
+        (["--world", "nowhere.xml"], "There is no world 'nowhere.xml'"),
+        (["--urdf", "/nowhere.urdf"], "Cannot read the file '/nowhere.urdf'"),
+        (["--arm-id", "nobody"], "nobody"),
+    ],
+)
+def test_what_cannot_be_is_said(arguments, sentence):
+    result = run(*arguments)
+    assert result.returncode == 1
+    assert sentence in result.stderr
+
+
+def test_two_robots_need_two_addresses():
+    with simulated("127.0.22.1"):
+        result = run("--ip", "127.0.22.1")
+        assert result.returncode == 1
+        assert "Another simulated robot runs there" in result.stderr
+        with simulated("127.0.22.2", "--robot", "fr3") as (say, _):
+            assert say("state").startswith("ok Idle")
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
+def test_switches_of_the_robot(pace):
+    with simulated("127.0.22.3", "--pace", pace) as (say, _):
+        told, joints = say("state").split(", q ")
+        assert told == "ok Idle, client of protocol 0, errors none"
+        ready = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
+        assert [float(word) for word in joints.split()] == pytest.approx(ready, abs=1e-4)
+        assert say("user_stop on") == "ok"
+        assert say("state").startswith("ok User stopped")
+        assert say("user_stop off") == "ok"
+        assert say("state").startswith("ok Idle")
+        assert say("guiding on") == "ok"
+        assert say("state").startswith("ok Guiding")
+        assert say("guiding off") == "ok"
+        assert say("brakes close") == "ok"
+        assert say("state").startswith("ok Other")
+        assert say("brakes open") == "ok"
+        assert say("state").startswith("ok Idle")
+
+
+def test_what_it_does_not_understand_it_says():
+    with simulated("127.0.22.4") as (say, _):
+        assert say("dance").startswith("error: There is no command 'dance'")
+        assert say("user_stop") == "error: Words are missing: user_stop on|off."
+        assert say("user_stop maybe") == "error: 'maybe' is neither on nor off."
+        assert say("push") == "error: Words are missing: push BODY FX FY FZ MILLISECONDS."
+        assert say("push nobody 1 0 0 10").startswith("error: ")
+        assert say("push panda_hand nan 0 0 10") == "error: 'nan' is not a finite number."
+        assert say("loss 2") == "error: The probability of a loss is a number from 0 to 1."
+        assert say("delay 3") == "error: Commands are delayed by 0, 1 or 2 ticks."
+        assert say("load -1 0 0 0").startswith("error: The load was refused")
+        assert "push BODY" in say("help")
+        assert say("load 0.5 0 0 0.1") == "ok"
+
+
+def test_a_push_moves_the_held_arm_and_lets_it_come_back(tmp_path):
+    world = tmp_path / "world.xml"
+    world.write_text(WORLD)
+
+    def joints(say):
+        return [float(word) for word in say("state").split(", q ")[1].split()]
+
+    with simulated("127.0.22.5", "--pace", "lockstep", "--world", str(world)) as (say, _):
+
+        def until(condition):
+            deadline = time.monotonic() + 20
+            while not condition():
+                assert time.monotonic() < deadline
+
+        def displacement():
+            return max(abs(a - b) for a, b in zip(joints(say), before))
+
+        before = joints(say)
+        assert say("place stone 0.5 -0.3 0.2") == "ok"
+        assert say("push panda_hand 0 8 0 300") == "ok"
+        until(lambda: displacement() > 1e-4)
+        until(lambda: displacement() < 1e-4)
+        # It was let go in the air and lies on the ground.
+        until(lambda: float(say("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
+
+
+def test_quit_ends_it():
+    with simulated("127.0.22.6") as (say, process):
+        assert say("quit") == "ok"
+        assert process.wait(10) == 0
