@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <actionlib/server/server_goal_handle.h>
+#include <actionlib/server/action_server.h>
 
 #include <atomic>
 #include <boost/shared_ptr.hpp>

@@ -1,0 +1,517 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The controllers, loaded as plugins by a controller manager, on a robot of the process and its
+// simulated time.
+#include <actionlib/client/action_client.h>
+#include <control_msgs/FollowJointTrajectoryAction.h>
+#include <control_msgs/JointTrajectoryControllerState.h>
+#include <control_msgs/QueryTrajectoryState.h>
+#include <controller_manager/controller_manager.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <rt_guard/rt_guard.h>
+
+#include <atomic>
+#include <boost/make_shared.hpp>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <limits>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "test_robot.h"
+
+namespace {
+
+using closed_loop::kJoints;
+typedef control_msgs::FollowJointTrajectoryResult Result;
+typedef control_msgs::FollowJointTrajectoryGoal Goal;
+typedef actionlib::ActionClient<control_msgs::FollowJointTrajectoryAction> Client;
+typedef actionlib::TerminalState Terminal;
+
+constexpr double kPeriod = 0.001;
+const std::vector<std::string> kNames{"j0", "j1", "j2"};
+
+/// A manager with one controller of each interface; time passes only when a test steps it.
+class ClosedLoop : public testing::Test {
+ protected:
+  ClosedLoop() : nh_("closed_loop"), manager_(&robot_, nh_) {
+    nh_.setParam("robot_description", closed_loop::urdf());
+  }
+
+  ~ClosedLoop() override { nh_.deleteParam(name_); }
+
+  void describe(const std::string& interface) {
+    nh_.setParam(name_ + "/type", interface + "_controllers/JointTrajectoryController");
+    nh_.setParam(name_ + "/joints", kNames);
+    nh_.setParam(name_ + "/action_monitor_rate", 200.0);
+    for (const std::string& joint : kNames) {
+      nh_.setParam(name_ + "/gains/" + joint + "/p", interface == "effort" ? 2500.0 : 50.0);
+      nh_.setParam(name_ + "/gains/" + joint + "/d", interface == "effort" ? 100.0 : 0.0);
+      nh_.setParam(name_ + "/velocity_ff/" + joint, interface == "effort" ? 0.0 : 1.0);
+      nh_.setParam(name_ + "/constraints/" + joint + "/trajectory", 0.05);
+      nh_.setParam(name_ + "/constraints/" + joint + "/goal", 0.001);
+    }
+    nh_.setParam(name_ + "/constraints/goal_time", 0.5);
+  }
+
+  void start(const std::string& interface = "position") {
+    describe(interface);
+    ASSERT_TRUE(manager_.loadController(name_));
+    switchTo({name_}, {});
+    client_ = std::make_unique<Client>(nh_, name_ + "/follow_joint_trajectory");
+    until([&] { return client_->isServerConnected(); }, "the action server");
+  }
+
+  void switchTo(std::vector<std::string> starting, std::vector<std::string> stopping) {
+    auto answer = std::async(std::launch::async,
+                             [&] { return manager_.switchController(starting, stopping, 2); });
+    until([&] { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; },
+          "the switch");
+    ASSERT_TRUE(answer.get());
+  }
+
+  void step() {
+    time_ += ros::Duration(kPeriod);
+    manager_.update(time_, ros::Duration(kPeriod));
+    robot_.move(kPeriod);
+  }
+
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) {
+      step();
+    }
+  }
+
+  /// Steps until something happens, while the callbacks get their share of the processor.
+  template <class Condition>
+  void until(Condition condition, const std::string& what) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!condition()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "in vain: waited for " << what;
+      step();
+      std::this_thread::sleep_for(std::chrono::microseconds(20));
+    }
+  }
+
+  /// Steps not at all until something happens in the callbacks.
+  template <class Condition>
+  void standStillUntil(Condition condition, const std::string& what) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!condition()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "in vain: waited for " << what;
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  }
+
+  /// From the present position to `target` in `duration`, in `count` points on a cosine.
+  Goal goalTo(std::vector<double> target, double duration = 1.0, int count = 100) {
+    Goal goal;
+    goal.trajectory.joint_names = kNames;
+    for (int k = 1; k <= count; ++k) {
+      trajectory_msgs::JointTrajectoryPoint point;
+      const double share = double(k) / count;
+      const double phase = M_PI * share;
+      const double omega = M_PI / duration;
+      point.time_from_start = ros::Duration(duration * share);
+      for (std::size_t i = 0; i < kJoints; ++i) {
+        const double way = target[i] - robot_.position_[i];
+        point.positions.push_back(robot_.position_[i] + way * (1 - std::cos(phase)) / 2);
+        point.velocities.push_back(way * omega * std::sin(phase) / 2);
+        point.accelerations.push_back(way * omega * omega * std::cos(phase) / 2);
+      }
+      goal.trajectory.points.push_back(point);
+    }
+    return goal;
+  }
+
+  Client::GoalHandle send(const Goal& goal) { return client_->sendGoal(goal); }
+
+  void untilActive(Client::GoalHandle& handle) {
+    standStillUntil([&] { return handle.getCommState() == actionlib::CommState::ACTIVE; },
+                    "the goal to be accepted");
+  }
+
+  /// Steps until the goal ended. @returns the result
+  Result end(Client::GoalHandle& handle) {
+    until([&] { return handle.getCommState() == actionlib::CommState::DONE; }, "the goal's end");
+    return handle.getResult() ? *handle.getResult() : Result();
+  }
+
+  Result expectRejected(const Goal& goal, int code) {
+    Client::GoalHandle handle = send(goal);
+    const Result result = end(handle);
+    EXPECT_EQ(code, result.error_code);
+    EXPECT_FALSE(result.error_string.empty());
+    EXPECT_EQ(Terminal::REJECTED, handle.getTerminalState().state_);
+    return result;
+  }
+
+  double distanceTo(const std::vector<double>& target) const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < kJoints; ++i) {
+      largest = std::max(largest, std::abs(target[i] - robot_.position_[i]));
+    }
+    return largest;
+  }
+
+  const std::string name_{"trajectory"};
+  const std::vector<double> target_{0.6, 0.3, -0.4};
+  ros::NodeHandle nh_;
+  closed_loop::TestRobot robot_;
+  controller_manager::ControllerManager manager_;
+  std::unique_ptr<Client> client_;
+  ros::Time time_{100.0};
+};
+
+class EveryInterface : public ClosedLoop, public testing::WithParamInterface<const char*> {};
+
+TEST_P(EveryInterface, ReachesAGoalOfHundredPoints) {
+  start(GetParam());
+  Client::GoalHandle handle = send(goalTo(target_));
+  untilActive(handle);
+  const Result result = end(handle);
+  EXPECT_EQ(Result::SUCCESSFUL, result.error_code) << result.error_string;
+  EXPECT_EQ(Terminal::SUCCEEDED, handle.getTerminalState().state_);
+  EXPECT_LT(distanceTo(target_), 0.001);
+}
+
+TEST_P(EveryInterface, NeitherAllocatesNorLocks) {
+  start(GetParam());
+  Client::GoalHandle handle = send(goalTo(target_, 1.0));
+  untilActive(handle);
+  rt_guard::Scope scope;
+  steps(900);
+  robot_.frozen_ = true;  // a violated tolerance belongs to it
+  steps(1500);
+  EXPECT_EQ(0u, scope.allocations());
+  EXPECT_EQ(0u, scope.locks());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryInterface,
+                         testing::Values("position", "velocity", "effort", "pos_vel",
+                                         "pos_vel_acc"));
+
+TEST_F(ClosedLoop, HoldsAfterAPathToleranceIsViolated) {
+  start();
+  Client::GoalHandle handle = send(goalTo(target_));
+  untilActive(handle);
+  steps(100);
+  robot_.frozen_ = true;
+  const Result result = end(handle);
+  EXPECT_EQ(Result::PATH_TOLERANCE_VIOLATED, result.error_code);
+  EXPECT_EQ(Terminal::ABORTED, handle.getTerminalState().state_);
+  // The joint with the longest way is the first to lag too far behind.
+  EXPECT_EQ(0u, result.error_string.find("j2 path error -0.05")) << result.error_string;
+
+  const closed_loop::TestRobot::Values stopped = robot_.position_;
+  robot_.frozen_ = false;
+  steps(2000);
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    EXPECT_DOUBLE_EQ(stopped[i], robot_.position_[i]);
+  }
+
+  robot_.largest_step_ = 0.0;
+  Client::GoalHandle again = send(goalTo(target_));
+  EXPECT_EQ(Result::SUCCESSFUL, end(again).error_code);
+  // The cosine's top speed is 0.7 * pi / 2 per second.
+  EXPECT_LT(robot_.largest_step_, 1.05 * 0.7 * M_PI / 2 * kPeriod);
+}
+
+TEST_F(ClosedLoop, WaitsForTheGoalToleranceAndThenFails) {
+  start();
+  Goal goal = goalTo(target_);
+  goal.path_tolerance.resize(3);
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    goal.path_tolerance[i].name = kNames[i];
+    goal.path_tolerance[i].position = -1.0;
+  }
+  Client::GoalHandle handle = send(goal);
+  untilActive(handle);
+  steps(500);
+  robot_.frozen_ = true;
+  const ros::Time before = time_;
+  const Result result = end(handle);
+  EXPECT_EQ(Result::GOAL_TOLERANCE_VIOLATED, result.error_code);
+  EXPECT_NE(std::string::npos, result.error_string.find(" goal error "));
+  EXPECT_GE((time_ - before).toSec(), 0.999);
+}
+
+TEST_F(ClosedLoop, FailsAtOnceWhenTheGoalGrantsNoTime) {
+  nh_.setParam(name_ + "/constraints/goal_time", 0.0);
+  start();
+  Goal goal = goalTo(target_);
+  goal.goal_time_tolerance = ros::Duration(5.0);
+  Client::GoalHandle handle = send(goal);
+  untilActive(handle);
+  EXPECT_EQ(Result::SUCCESSFUL, end(handle).error_code);
+}
+
+TEST_F(ClosedLoop, AnotherGoalPreempts) {
+  start();
+  Client::GoalHandle first = send(goalTo(target_));
+  untilActive(first);
+  steps(300);
+  const Goal back = goalTo({0.0, 0.0, 0.0});
+  Client::GoalHandle second = send(back);
+  const Result ended = end(first);
+  EXPECT_EQ(Terminal::PREEMPTED, first.getTerminalState().state_);
+  EXPECT_FALSE(ended.error_string.empty());
+  EXPECT_EQ(Result::SUCCESSFUL, end(second).error_code);
+  EXPECT_LT(distanceTo({0.0, 0.0, 0.0}), 0.001);
+}
+
+TEST_F(ClosedLoop, ATopicCommandPreempts) {
+  start();
+  Client::GoalHandle handle = send(goalTo(target_));
+  untilActive(handle);
+  steps(200);
+  ros::Publisher publisher =
+      nh_.advertise<trajectory_msgs::JointTrajectory>(name_ + "/command", 1, true);
+  publisher.publish(goalTo({0.0, 0.1, 0.2}).trajectory);
+  end(handle);
+  EXPECT_EQ(Terminal::PREEMPTED, handle.getTerminalState().state_);
+  until([&] { return distanceTo({0.0, 0.1, 0.2}) < 1e-6; }, "the end of the topic's trajectory");
+}
+
+TEST_F(ClosedLoop, CancelHolds) {
+  start();
+  Client::GoalHandle handle = send(goalTo(target_));
+  untilActive(handle);
+  steps(300);
+  handle.cancel();
+  const Result result = end(handle);
+  EXPECT_EQ(Terminal::PREEMPTED, handle.getTerminalState().state_);
+  EXPECT_FALSE(result.error_string.empty());
+  steps(1);
+  const closed_loop::TestRobot::Values stopped = robot_.position_;
+  EXPECT_GT(distanceTo(target_), 0.01);
+  steps(1000);
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    EXPECT_DOUBLE_EQ(stopped[i], robot_.position_[i]);
+  }
+}
+
+TEST_F(ClosedLoop, CancelBrakesWithinTheStopDuration) {
+  nh_.setParam(name_ + "/stop_trajectory_duration", 0.2);
+  start();
+  Client::GoalHandle handle = send(goalTo(target_));
+  untilActive(handle);
+  steps(500);
+  const double speed = std::abs(robot_.velocity_[2]);  // of the fastest joint
+  robot_.largest_step_ = 0.0;
+  handle.cancel();
+  end(handle);
+  steps(300);
+  EXPECT_NEAR(0.0, robot_.velocity_[2], 1e-9);
+  EXPECT_LT(robot_.largest_step_, 1.05 * speed * kPeriod);
+}
+
+TEST_F(ClosedLoop, MalformedGoalsAreRejectedAndMoveNothing) {
+  start();
+  const closed_loop::TestRobot::Values before = robot_.position_;
+  const Goal good = goalTo(target_);
+  expectRejected(Goal(), Result::INVALID_JOINTS);
+
+  Goal goal = good;
+  goal.trajectory.joint_names = {"j0", "j1"};
+  EXPECT_NE(
+      std::string::npos,
+      expectRejected(goal, Result::INVALID_JOINTS).error_string.find("allow_partial_joints_goal"));
+  goal.trajectory.joint_names = {"j0", "j1", "j9"};
+  expectRejected(goal, Result::INVALID_JOINTS);
+  goal.trajectory.joint_names = {"j0", "j1", "j1"};
+  expectRejected(goal, Result::INVALID_JOINTS);
+  goal.trajectory.joint_names = {"j0", "j1", "j2", "j3"};
+  expectRejected(goal, Result::INVALID_JOINTS);
+
+  goal = good;
+  std::swap(goal.trajectory.points[3], goal.trajectory.points[4]);
+  expectRejected(goal, Result::INVALID_GOAL);
+  goal = good;
+  goal.trajectory.points[7].positions.clear();
+  expectRejected(goal, Result::INVALID_GOAL);
+  goal = good;
+  goal.trajectory.points[7].velocities.pop_back();
+  expectRejected(goal, Result::INVALID_GOAL);
+  goal = good;
+  for (trajectory_msgs::JointTrajectoryPoint& point : goal.trajectory.points) {
+    point.positions.pop_back();
+    point.velocities.pop_back();
+    point.accelerations.pop_back();
+  }
+  expectRejected(goal, Result::INVALID_GOAL);
+  goal = good;
+  goal.trajectory.points[7].positions[1] = std::numeric_limits<double>::infinity();
+  expectRejected(goal, Result::INVALID_GOAL);
+  goal = good;
+  goal.trajectory.header.stamp = ros::Time(1.0);
+  expectRejected(goal, Result::INVALID_GOAL);
+  goal.trajectory.header.stamp = ros::Time(4000000000.0);
+  expectRejected(goal, Result::INVALID_GOAL);
+
+  EXPECT_EQ(before, robot_.position_);
+}
+
+TEST_F(ClosedLoop, AGoalWithoutPointsIsToHold) {
+  start();
+  Goal goal;
+  goal.trajectory.joint_names = kNames;
+  Client::GoalHandle handle = send(goal);
+  EXPECT_EQ(Result::SUCCESSFUL, end(handle).error_code);
+  EXPECT_EQ(Terminal::SUCCEEDED, handle.getTerminalState().state_);
+}
+
+TEST_F(ClosedLoop, StoppingCancelsAndRefuses) {
+  start();
+  Client::GoalHandle handle = send(goalTo(target_));
+  untilActive(handle);
+  steps(100);
+  switchTo({}, {name_});
+  const Result result = end(handle);
+  EXPECT_EQ(Terminal::PREEMPTED, handle.getTerminalState().state_);
+  EXPECT_NE(std::string::npos, result.error_string.find("stopped"));
+  EXPECT_EQ("Can't accept new commands. Controller is not running.",
+            expectRejected(goalTo(target_), Result::INVALID_GOAL).error_string);
+}
+
+// A goal given as soon as the switch is answered must not drown in the hold of the start.
+TEST_F(ClosedLoop, AGoalRightAfterASwitchIsFollowed) {
+  start();
+  for (int run = 0; run < 20; ++run) {
+    switchTo({}, {name_});
+    switchTo({name_}, {});
+    const std::vector<double> target{0.01 * run, 0.0, 0.1};
+    Client::GoalHandle handle = send(goalTo(target, 0.1, 5));
+    ASSERT_EQ(Result::SUCCESSFUL, end(handle).error_code) << run;
+    ASSERT_LT(distanceTo(target), 0.001) << run;
+  }
+}
+
+// Goals come faster than they are finished, while the loop runs: each ends, none is lost, and no
+// joint jumps.
+TEST_F(ClosedLoop, ManyGoalsInARow) {
+  start();
+  std::vector<Client::GoalHandle> handles;
+  robot_.largest_step_ = 0.0;
+  for (int run = 0; run < 60; ++run) {
+    handles.push_back(send(goalTo({0.1 + 0.001 * run, -0.2, 0.3}, 0.3, 3)));
+    const int count = (run * 37) % 60;
+    for (int i = 0; i < count; ++i) {
+      step();
+      std::this_thread::sleep_for(std::chrono::microseconds(20));
+    }
+    if (run % 7 == 0) {
+      handles.back().cancel();
+    }
+  }
+  for (Client::GoalHandle& handle : handles) {
+    end(handle);
+  }
+  EXPECT_EQ(Terminal::SUCCEEDED, handles.back().getTerminalState().state_);
+  EXPECT_LT(robot_.largest_step_, 0.005);
+}
+
+TEST_F(ClosedLoop, PartialGoalsMoveTheirJoints) {
+  nh_.setParam(name_ + "/allow_partial_joints_goal", true);
+  start();
+  Goal goal;
+  goal.trajectory.joint_names = {"j1"};
+  goal.trajectory.points.resize(1);
+  goal.trajectory.points[0].positions = {0.4};
+  goal.trajectory.points[0].velocities = {0.0};
+  goal.trajectory.points[0].time_from_start = ros::Duration(0.8);
+  Client::GoalHandle handle = send(goal);
+  EXPECT_EQ(Result::SUCCESSFUL, end(handle).error_code);
+  EXPECT_LT(distanceTo({0.1, 0.4, 0.3}), 1e-6);
+}
+
+TEST_F(ClosedLoop, OnlyContinuousJointsWrapAround) {
+  start();
+  // One turn further on: the continuous joint is there already, the others have to travel.
+  const std::vector<double> target{robot_.position_[0] + 2 * M_PI, robot_.position_[1] + 2 * M_PI,
+                                   robot_.position_[2] + 2 * M_PI};
+  const double before = robot_.position_[2];
+  Goal goal = goalTo(target, 4.0, 1);
+  Client::GoalHandle handle = send(goal);
+  EXPECT_EQ(Result::SUCCESSFUL, end(handle).error_code);
+  EXPECT_NEAR(target[0], robot_.position_[0], 0.001);
+  EXPECT_NEAR(target[1], robot_.position_[1], 0.001);
+  EXPECT_NEAR(before, robot_.position_[2], 0.001);
+}
+
+TEST_F(ClosedLoop, TellsItsState) {
+  std::atomic<int> states{0};
+  control_msgs::JointTrajectoryControllerState last;
+  const auto count = [&](const control_msgs::JointTrajectoryControllerState::ConstPtr& state) {
+    last = *state;
+    ++states;
+  };
+  ros::Subscriber subscriber = nh_.subscribe<control_msgs::JointTrajectoryControllerState>(
+      name_ + "/state", 100,
+      boost::function<void(const control_msgs::JointTrajectoryControllerState::ConstPtr&)>(count));
+  start();
+  until([&] { return states > 3; }, "states");
+  subscriber.shutdown();
+  EXPECT_EQ(kNames, last.joint_names);
+  EXPECT_NEAR(0.1, last.actual.positions.at(0), 1e-12);
+  EXPECT_NEAR(0.1, last.desired.positions.at(0), 1e-12);
+  EXPECT_EQ(kJoints, last.error.velocities.size());
+
+  ros::ServiceClient query =
+      nh_.serviceClient<control_msgs::QueryTrajectoryState>(name_ + "/query_state");
+  Client::GoalHandle handle = send(goalTo(target_));
+  untilActive(handle);
+  const ros::Time begin = time_ + ros::Duration(kPeriod);
+  steps(300);
+  control_msgs::QueryTrajectoryState state;
+  state.request.time = begin + ros::Duration(0.5);
+  ASSERT_TRUE(query.call(state));
+  EXPECT_EQ(kNames, state.response.name);
+  // Half way on a cosine.
+  EXPECT_NEAR(0.35, state.response.position.at(0), 0.002);
+  EXPECT_NEAR(0.5 * M_PI / 2, state.response.velocity.at(0), 0.005);
+  state.request.time = ros::Time(1.0);
+  EXPECT_FALSE(query.call(state));
+}
+
+TEST_F(ClosedLoop, RefusesParametersThatDoNotFit) {
+  const auto refused = [&](const std::string& parameter, const XmlRpc::XmlRpcValue& value,
+                           const std::string& interface = "position") {
+    describe(interface);
+    nh_.setParam(name_ + "/" + parameter, value);
+    const bool loaded = manager_.loadController(name_);
+    nh_.deleteParam(name_);
+    return !loaded;
+  };
+  XmlRpc::XmlRpcValue twice;
+  twice[0] = "j0";
+  twice[1] = "j0";
+  XmlRpc::XmlRpcValue unknown;
+  unknown[0] = "j9";
+  XmlRpc::XmlRpcValue number;
+  number[0] = 3;
+  EXPECT_TRUE(refused("joints", XmlRpc::XmlRpcValue("j0")));
+  EXPECT_TRUE(refused("joints", number));
+  EXPECT_TRUE(refused("joints", twice));
+  EXPECT_TRUE(refused("joints", unknown));
+  EXPECT_TRUE(refused("state_publish_rate", XmlRpc::XmlRpcValue(-1.0)));
+  EXPECT_TRUE(refused("action_monitor_rate", XmlRpc::XmlRpcValue(0.0)));
+  EXPECT_TRUE(refused("stop_trajectory_duration", XmlRpc::XmlRpcValue(-0.1)));
+  EXPECT_TRUE(refused("gains", XmlRpc::XmlRpcValue(1.0), "effort"));
+  EXPECT_FALSE(refused("state_publish_rate", XmlRpc::XmlRpcValue(0.0)));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "closed_loop_test");
+  ros::NodeHandle keep_alive;
+  ros::AsyncSpinner spinner(3);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
