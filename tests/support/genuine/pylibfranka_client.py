@@ -25,6 +25,12 @@ def attempt(act):
         return f"{type(error).__name__}: {error}"
 
 
+def fresh(robot):
+    """A state of now: while a call waited, older ones have filled the socket's buffer."""
+    robot.read_once()
+    return robot.read_once()
+
+
 def drive(control, seconds, command):
     """Runs one motion. @returns cycles and the robot's seconds."""
     passed, cycles, first = 0.0, 0, None
@@ -106,9 +112,9 @@ def session(address):
             state, _ = control.readOnce()
 
     seen["leap"] = attempt(leap)
-    seen["mode after leap"] = robot.read_once().robot_mode.name
+    seen["mode after leap"] = fresh(robot).robot_mode.name
     seen["recovery"] = attempt(robot.automatic_error_recovery)
-    seen["mode after recovery"] = robot.read_once().robot_mode.name
+    seen["mode after recovery"] = fresh(robot).robot_mode.name
     seen["again"] = attempt(lambda: drive(robot.start_joint_position_control(IMPEDANCE), 1.0, joints(-0.1)))
     seen["second client"] = attempt(lambda: franka.Robot(address, franka.RealtimeConfig.kIgnore))
     gripper = franka.Gripper(address)
