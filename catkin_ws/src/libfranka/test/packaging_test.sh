@@ -4,7 +4,7 @@
 #
 # find_package(Franka) works the same under catkin_make, catkin build and plain CMake, from the devel and
 # from the install space. Each case builds libfranka and a small consumer in a temporary folder and runs
-# the consumer. Usage: packaging_test.sh [catkin_make|catkin_build|plain]...   (default: all)
+# the consumer. Usage: packaging_test.sh [catkin_make|catkin_build|plain|vendor]...   (default: all)
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -103,6 +103,23 @@ case_plain() {
   if nm -DC --defined-only "$core" | grep -E ' (franka::|(vtable|typeinfo)( name)? for franka::)'; then
     fail "libfranka_core.so defines symbols of namespace franka"
   fi
+}
+
+# Another libfranka in the place of ours: only the core is built of ours, and both work together.
+case_vendor() {
+  local vendor=$work/vendor
+  step "vendor stub" cmake -S "$here/vendor_stub" -B "$work/vendor_build" "${options[@]}" \
+    -DCMAKE_INSTALL_PREFIX="$vendor" -DFRANKA_HEADERS="$library/include"
+  step "vendor stub" cmake --build "$work/vendor_build" --target install
+  step "core beside the vendor's" cmake -S "$library" -B "$work/core" "${options[@]}" \
+    -DCMAKE_INSTALL_PREFIX="$work/core_prefix" -DFranka_DIR="$vendor/lib/cmake/Franka"
+  step "core beside the vendor's" cmake --build "$work/core" -j2 --target install
+  [ -z "$(find "$work/core_prefix" -name 'libfranka.so*')" ] || fail "our libfranka did not step aside"
+  step "user of both" cmake -S "$here/vendor_stub/user" -B "$work/vendor_user" "${options[@]}" \
+    -DFranka_DIR="$vendor/lib/cmake/Franka" -DCMAKE_PREFIX_PATH="$work/core_prefix"
+  step "user of both" cmake --build "$work/vendor_user"
+  step "user of both" "$work/vendor_user/vendor_user"
+  echo "packaging_test: another libfranka in the place of ours works"
 }
 
 for name in "${@:-catkin_make catkin_build plain}"; do

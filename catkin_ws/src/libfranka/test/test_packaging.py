@@ -10,7 +10,7 @@ import pytest
 SCRIPT = pathlib.Path(__file__).with_name("packaging_test.sh")
 
 
-@pytest.mark.parametrize("build", ["catkin_make", "catkin_build", "plain"])
+@pytest.mark.parametrize("build", ["catkin_make", "catkin_build", "plain", "vendor"])
 def test_consumer_finds_franka(build):
     result = subprocess.run([str(SCRIPT), build], capture_output=True, text=True, timeout=600)
     assert result.returncode == 0, result.stdout + result.stderr

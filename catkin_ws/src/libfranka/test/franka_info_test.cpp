@@ -1,0 +1,97 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command line tool franka_info, run as it is, and the numbers behind its verdict.
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+
+#include "../tools/connection_statistics.h"
+#include "robot_fixture.h"
+
+namespace franka_test {
+namespace {
+
+struct Output {
+  int status;
+  std::string text;
+};
+
+Output info(const std::string& arguments) {
+  const std::string command = std::string(LIBFRANKA_INFO) + " " + arguments + " 2>&1";
+  FILE* const pipe = popen(command.c_str(), "r");
+  Output output{-1, ""};
+  std::array<char, 256> line;
+  while (pipe != nullptr && std::fgets(line.data(), line.size(), pipe) != nullptr) {
+    output.text += line.data();
+  }
+  const int status = pclose(pipe);
+  output.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return output;
+}
+
+void expectIn(const std::string& text, const std::string& part) {
+  EXPECT_NE(std::string::npos, text.find(part)) << text << "\nlacks: " << part;
+}
+
+TEST(FrankaInfo, TellsWhatARobotIs) {
+  FakeRobot panda(5);
+  const Output output = info(panda.address() + " 0.2");
+  expectIn(output.text, "Panda, control interface version 5 (system 4.2.1 or later");
+  expectIn(output.text, "Mode            Idle");
+  expectIn(output.text, "Round trip      ");
+  expectIn(output.text, "Hand            none");
+  expectIn(output.text, "Verdict         ");
+  FakeRobot fr3(10);
+  expectIn(info(fr3.address() + " 0.2").text, "FR3, control interface version 10");
+}
+
+TEST(FrankaInfo, SaysWhatIsInTheWay) {
+  FakeRobot robot(5);
+  const auto expectObstacle = [&](franka_core::RobotMode mode, const std::string& text) {
+    robot.change([mode](franka_core::RobotState& state) { state.robot_mode = mode; });
+    const Output output = info(robot.address() + " 0.1");
+    EXPECT_EQ(1, output.status);
+    expectIn(output.text, "not ready: " + text);
+  };
+  expectObstacle(franka_core::RobotMode::kUserStopped, "the user stop is pressed");
+  expectObstacle(franka_core::RobotMode::kReflex, "it stopped by reflex");
+  expectObstacle(franka_core::RobotMode::kOther, "its brakes are closed");
+  expectObstacle(franka_core::RobotMode::kGuiding, "it is being guided by hand");
+}
+
+TEST(FrankaInfo, RefusesWhatMakesNoSense) {
+  for (const char* const arguments : {"", "--quick", "a b c", "localhost soon", "localhost -1",
+                                      "localhost nan", "localhost 99999"}) {
+    const Output output = info(arguments);
+    EXPECT_EQ(3, output.status) << arguments;
+    expectIn(output.text, "usage: franka_info ADDRESS [SECONDS]");
+  }
+  const Output nobody = info("127.0.0.1:1");
+  EXPECT_EQ(2, nobody.status);
+  expectIn(nobody.text, "Connection to FCI refused");
+}
+
+TEST(ConnectionStatistics, CountsWhatIsLostAndHowLateTheRestIs) {
+  franka_info::ConnectionStatistics statistics;
+  const auto begin = franka_info::ConnectionStatistics::Clock::now();
+  // 1 to 100 ms, without 11 to 15 and 40; each tenth is 3 ms late.
+  for (int i = 1; i <= 100; i++) {
+    if ((i > 10 && i <= 15) || i == 40) {
+      continue;
+    }
+    const int late = i % 10 == 0 ? 3 : 0;
+    statistics.add(franka::Duration(static_cast<std::uint64_t>(i)),
+                   begin + std::chrono::milliseconds(i + late));
+  }
+  EXPECT_EQ(94u, statistics.received());
+  EXPECT_EQ(6u, statistics.lost());
+  EXPECT_EQ(5u, statistics.mostLostInARow());
+  EXPECT_DOUBLE_EQ(0.94, statistics.rate());
+  EXPECT_NEAR(0.0, statistics.lateness(0.5), 1e-6);
+  EXPECT_NEAR(3.0, statistics.lateness(0.99), 1e-6);
+}
+
+}  // namespace
+}  // namespace franka_test

@@ -1,0 +1,225 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Says what a robot is, how it does, and whether the connection is good enough to control it.
+#include <franka/control_tools.h>
+#include <franka/exception.h>
+#include <franka/gripper.h>
+#include <franka/robot.h>
+#include <franka_core/robot_versions.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "connection_statistics.h"
+
+namespace {
+
+using franka_info::ConnectionStatistics;
+
+constexpr const char* kUsage =
+    "usage: franka_info ADDRESS [SECONDS]\n"
+    "\n"
+    "Connects to the robot at ADDRESS (name or IP, maybe with a port, HOST:PORT), listens for\n"
+    "SECONDS (2) and tells what it is, how it does, and whether it is ready to be controlled. The\n"
+    "robot is not moved. The status is 0 when it is ready, 1 when it is not, 2 when it cannot be\n"
+    "reached, 3 for arguments that make no sense.";
+
+enum Status { kReady = 0, kNotReady = 1, kUnreachable = 2, kBadArguments = 3 };
+
+// Below this share of states the robot would soon abort a motion (20 lost in a row).
+constexpr double kGoodRate = 0.99;
+// Later states leave no time for a callback within the millisecond [ms].
+constexpr double kGoodLateness = 0.5;
+constexpr double kTooManyDegrees = 70.0;
+
+const char* modeName(franka::RobotMode mode) {
+  switch (mode) {
+    case franka::RobotMode::kIdle:
+      return "Idle";
+    case franka::RobotMode::kMove:
+      return "Move";
+    case franka::RobotMode::kGuiding:
+      return "Guiding";
+    case franka::RobotMode::kReflex:
+      return "Reflex";
+    case franka::RobotMode::kUserStopped:
+      return "User stopped";
+    case franka::RobotMode::kAutomaticErrorRecovery:
+      return "Automatic error recovery";
+    case franka::RobotMode::kOther:
+      break;
+  }
+  return "Other";
+}
+
+/// What has to be done before this robot can be controlled; empty: nothing.
+std::string obstacle(const franka::RobotState& state) {
+  switch (state.robot_mode) {
+    case franka::RobotMode::kIdle:
+      return "";
+    case franka::RobotMode::kMove:
+      return "it is moving: another program controls it, or a motion has not ended";
+    case franka::RobotMode::kGuiding:
+      return "it is being guided by hand: let go of the buttons";
+    case franka::RobotMode::kReflex:
+      return "it stopped by reflex: call automaticErrorRecovery (error_recovery in ROS)";
+    case franka::RobotMode::kUserStopped:
+      return "the user stop is pressed: release the external activation device";
+    case franka::RobotMode::kAutomaticErrorRecovery:
+      return "it is recovering from an error: wait a moment";
+    case franka::RobotMode::kOther:
+      break;
+  }
+  return "its brakes are closed or another task runs: open the brakes in Desk";
+}
+
+void printVersions(const franka::Robot& robot) {
+  const auto* const version = franka_core::findRobotVersion(robot.serverVersion());
+  std::printf("Robot           %s, control interface version %u",
+              version ? version->robot : "unknown", robot.serverVersion());
+  if (version != nullptr) {
+    std::printf(" (system %s; the vendor's libfranka %s)", version->system, version->libraries);
+  }
+  std::printf("\n");
+}
+
+void printState(const franka::RobotState& state) {
+  std::printf("Mode            %s\n", modeName(state.robot_mode));
+  std::printf("Errors          %s\n", static_cast<std::string>(state.current_errors).c_str());
+  std::printf("Last motion     %s\n", static_cast<std::string>(state.last_motion_errors).c_str());
+  std::printf("Joints [rad]   ");
+  for (double q : state.q) {
+    std::printf(" %.4f", q);
+  }
+  std::printf("\nEnd effector    %.3f kg, load %.3f kg\n", state.m_ee, state.m_load);
+  std::printf("External force ");
+  for (std::size_t i = 0; i < 3; i++) {
+    std::printf(" %.2f", state.O_F_ext_hat_K[i]);
+  }
+  std::printf(" N\n");
+}
+
+void printGripper(const std::string& address) {
+  // A port belongs to the robot; the hand has one of its own.
+  const std::string host = address.substr(0, address.find(':'));
+  try {
+    const franka::Gripper gripper(host);
+    const franka::GripperState state = gripper.readOnce();
+    std::printf("Hand            version %u, open %.1f of %.1f mm, %s, %u degrees Celsius%s\n",
+                gripper.serverVersion(), 1e3 * state.width, 1e3 * state.max_width,
+                state.is_grasped ? "holding an object" : "holding nothing", state.temperature,
+                state.temperature > kTooManyDegrees ? " (hot)" : "");
+  } catch (const franka::Exception& error) {
+    std::printf("Hand            none (%s)\n", error.what());
+  }
+}
+
+ConnectionStatistics listen(franka::Robot& robot, double seconds, franka::RobotState& last) {
+  ConnectionStatistics statistics;
+  const auto end = ConnectionStatistics::Clock::now() + std::chrono::duration<double>(seconds);
+  robot.read([&](const franka::RobotState& state) {
+    const auto now = ConnectionStatistics::Clock::now();
+    statistics.add(state.time, now);
+    last = state;
+    return now < end;
+  });
+  return statistics;
+}
+
+/// The time of a request and its answer [ms]: of the command channel, over TCP.
+double roundTrip(franka::Robot& robot, const franka::RobotState& state) {
+  const auto begin = ConnectionStatistics::Clock::now();
+  // Asks for what is set already.
+  robot.setK(state.EE_T_K);
+  return std::chrono::duration<double, std::milli>(ConnectionStatistics::Clock::now() - begin)
+      .count();
+}
+
+void printStatistics(const ConnectionStatistics& statistics) {
+  std::printf("States          %llu received, %llu lost (%.2f %%), at most %llu in a row\n",
+              static_cast<unsigned long long>(statistics.received()),
+              static_cast<unsigned long long>(statistics.lost()), 100.0 * (1.0 - statistics.rate()),
+              static_cast<unsigned long long>(statistics.mostLostInARow()));
+  std::printf("Lateness [ms]   median %.3f, 99 %% %.3f, worst %.3f\n", statistics.lateness(0.5),
+              statistics.lateness(0.99), statistics.lateness(1.0));
+}
+
+int verdict(const franka::RobotState& state, const ConnectionStatistics& statistics) {
+  std::vector<std::string> problems;
+  if (!obstacle(state).empty()) {
+    problems.push_back(obstacle(state));
+  }
+  if (statistics.rate() < kGoodRate) {
+    problems.emplace_back(
+        "states are lost: connect the robot's control by cable, without a switch");
+  }
+  if (statistics.lateness(0.99) > kGoodLateness) {
+    problems.emplace_back(
+        "states come late: raise this program's priority, switch power saving off");
+  }
+  if (!franka::hasRealtimeKernel()) {
+    std::printf(
+        "Note            this kernel is not a real-time one; use RealtimeConfig::kIgnore, and "
+        "expect "
+        "lost commands under load\n");
+  }
+  if (problems.empty()) {
+    std::printf("Verdict         ready to be controlled\n");
+    return kReady;
+  }
+  for (const std::string& problem : problems) {
+    std::printf("Verdict         not ready: %s\n", problem.c_str());
+  }
+  return kNotReady;
+}
+
+int inform(const std::string& address, double seconds) {
+  franka::Robot robot(address, franka::RealtimeConfig::kIgnore);
+  printVersions(robot);
+  franka::RobotState state;
+  const ConnectionStatistics statistics = listen(robot, seconds, state);
+  printState(state);
+  printGripper(address);
+  if (state.robot_mode == franka::RobotMode::kIdle) {
+    try {
+      std::printf("Round trip      %.3f ms (a command and its answer)\n", roundTrip(robot, state));
+    } catch (const franka::CommandException& error) {
+      std::printf("Round trip      not measured (%s)\n", error.what());
+    }
+  }
+  printStatistics(statistics);
+  return verdict(state, statistics);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h")) {
+    std::puts(kUsage);
+    return kReady;
+  }
+  double seconds = 2.0;
+  char* end = nullptr;
+  if (arguments.size() == 2) {
+    seconds = std::strtod(arguments[1].c_str(), &end);
+  }
+  if (arguments.empty() || arguments.size() > 2 || arguments[0].empty() || arguments[0][0] == '-' ||
+      (end != nullptr && *end != '\0') || !(seconds > 0.0) || !(seconds <= 3600.0)) {
+    std::cerr << "franka_info: one address is needed, and maybe a time above 0 and up to 3600 s.\n"
+              << kUsage << std::endl;
+    return kBadArguments;
+  }
+  try {
+    return inform(arguments[0], seconds);
+  } catch (const franka::Exception& error) {
+    std::cerr << "franka_info: " << arguments[0] << " cannot be used. " << error.what()
+              << std::endl;
+    return kUnreachable;
+  }
+}
