@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <thread>
 #include <utility>
 
 namespace franka_sim_mujoco::fci {
@@ -20,6 +21,13 @@ constexpr std::uint64_t kTicksAfterAction = 100;
 
 /// A host that was held up for longer does not make up for it (our choice).
 constexpr std::chrono::milliseconds kForgivenDelay{50};
+
+/// Sockets are looked after so often even where commands come so fast that nobody polls.
+constexpr std::chrono::milliseconds kServeAtLeast{1};
+
+/// In lock-step, for so long an answer is waited for without going to sleep, where another
+/// processor can work on it meanwhile (our choice).
+constexpr std::chrono::microseconds kSwiftAnswer{100};
 
 /// While it makes up for a delay, clients still get so long for each answer (our choice).
 constexpr std::chrono::microseconds kLeastTimeToAnswer{400};
@@ -37,7 +45,8 @@ Host::Host(std::function<void()> step, const Pace& pace)
       pace_(pace),
       period_(
           std::chrono::nanoseconds(std::llround(1e6 / (pace.factor > 0.0 ? pace.factor : 1.0)))),
-      deadline_(Clock::now()) {
+      deadline_(Clock::now()),
+      spin_(std::thread::hardware_concurrency() > 1) {
   // Wake-ups are otherwise gathered within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
@@ -88,7 +97,17 @@ void Host::publishAll(bool same_moment) {
   published_at_ = Clock::now();
 }
 
+// System calls cost more than a control unit's tick: sockets are asked only when they have
+// something to say.
+void Host::serveIfDue() {
+  if (requests_ready_ || requests_left_ || Clock::now() - served_at_ >= kServeAtLeast) {
+    serveAll();
+  }
+}
+
 void Host::serveAll() {
+  requests_ready_ = false;
+  served_at_ = Clock::now();
   bool hand_busy = false;
   for (const Guest& guest : guests_) {
     hand_busy = hand_busy || guest.robot->handBusy();
@@ -96,6 +115,7 @@ void Host::serveAll() {
   // While the world comes to rest by itself, a request must not meet it at a tick that depends on
   // how fast the client was.
   const bool stops_only = pace_.lockstep && rolling_ > 0 && !hand_busy && !clientsAreDue();
+  requests_left_ = stops_only;
   for (const Guest& guest : guests_) {
     guest.robot->serve(stops_only);
   }
@@ -119,6 +139,10 @@ bool Host::receiveAll() {
 void Host::pollUntil(Clock::time_point deadline) {
   fds_.clear();
   for (const Guest& guest : guests_) {
+    guest.robot->addCommandDescriptor(fds_);
+  }
+  const std::size_t commands = fds_.size();
+  for (const Guest& guest : guests_) {
     guest.robot->addDescriptors(fds_);
   }
   for (const Service* service : services_) {
@@ -126,7 +150,11 @@ void Host::pollUntil(Clock::time_point deadline) {
   }
   const auto left = std::max(deadline - Clock::now(), Clock::duration::zero());
   const timespec timeout = toTimespec(left);
-  ppoll(fds_.data(), fds_.size(), &timeout, nullptr);
+  if (ppoll(fds_.data(), fds_.size(), &timeout, nullptr) > 0) {
+    for (std::size_t i = commands; i < fds_.size(); i++) {
+      requests_ready_ = requests_ready_ || fds_[i].revents != 0;
+    }
+  }
 }
 
 void Host::waitInRealTime() {
@@ -142,7 +170,7 @@ void Host::waitInRealTime() {
   do {
     pollUntil(end);
     receiveAll();
-    serveAll();
+    serveIfDue();
   } while (Clock::now() < end);
 }
 
@@ -178,33 +206,26 @@ void Host::giveUpOnTheSilent() {
 void Host::waitInLockStep() {
   const bool news = std::any_of(guests_.begin(), guests_.end(),
                                 [](const Guest& guest) { return guest.robot->hasNews(); });
-  if (clientsAreDue() || news || Clock::now() - published_at_ >= kTick) {
+  const bool due = clientsAreDue();
+  if (due || news || Clock::now() - published_at_ >= kTick) {
     publishAll();
   }
   const Clock::time_point begin = Clock::now();
+  // Whoever answers takes a while; where nobody does, one look at the sockets is enough.
+  if (due) {
+    awaitSwiftAnswers(begin);
+  }
+  if (!due || !receiveAll()) {
+    pollUntil(due ? begin + std::min<Clock::duration>(kTick, pace_.silence) : begin);
+  }
   while (!stopped()) {
-    serveAll();
+    serveIfDue();
     const bool all = receiveAll();
-    const bool given_up = std::any_of(guests_.begin(), guests_.end(),
-                                      [](const Guest& guest) { return guest.given_up; });
     if (clientsAreDue()) {
-      const Clock::time_point now = Clock::now();
-      if (all || (given_up && !startsAreDue() && now - begin >= kTick)) {
+      if (!waitForClients(begin, all)) {
         rolling_ = kTicksAfterAction;
         return;
       }
-      if (now - begin >= pace_.silence) {
-        giveUpOnTheSilent();
-        continue;
-      }
-      // Before its first command a client needs fresh states; afterwards it has all it needs.
-      const bool starting = startsAreDue();
-      if (starting && now - published_at_ >= kTick) {
-        publishAll(true);
-      }
-      pollUntil(starting
-                    ? published_at_ + kTick
-                    : begin + (given_up ? Clock::duration(kTick) : Clock::duration(pace_.silence)));
       continue;
     }
     if (timeMustGoOn()) {
@@ -216,6 +237,37 @@ void Host::waitInLockStep() {
     }
     pollUntil(published_at_ + kTick);
   }
+}
+
+// Going to sleep and waking up takes longer than many a client needs to answer.
+void Host::awaitSwiftAnswers(Clock::time_point begin) {
+  while (spin_ && !receiveAll() && Clock::now() - begin < kSwiftAnswer) {
+  }
+}
+
+// @returns whether there is still something to wait for.
+bool Host::waitForClients(Clock::time_point begin, bool all_answered) {
+  const Clock::time_point now = Clock::now();
+  const bool starting = startsAreDue();
+  const bool given_up = std::any_of(guests_.begin(), guests_.end(),
+                                    [](const Guest& guest) { return guest.given_up; });
+  if (all_answered || (given_up && !starting && now - begin >= kTick)) {
+    return false;
+  }
+  if (now - begin >= pace_.silence) {
+    giveUpOnTheSilent();
+    return true;
+  }
+  if (!starting) {
+    pollUntil(begin + (given_up ? Clock::duration(kTick) : Clock::duration(pace_.silence)));
+    return true;
+  }
+  // Before its first command a client needs fresh states; afterwards it has all it needs.
+  if (now - published_at_ >= kTick) {
+    publishAll(true);
+  }
+  pollUntil(published_at_ + kTick);
+  return true;
 }
 
 }  // namespace franka_sim_mujoco::fci

@@ -258,10 +258,10 @@ bool RobotServer::receiveCommand() noexcept {
     return false;
   }
   codec::CommandBuffer buffer;
-  for (;;) {
+  while (!answered_) {
     const std::ptrdiff_t size = datagrams_.receive(buffer.data(), buffer.size());
     if (size < 0) {
-      return answered_;
+      return false;
     }
     if (static_cast<std::size_t>(size) > buffer.size()) {
       continue;
@@ -276,6 +276,7 @@ bool RobotServer::receiveCommand() noexcept {
       answered_ = true;
     }
   }
+  return true;
 }
 
 const franka_core::RobotCommand* RobotServer::takeCommand() noexcept {
@@ -294,8 +295,9 @@ bool RobotServer::expectsCommands() const noexcept {
   return version_ != 0 && move_ && desk_.state().robot_mode == RobotMode::kMove;
 }
 
-void RobotServer::addDescriptors(std::vector<pollfd>& fds) const {
-  slot_.addDescriptors(fds);
+void RobotServer::addDescriptors(std::vector<pollfd>& fds) const { slot_.addDescriptors(fds); }
+
+void RobotServer::addCommandDescriptor(std::vector<pollfd>& fds) const {
   if (version_ != 0) {
     fds.push_back({datagrams_.descriptor(), POLLIN, 0});
   }

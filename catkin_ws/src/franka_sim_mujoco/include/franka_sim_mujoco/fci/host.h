@@ -55,7 +55,8 @@ class HostedRobot {
   /// The hand is at work.
   virtual bool handBusy() const = 0;
 
-  /// Adds the sockets to poll.
+  /// Adds the socket on which commands come, if there is a client, and all others.
+  virtual void addCommandDescriptor(std::vector<pollfd>& fds) const = 0;
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
 
@@ -98,10 +99,13 @@ class Host {
 
   void publishAll(bool same_moment = false);
   void serveAll();
+  void serveIfDue();
   bool receiveAll();
   void pollUntil(Clock::time_point deadline);
   void waitInRealTime();
   void waitInLockStep();
+  void awaitSwiftAnswers(Clock::time_point begin);
+  bool waitForClients(Clock::time_point begin, bool all_answered);
   bool clientsAreDue() const;
   bool startsAreDue() const;
   bool timeMustGoOn();
@@ -113,9 +117,13 @@ class Host {
   std::vector<Guest> guests_;
   std::vector<Service*> services_;
   std::vector<pollfd> fds_;
+  bool requests_ready_{true};
+  bool requests_left_{false};  // read, but kept for later
+  Clock::time_point served_at_{};
   const std::atomic<bool>* stop_{nullptr};
   Clock::duration period_;
   Clock::time_point deadline_;
+  bool spin_;
   Clock::time_point published_at_{};
   std::uint64_t unpublished_ticks_{1};
   std::uint64_t rolling_{0};

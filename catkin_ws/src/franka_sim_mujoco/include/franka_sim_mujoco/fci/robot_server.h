@@ -70,7 +70,9 @@ class RobotServer {
   /// The motion has had its first command.
   bool motionHasBegun() const noexcept { return begun_; }
 
+  /// The TCP sockets to poll, and the UDP socket where there is a client.
   void addDescriptors(std::vector<pollfd>& fds) const;
+  void addCommandDescriptor(std::vector<pollfd>& fds) const;
 
  private:
   struct Pending {

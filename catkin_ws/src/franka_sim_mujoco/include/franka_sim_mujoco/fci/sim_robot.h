@@ -54,6 +54,9 @@ class SimRobot final : public HostedRobot {
   bool settling() const override;
   bool handBusy() const override;
   void addDescriptors(std::vector<pollfd>& fds) const override;
+  void addCommandDescriptor(std::vector<pollfd>& fds) const override {
+    server_.addCommandDescriptor(fds);
+  }
 
  private:
   struct ServedHand {
