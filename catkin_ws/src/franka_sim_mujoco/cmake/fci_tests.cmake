@@ -4,6 +4,7 @@
 # The robots' network face; after tests.cmake, which brings sim_test.
 sim_test(fci_test
   SOURCES
+    test/fci/command_link_test.cpp
     test/fci/host_test.cpp
     test/fci/robot_server_test.cpp
     test/fci/served_models_test.cpp
