@@ -48,27 +48,27 @@ TEST(TurnLock, RealTimeSideWaitsForItsTurnOthersOnlyForTheLock) {
   turn.lock();
   turn.unlock();
   EXPECT_FALSE(turn.tryLock());
-  EXPECT_TRUE(turn.waitForTurn());
+  EXPECT_TRUE(turn.tryTakeTurn());
+  EXPECT_FALSE(turn.tryTakeTurn());
   EXPECT_FALSE(turn.tryLock());
   turn.unlockAndReturn();
   EXPECT_TRUE(turn.tryLock());
 }
 
-TEST(TurnLock, StopEndsTheWaitOfASleepingThread) {
+TEST(TurnLock, NobodyTakesTheTurnAfterTheStop) {
   TurnLock turn;
   turn.open();
-  std::atomic<bool> ended{false};
-  std::thread publisher([&] {
-    EXPECT_FALSE(turn.waitForTurn());
-    ended = true;
-  });
-  EXPECT_FALSE(ended);
+  EXPECT_FALSE(turn.tryTakeTurn());
+  ASSERT_TRUE(turn.tryLock());
+  turn.unlockAndHandOver();
   turn.stop();
-  publisher.join();
-  EXPECT_TRUE(ended);
+  EXPECT_FALSE(turn.tryTakeTurn());
+  EXPECT_FALSE(turn.tryLock());
+  turn.open();
+  EXPECT_TRUE(turn.tryLock());
 }
 
-TEST(TurnLock, UnlockWakesAThreadThatWaitsForTheLock) {
+TEST(TurnLock, UnlockLetsAThreadInThatWaitsForTheLock) {
   TurnLock turn;
   turn.open();
   turn.lock();
@@ -98,7 +98,11 @@ TEST(TurnLock, HandsEveryTurnOverOnceUnderContention) {
   std::atomic<bool> done{false};
 
   std::thread publisher([&] {
-    while (turn.waitForTurn()) {
+    while (taken < kTurns) {
+      if (!turn.tryTakeTurn()) {
+        std::this_thread::yield();
+        continue;
+      }
       collisions += inside++ != 0 ? 1 : 0;
       ++taken;
       wrong += message != taken ? 1 : 0;
@@ -125,16 +129,9 @@ TEST(TurnLock, HandsEveryTurnOverOnceUnderContention) {
       std::this_thread::yield();
     }
   }
-  EXPECT_TRUE(eventually([&] {
-    turn.lock();
-    const bool all = taken == kTurns;
-    turn.unlock();
-    return all;
-  }));
+  publisher.join();
   done = true;
   bystander.join();
-  turn.stop();
-  publisher.join();
   EXPECT_EQ(0, collisions);
   EXPECT_EQ(0, wrong);
   EXPECT_EQ(kTurns, taken);

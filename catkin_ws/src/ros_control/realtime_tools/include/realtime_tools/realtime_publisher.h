@@ -5,29 +5,31 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
-#include <thread>
 
+#include "realtime_tools/detail/publishing_thread.h"
 #include "realtime_tools/detail/turn_lock.h"
 
 namespace realtime_tools {
 
-/// Publishes messages of a real-time thread through a thread of its own.
+/// Publishes messages of a real-time thread through another thread, which all publishers of the
+/// process share.
 ///
 /// The real-time thread fills `msg_` between trylock() and unlockAndPublish(). Until the
-/// publishing thread has copied the message, trylock() returns false and the caller skips this
-/// cycle: messages are dropped, never queued. The publishing thread sleeps while there is nothing
-/// to send; it does not poll.
+/// publishing thread has copied the message, less than a millisecond later in a stream of messages,
+/// trylock() returns false and the caller skips this cycle: messages are dropped, never queued. The
+/// first message after a silence waits as long as the silence at most, and never above 5 ms.
 ///
 /// Threads: one real-time thread; any thread may lock() and unlock(). init(), stop() and the
 /// destructor belong to one non-real-time thread.
-/// Real-time safe: trylock(), unlock(), unlockAndPublish(): no mutex, no allocation, no waiting.
-/// When the publishing thread sleeps they make one non-blocking system call to wake it.
+/// Real-time safe: trylock(), unlock(), unlockAndPublish(): no mutex, no allocation, no waiting, no
+/// system call.
 ///
 /// @tparam Msg a ROS message type.
 template <class Msg>
-class RealtimePublisher {
+class RealtimePublisher : private detail::PublishingThread::Sender {
  public:
   /// The message. Access it only while holding the lock.
   Msg msg_;
@@ -44,14 +46,14 @@ class RealtimePublisher {
   RealtimePublisher(const RealtimePublisher&) = delete;
   RealtimePublisher& operator=(const RealtimePublisher&) = delete;
 
-  /// Ends the publishing thread and withdraws the topic. A message not yet taken is dropped.
+  /// Withdraws the topic. A message not yet taken is dropped.
   ~RealtimePublisher() {
     stop();
-    join();
+    detail::PublishingThread::instance().remove(this);
     publisher_.shutdown();
   }
 
-  /// Advertises and starts the publishing thread; afterwards trylock() succeeds at once. When
+  /// Advertises and has messages published from now on; afterwards trylock() succeeds at once. When
   /// called again it ends what it had started before.
   ///
   /// @param node where the topic lives.
@@ -62,14 +64,14 @@ class RealtimePublisher {
   void init(const ros::NodeHandle& node, const std::string& topic, int queue_size,
             bool latched = false) {
     stop();
-    join();
+    detail::PublishingThread::instance().remove(this);
     ros::NodeHandle handle(node);
     publisher_ = handle.advertise<Msg>(topic, static_cast<uint32_t>(queue_size), latched);
     turn_.open();
-    thread_ = std::thread(&RealtimePublisher::publishingLoop, this);
+    detail::PublishingThread::instance().add(this);
   }
 
-  /// Asks the publishing thread to end, without waiting for it. Later messages are not sent.
+  /// Later messages are not sent. Does not wait for one on its way.
   void stop() { turn_.stop(); }
 
   /// Takes the lock if it is free and the previous message has been taken by the publishing
@@ -86,25 +88,19 @@ class RealtimePublisher {
   void unlock() noexcept { turn_.unlock(); }
 
  private:
-  void publishingLoop() {
-    // Lives as long as the thread, so that copying reuses its memory.
-    Msg outgoing;
-    while (turn_.waitForTurn()) {
-      outgoing = msg_;
-      turn_.unlockAndReturn();
-      publisher_.publish(outgoing);
+  bool sendHandedOver() override {
+    if (!turn_.tryTakeTurn()) {
+      return false;
     }
-  }
-
-  void join() {
-    if (thread_.joinable()) {
-      thread_.join();
-    }
+    outgoing_ = msg_;
+    turn_.unlockAndReturn();
+    publisher_.publish(outgoing_);
+    return true;
   }
 
   ros::Publisher publisher_;
   detail::TurnLock turn_;
-  std::thread thread_;
+  Msg outgoing_;  ///< of the publishing thread; kept, so that copying reuses its memory
 };
 
 template <class Msg>

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <linux/futex.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <atomic>
-#include <climits>
+#include <chrono>
 #include <cstdint>
+#include <thread>
 
 namespace realtime_tools {
 namespace detail {
@@ -16,13 +13,11 @@ namespace detail {
 /// A lock around one message that also knows whose turn it is: the real-time side's, which fills
 /// the message, or the publishing thread's, which sends it.
 ///
-/// All of it is one atomic word, so that the real-time side needs no mutex. Whoever has to wait
-/// sleeps on that word in the kernel (futex) and says so with `kWaiters`; whoever changes the word
-/// wakes it only then. Nobody polls.
+/// All of it is one atomic word, so that the real-time side needs no mutex and never enters the
+/// kernel: it wakes nobody, the other sides look again after a while.
 ///
-/// Real-time safe: tryLock, unlock, unlockAndHandOver. They never wait; the last two enter the
-/// kernel for one FUTEX_WAKE (bounded, non-blocking) when a thread sleeps on the lock.
-/// Not real-time safe: lock, waitForTurn. Thread-safe: all.
+/// Real-time safe: tryLock, tryTakeTurn, unlock, unlockAndHandOver, unlockAndReturn, stop. Not
+/// real-time safe: lock. Thread-safe: all.
 class TurnLock {
  public:
   /// Starts closed: tryLock() fails until open().
@@ -34,28 +29,15 @@ class TurnLock {
   void open() noexcept { word_.store(0, std::memory_order_release); }
 
   /// Takes the lock if it is free and it is the real-time side's turn. Never waits.
-  bool tryLock() noexcept {
-    std::uint32_t seen = word_.load(std::memory_order_relaxed);
-    // A failed exchange means that another thread made progress; there are only two others.
-    while ((seen & (kLocked | kHandedOver | kClosed)) == 0) {
-      if (word_.compare_exchange_weak(seen, seen | kLocked, std::memory_order_acquire,
-                                      std::memory_order_relaxed)) {
-        return true;
-      }
-    }
-    return false;
-  }
+  bool tryLock() noexcept { return take(kLocked | kHandedOver | kClosed, 0); }
+
+  /// For the publishing thread: takes the lock if it is free, its turn, and not stopped.
+  bool tryTakeTurn() noexcept { return take(kLocked | kHandedOver | kStopped, kHandedOver); }
 
   /// Takes the lock whosever turn it is; waits while another thread holds it.
   void lock() noexcept {
-    std::uint32_t seen = word_.load(std::memory_order_relaxed);
-    while (true) {
-      if ((seen & kLocked) != 0) {
-        seen = sleep(seen);
-      } else if (word_.compare_exchange_weak(seen, seen | kLocked, std::memory_order_acquire,
-                                             std::memory_order_relaxed)) {
-        return;
-      }
+    while (!take(kLocked, 0)) {
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
   }
 
@@ -65,27 +47,10 @@ class TurnLock {
   /// Gives the lock back and the turn to the publishing thread.
   void unlockAndHandOver() noexcept { change(kLocked, kHandedOver); }
 
-  /// For the publishing thread: waits for its turn and takes the lock.
-  /// @return false, without the lock, once stop() was called.
-  bool waitForTurn() noexcept {
-    std::uint32_t seen = word_.load(std::memory_order_relaxed);
-    while (true) {
-      if ((seen & kStopped) != 0) {
-        return false;
-      }
-      if ((seen & (kHandedOver | kLocked)) != kHandedOver) {
-        seen = sleep(seen);
-      } else if (word_.compare_exchange_weak(seen, seen | kLocked, std::memory_order_acquire,
-                                             std::memory_order_relaxed)) {
-        return true;
-      }
-    }
-  }
-
   /// For the publishing thread: gives back the lock and the turn.
   void unlockAndReturn() noexcept { change(kLocked | kHandedOver, 0); }
 
-  /// Ends waitForTurn() for good, until the next open().
+  /// Ends tryTakeTurn() for good, until the next open().
   void stop() noexcept { change(0, kStopped); }
 
  private:
@@ -93,38 +58,29 @@ class TurnLock {
   static constexpr std::uint32_t kHandedOver = 2;
   static constexpr std::uint32_t kStopped = 4;
   static constexpr std::uint32_t kClosed = 8;
-  static constexpr std::uint32_t kWaiters = 16;
 
-  /// Clears and sets bits in one step and wakes all who wait for a change.
+  /// Takes the lock if the bits of `mask` are as in `wanted`.
+  bool take(std::uint32_t mask, std::uint32_t wanted) noexcept {
+    std::uint32_t seen = word_.load(std::memory_order_relaxed);
+    // A failed exchange means that another thread made progress; there are only two others.
+    while ((seen & mask) == wanted) {
+      if (word_.compare_exchange_weak(seen, seen | kLocked, std::memory_order_acquire,
+                                      std::memory_order_relaxed)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Clears and sets bits in one step.
   void change(std::uint32_t clear, std::uint32_t set) noexcept {
     std::uint32_t seen = word_.load(std::memory_order_relaxed);
-    while (!word_.compare_exchange_weak(seen, (seen & ~(clear | kWaiters)) | set,
-                                        std::memory_order_release, std::memory_order_relaxed)) {
+    while (!word_.compare_exchange_weak(seen, (seen & ~clear) | set, std::memory_order_release,
+                                        std::memory_order_relaxed)) {
     }
-    if ((seen & kWaiters) != 0) {
-      futex(FUTEX_WAKE_PRIVATE, INT_MAX);
-    }
-  }
-
-  /// Sleeps until the word differs from `seen`. @return the word afterwards.
-  std::uint32_t sleep(std::uint32_t seen) noexcept {
-    const std::uint32_t announced = seen | kWaiters;
-    if (seen == announced ||
-        word_.compare_exchange_strong(seen, announced, std::memory_order_relaxed)) {
-      futex(FUTEX_WAIT_PRIVATE, announced);
-    }
-    return word_.load(std::memory_order_relaxed);
-  }
-
-  void futex(int operation, std::uint32_t value) noexcept {
-    // Its errors (the word has changed already, a signal came) all mean: look again.
-    ::syscall(SYS_futex, reinterpret_cast<std::uint32_t*>(&word_), operation, value, nullptr,
-              nullptr, 0);
   }
 
   std::atomic<std::uint32_t> word_{kClosed};
-  static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t),
-                "the kernel looks at the atomic as at a plain word");
 };
 
 }  // namespace detail
