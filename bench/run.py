@@ -54,11 +54,40 @@ RATIOS = [
     Ratio("model_kdl_bench", "ModelKDL", "bare KDL solvers", goal=1.3),
     Ratio("control_unit_bench", "torqueControlTick", "modelAlone", goal_ns=15000),
     Ratio("control_unit_bench", "idleTick", "modelAlone", goal_ns=15000),
+    Ratio("control_unit_bench", "jointImpedanceTick", "modelAlone", goal_ns=15000),
+    Ratio("control_unit_bench", "cartesianImpedanceTick", "modelAlone", goal_ns=15000),
+    Ratio("libfranka_client_bench", "cycle/5", "copies/5", goal_ns=2000),
+    Ratio("libfranka_client_bench", "cycle/9", "copies/9", goal_ns=2000),
+    Ratio("libfranka_client_bench", "cycle/10", "copies/10", goal_ns=2000),
     Ratio("physics_bench", "tickOfWorld/0", "bareSteps/0"),
     Ratio("physics_bench", "tickOfWorld/1", "bareSteps/1"),
     Ratio("controller_manager_update_bench", "managerUpdate/1", "virtualCalls/1"),
     Ratio("controller_manager_update_bench", "managerUpdate/10", "virtualCalls/10"),
     Ratio("controller_manager_update_bench", "managerUpdate/50", "virtualCalls/50"),
+]
+
+
+@dataclass
+class Counter:
+    """What a benchmark counts beside its time; `subtract` names one that counts the machine's own share."""
+
+    executable: str
+    benchmark: str
+    name: str
+    unit: str
+    goal: float | None = None
+    subtract: str | None = None
+
+
+COUNTERS = [
+    Counter("libfranka_client_bench", "roundTrip/5", "p50_ratio", "x", 1.5),
+    Counter("libfranka_client_bench", "roundTrip/5", "p999_us", "us", 300),
+    Counter("libfranka_client_bench", "roundTrip/10", "p50_ratio", "x", 1.5),
+    Counter("libfranka_client_bench", "roundTrip/10", "p999_us", "us", 300),
+    Counter("realtime_publisher_bench", "publishTick", "cpu_percent", "%"),
+    Counter(
+        "realtime_publisher_bench", "publishTick", "cpu_percent", "% beyond a bare loop", 3.0, "bareLoop"
+    ),
 ]
 
 
@@ -77,9 +106,26 @@ def micro() -> None:
                 failures.append(f"{name} is not built")
                 print(f"  {name}: not built")
                 continue
-            times = google_benchmark(found[name], core.environment)
+            times, _ = google_benchmark(found[name], core.environment)
             for ratio in (ratio for ratio in RATIOS if ratio.executable == name):
                 print_ratio(ratio, times)
+        for name in dict.fromkeys(counter.executable for counter in COUNTERS):
+            if name not in found:
+                failures.append(f"{name} is not built")
+                continue
+            _, counters = google_benchmark(found[name], core.environment)
+            for counter in (counter for counter in COUNTERS if counter.executable == name):
+                print_counter(counter, counters)
+
+
+def print_counter(counter: Counter, counters: dict[str, dict[str, float]]) -> None:
+    value = counters.get(counter.benchmark, {}).get(counter.name)
+    if value is None:
+        failures.append(f"{counter.executable}: no {counter.name} of {counter.benchmark}")
+        return
+    if counter.subtract:
+        value -= counters[counter.subtract][counter.name]
+    figure(f"{counter.executable}: {counter.benchmark} {counter.name}", value, counter.unit, counter.goal)
 
 
 def print_ratio(ratio: Ratio, times: dict[str, float]) -> None:
@@ -92,8 +138,10 @@ def print_ratio(ratio: Ratio, times: dict[str, float]) -> None:
     figure(f"{ratio.executable}: {ratio.subject} / {ratio.reference}", subject / reference, "x", ratio.goal)
 
 
-def google_benchmark(executable: Path, environment: dict[str, str]) -> dict[str, float]:
-    """Median CPU time of each benchmark [ns]."""
+def google_benchmark(
+    executable: Path, environment: dict[str, str]
+) -> tuple[dict[str, float], dict[str, dict[str, float]]]:
+    """Median CPU time of each benchmark [ns], and its counters."""
     unit = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
         command = [str(executable), f"--benchmark_out={out.name}", "--benchmark_out_format=json"]
@@ -101,11 +149,12 @@ def google_benchmark(executable: Path, environment: dict[str, str]) -> dict[str,
         subprocess.run(command, capture_output=True, text=True, check=True, timeout=300, env=environment)
         entries = json.loads(Path(out.name).read_text())["benchmarks"]
     medians = [entry for entry in entries if entry.get("aggregate_name") == "median"]
-    return {
-        entry["run_name"].split("/min_time")[0].split("/repeats")[0]: entry["cpu_time"]
-        * unit[entry["time_unit"]]
-        for entry in medians
-    }
+    times, counters = {}, {}
+    for entry in medians:
+        name = entry["run_name"].split("/min_time")[0].split("/repeats")[0].split("/iterations")[0]
+        times[name] = entry["cpu_time"] * unit[entry["time_unit"]]
+        counters[name] = {key: value for key, value in entry.items() if isinstance(value, float)}
+    return times, counters
 
 
 # ---- the whole simulation --------------------------------------------------------------------------------

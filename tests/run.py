@@ -52,7 +52,10 @@ class Tally:
 
 
 def packages() -> dict[str, Path]:
-    return {path.parent.name: path.parent for path in sorted(SOURCE.glob("**/package.xml"))}
+    found = {path.parent.name: path.parent for path in sorted(SOURCE.glob("**/package.xml"))}
+    # A glob does not follow the link that brings this one into the workspace.
+    found["pyfranka"] = TOP / "python"
+    return found
 
 
 def run(title: str, command: list[str], **options) -> int:
