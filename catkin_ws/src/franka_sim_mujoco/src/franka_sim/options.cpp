@@ -120,6 +120,9 @@ Options readOptions(int argc, const char* const* argv) {
   };
   for (int i = 1; i < argc; i++) {
     const std::string word = argv[i];
+    if (word.rfind("__", 0) == 0) {
+      continue;  // roslaunch tells every program its name and log file
+    }
     if (const auto flag = flags.find(word); flag != flags.end()) {
       flag->second();
     } else if (const auto option = with_value.find(word); option == with_value.end()) {
