@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // FrankaHW: its beginning, its connection, its interfaces and its state.
+#include <franka/exception.h>
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/model.h>
 #include <ros/console.h>
@@ -19,6 +20,8 @@ constexpr double kDegreesPerRadian = 57.29577951308232;
 // How often joints near their ends are printed at most. [s]
 constexpr double kLimitReportPeriod = 5.0;
 constexpr double kLimitCheckPeriod = 0.5;
+// Between two attempts to reach a robot that is starting. [s]
+constexpr double kConnectPeriod = 0.2;
 
 }  // namespace
 
@@ -64,9 +67,24 @@ bool FrankaHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
 }
 
 void FrankaHW::initRobot() {
-  connect();
+  connectInTime();
   model_ = std::make_unique<franka_hw::Model>(robot_->loadModel());
   update(robot_->readOnce());
+}
+
+void FrankaHW::connectInTime() {
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(connect_timeout_);
+  while (true) {
+    try {
+      connect();
+      return;
+    } catch (const franka::NetworkException&) {
+      if (ros::WallTime::now() >= deadline) {
+        throw;
+      }
+      ros::WallDuration(kConnectPeriod).sleep();
+    }
+  }
 }
 
 void FrankaHW::connect() {

@@ -72,6 +72,7 @@ bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
     ROS_INFO_STREAM("FrankaHW: no parameter joint_limit_warning_threshold, warning "
                     << joint_limit_warning_threshold_ << " rad before the ends of the joints.");
   }
+  connect_timeout_ = robot_hw_nh.param("connect_timeout", 0.0);
   readCollisionConfig(robot_hw_nh);
   readJointRanges();
   return readRealtimeConfig(robot_hw_nh);

@@ -4,6 +4,7 @@
 
 import math
 import threading
+import time
 
 import actionlib
 import rospy
@@ -24,6 +25,7 @@ from franka_gripper.msg import (
 
 NO_EFFORT = 1e-4  # [N] smaller efforts of gripper_action mean: move, do not grasp
 ARRIVED = 1e-4  # [m] nearer targets of gripper_action are reached already
+RETRY = 0.2  # [s] between attempts to reach a hand that is starting
 EPSILON = 0.005  # [m] libfranka's default tolerance of a grasp
 
 
@@ -54,6 +56,7 @@ class Parameters:
             raise Fault(f"The parameter {rospy.resolve_name('~joint_names')} must hold two names.")
         self.default_speed = number("default_speed", 0.1, 0.0)
         self.publish_rate = number("publish_rate", 30.0, 1e-3)
+        self.connect_timeout = number("connect_timeout", 0.0, 0.0)
         self.stop_at_shutdown = bool(rospy.get_param("~stop_at_shutdown", False))
         self.epsilon_inner = number("default_grasp_epsilon/inner", EPSILON, 0.0)
         self.epsilon_outer = number("default_grasp_epsilon/outer", EPSILON, 0.0)
@@ -222,6 +225,18 @@ class GripperNode:
                 return
 
 
+def connect(parameters, pyfranka):
+    """The hand; one that cannot be reached is asked again until the time is over."""
+    deadline = time.monotonic() + parameters.connect_timeout
+    while True:
+        try:
+            return Hand(lambda: pyfranka.Gripper(parameters.robot_ip), rospy.logerr)
+        except pyfranka.NetworkException:
+            if time.monotonic() >= deadline or rospy.is_shutdown():
+                raise
+            time.sleep(RETRY)
+
+
 def main():
     rospy.init_node("franka_gripper_node")
     # After the name of the node is known: what this needs is found only where libfranka is built.
@@ -229,7 +244,7 @@ def main():
 
     try:
         parameters = Parameters()
-        hand = Hand(lambda: pyfranka.Gripper(parameters.robot_ip), rospy.logerr)
+        hand = connect(parameters, pyfranka)
     except Fault as error:
         rospy.logfatal("franka_gripper_node: %s", error)
         return 255

@@ -68,7 +68,9 @@ class FrankaHW : public hardware_interface::RobotHW {
   FrankaHW();
   ~FrankaHW() override = default;
 
-  /// Reads the parameters, connects to the robot and registers the interfaces. Once only.
+  /// Reads the parameters, connects to the robot and registers the interfaces. Once only. A robot
+  /// that cannot be reached is asked again for `connect_timeout` seconds (parameter, 0 unless
+  /// given).
   /// @param root_nh where robot_description stands @param robot_hw_nh where the parameters stand
   /// @returns false after a sentence that says what is missing or wrong
   bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override;
@@ -320,10 +322,12 @@ class FrankaHW : public hardware_interface::RobotHW {
   bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
                   joint_limits_interface::SoftJointLimits& soft_limits) const;
   void readJointRanges();
+  void connectInTime();
   void reportJointLimits(const ros::WallTimerEvent& event);
   RunSettings requestedSettings(ControlMode mode) const;
 
   RunSettings run_settings_;
+  double connect_timeout_{0.0};  // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
 
   std::array<std::array<double, 2>, 7> joint_ranges_{};  // [rad], from the URDF
