@@ -1,0 +1,62 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every single-arm example controller on franka_control_node and a simulated robot, Panda and FR3."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+SOURCE = HERE.parent / "catkin_ws/src"
+sys.path.insert(0, str(SOURCE / "franka_sim_mujoco/src"))
+
+from franka_sim_mujoco.session import Session  # noqa: E402
+
+IDLE, MOVE = 1, 2
+# What moves while it runs [rad], at least; None: it only looks, or holds the arm where it is.
+CONTROLLERS = {
+    "joint_velocity": 0.03,
+    "joint_position": 0.02,
+    "cartesian_pose": 0.1,
+    "cartesian_velocity": 0.05,
+    "elbow": 0.1,
+    "joint_impedance": 0.05,
+    "model": None,
+    "force": None,
+    "cartesian_impedance": None,
+}
+
+
+@pytest.fixture(scope="module", params=["panda", "fr3"])
+def report(request, tmp_path_factory):
+    robot, folder = request.param, tmp_path_factory.mktemp("examples")
+    parameters = folder / "controllers.yaml"
+    config = SOURCE / "franka_example_controllers/config/franka_example_controllers.yaml"
+    parameters.write_text(config.read_text().replace("$(arg arm_id)", robot))
+    launch = ["franka_control", "franka_control.launch", "sim:=true", f"robot:={robot}"]
+    with Session(*launch, "robot_ip:=127.0.7.2", log=folder / "launch.log") as session:
+        session.wait_for_master()
+        session.run("rosparam", "load", str(parameters))
+        load = ["rosrun", "controller_manager", "controller_manager", "load"]
+        loaded = session.run(*load, "effort_joint_trajectory_controller", check=False, timeout=90)
+        assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
+        command = ["/usr/bin/python3", str(HERE / "example_controllers_client.py"), robot, *CONTROLLERS]
+        client = session.run(*command, check=False, timeout=240)
+        assert client.returncode == 0, f"{client}\n{session.tail(60)}"
+        session.check()
+        return json.loads(client.stdout.strip().splitlines()[-1])
+
+
+@pytest.mark.parametrize("name", CONTROLLERS)
+def test_runs_and_stops_without_a_complaint(report, name):
+    outcome = report[name]
+    assert outcome["loaded"] and outcome["started"] and outcome["stopped"], outcome
+    assert outcome["aborts"] == []
+    assert outcome["mode_after"] == IDLE
+    assert outcome["mode"] == (IDLE if name == "model" else MOVE)
+    if CONTROLLERS[name] is None:
+        assert outcome["lifted"] < 0.005
+    else:
+        assert outcome["moved"] > CONTROLLERS[name]
