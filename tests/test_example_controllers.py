@@ -44,6 +44,7 @@ def report(request, tmp_path_factory):
         assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
         command = ["/usr/bin/python3", str(HERE / "example_controllers_client.py"), robot, *CONTROLLERS]
         client = session.run(*command, check=False, timeout=240)
+        print(client.stdout, session.tail(80), sep="\n")
         assert client.returncode == 0, f"{client}\n{session.tail(60)}"
         session.check()
         return json.loads(client.stdout.strip().splitlines()[-1])

@@ -229,7 +229,13 @@ void ControlNode::moveRobot() {
 bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& period) {
   const bool first = period.isZero();
   health_->state(*robot_state_);
-  updateControllers(time, period, first);
+  // After an interruption the controllers start anew from where the robot stands. Those that a
+  // switch has just started must not: they may have got a goal already.
+  const bool anew = first && (interrupted_ || franka_hw_.motionGoesOn());
+  if (first) {
+    interrupted_ = false;
+  }
+  updateControllers(time, period, anew);
   franka_hw_.checkJointLimits();
   if (first) {
     franka_hw_.reset();
@@ -248,6 +254,7 @@ void ControlNode::updateControllers(const ros::Time& time, const ros::Duration& 
 
 void ControlNode::motionFailed(const std::string& what, const std::vector<franka::Record>& log) {
   has_error_ = true;
+  interrupted_ = true;
   health_->hasError(true);
   aborts_->report(what, log);
 }
@@ -263,6 +270,7 @@ void ControlNode::robotLost(const std::string& what) {
   // What ran when it was lost must not move it when it is back, unless somebody says so.
   has_error_ = franka_hw_.controllerActive() || has_error_;
   robot_stopped_ = false;
+  interrupted_ = true;
   health_->connected(false);
   health_->hasError(has_error_);
   withdrawRobot();

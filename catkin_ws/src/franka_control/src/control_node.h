@@ -78,6 +78,7 @@ class ControlNode {
   std::atomic_bool lost_{false};  // the connection, without being asked to
   std::atomic_bool has_error_{false};
   std::atomic_bool robot_stopped_{false};  // the error is the robot's, and ends when it is Idle
+  bool interrupted_{false};                // the last motion, by an error; of the loop
   bool reconnects_{false};
   bool restarts_controllers_{true};
   ros::Time last_update_;

@@ -45,6 +45,8 @@ bool FrankaHW::RunSettings::operator==(const RunSettings& other) const {
 
 bool FrankaHW::controllerActive() const noexcept { return controller_active_; }
 
+bool FrankaHW::motionGoesOn() const noexcept { return motion_goes_on_; }
+
 // --- the switch ----------------------------------------------------------------------------------
 
 bool FrankaHW::checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const {
@@ -101,6 +103,7 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
                             ? "joint_impedance"
                             : "cartesian_impedance"));
   }
+  motion_goes_on_ = was_active && (current_control_mode_ & ~stop_mode) != ControlMode::None;
   current_control_mode_ = mode;
   run_settings_ = settings;
   return true;

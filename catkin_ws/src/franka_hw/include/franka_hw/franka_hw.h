@@ -108,6 +108,10 @@ class FrankaHW : public hardware_interface::RobotHW {
   /// Whether a controller commands the robot.
   virtual bool controllerActive() const noexcept;
 
+  /// Whether the motion that was prepared last goes on with controllers that commanded the one
+  /// before it: they have to start anew then. Those a switch has just started need not.
+  virtual bool motionGoesOn() const noexcept;
+
   bool checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const override;
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                 const std::list<hardware_interface::ControllerInfo>& stop_list) override;
@@ -327,6 +331,7 @@ class FrankaHW : public hardware_interface::RobotHW {
   RunSettings requestedSettings(ControlMode mode) const;
 
   RunSettings run_settings_;
+  std::atomic_bool motion_goes_on_{false};
   double connect_timeout_{0.0};  // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
 
