@@ -379,6 +379,27 @@ TEST_F(ClosedLoop, StoppingCancelsAndRefuses) {
 }
 
 // A goal given as soon as the switch is answered must not drown in the hold of the start.
+TEST_F(ClosedLoop, AResetEndsTheGoalAndTakesTheNext) {
+  start();
+  Client::GoalHandle handle = send(goalTo(target_));
+  untilActive(handle);
+  steps(300);
+  // As after a reflex: the loop starts its controllers anew within one cycle.
+  time_ += ros::Duration(kPeriod);
+  manager_.update(time_, ros::Duration(kPeriod), true);
+  robot_.move(kPeriod);
+  const closed_loop::TestRobot::Values held = robot_.position_;
+  standStillUntil([&] { return handle.getCommState() == actionlib::CommState::DONE; },
+                  "the goal's end");
+  EXPECT_NE(std::string::npos, handle.getResult()->error_string.find("stopped"));
+  steps(100);
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    EXPECT_NEAR(held[i], robot_.position_[i], 1e-9);
+  }
+  Client::GoalHandle next = send(goalTo(target_));
+  EXPECT_EQ(Result::SUCCESSFUL, end(next).error_code);
+}
+
 TEST_F(ClosedLoop, AGoalRightAfterASwitchIsFollowed) {
   start();
   for (int run = 0; run < 20; ++run) {
