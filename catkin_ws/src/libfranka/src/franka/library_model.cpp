@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <dlfcn.h>
 #include <franka/exception.h>
+#include <link.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstddef>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -42,10 +44,44 @@ std::array<double, 16> multiply(const std::array<double, 16>& a, const std::arra
   return product;
 }
 
+/// Whether all that the loader would map is there: what lies beyond the end of a file that was cut
+/// off, it would touch and die.
+bool isComplete(const std::vector<std::uint8_t>& object) {
+  ElfW(Ehdr) header;
+  if (object.size() < sizeof(header)) {
+    return false;
+  }
+  std::memcpy(&header, object.data(), sizeof(header));
+  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
+      header.e_phentsize != sizeof(ElfW(Phdr))) {
+    return false;
+  }
+  const auto ends_within = [&object](std::size_t offset, std::size_t size) {
+    return offset <= object.size() && size <= object.size() - offset;
+  };
+  if (!ends_within(header.e_phoff, header.e_phnum * sizeof(ElfW(Phdr)))) {
+    return false;
+  }
+  for (std::size_t i = 0; i < header.e_phnum; i++) {
+    ElfW(Phdr) segment;
+    std::memcpy(&segment, object.data() + header.e_phoff + i * sizeof(segment), sizeof(segment));
+    if (segment.p_type == PT_LOAD && !ends_within(segment.p_offset, segment.p_filesz)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// A loaded shared object. It never touches the disk.
 class SharedObject {
  public:
   explicit SharedObject(const std::vector<std::uint8_t>& bytes) {
+    if (!isComplete(bytes)) {
+      throw ModelException(
+          "libfranka: The model library that the robot sent is not a whole shared object for this "
+          "machine's kind of processor (" +
+          std::to_string(bytes.size()) + " bytes arrived).");
+    }
     const network::Descriptor memory(memfd_create("franka_model", MFD_CLOEXEC));
     std::size_t written = 0;
     while (memory.get() >= 0 && written < bytes.size()) {
