@@ -31,7 +31,8 @@ struct ArmRateLimits {
   Joints lowerJointVelocity(const Joints& q) const noexcept;
 
   /// Joint velocities kept within all limits, from velocities and accelerations of the cycle
-  /// before.
+  /// before. Where the velocity limit depends on the position, they brake before a joint's end
+  /// early enough to keep within velocity, acceleration and jerk at once.
   /// @param q where the arm is wanted now [rad].
   Joints limitVelocities(const Joints& q, const Joints& velocities, const Joints& last_velocities,
                          const Joints& last_accelerations) const noexcept;

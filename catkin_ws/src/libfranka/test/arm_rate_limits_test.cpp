@@ -1,0 +1,179 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The limiter of the robot that was found: whatever is wanted, what comes out stays within that
+// robot's limits (franka_core/limits.h). That the robot never aborts it is shown with the simulated
+// one's validator.
+#include "franka/arm_rate_limits.h"
+
+#include <franka/rate_limiting.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace {
+
+using franka::ArmRateLimits;
+using franka::kDeltaT;
+using Joints = ArmRateLimits::Joints;
+
+// Rounding of a difference quotient over 1 ms: of positions below 4 rad, of velocities.
+constexpr double kVelocityRounding = 1e-11;
+constexpr double kAccelerationRounding = 1e-8;
+
+class RobotOfVersion : public ::testing::TestWithParam<std::uint16_t> {
+ protected:
+  RobotOfVersion() : limits_(franka::rateLimitsOfProtocol(GetParam())) {}
+
+  const franka_core::ArmLimits& arm() const { return franka_core::limitsOfProtocol(GetParam()); }
+  bool isFr3() const { return GetParam() > 5; }
+
+  /// The robot's own limit at q, without any margin.
+  double highest(std::size_t joint, double q) const {
+    return limits_.position_velocity
+               ? franka_core::upperVelocityLimit(*limits_.position_velocity, joint, q)
+               : arm().dq[joint];
+  }
+  double lowest(std::size_t joint, double q) const {
+    return limits_.position_velocity
+               ? franka_core::lowerVelocityLimit(*limits_.position_velocity, joint, q)
+               : -arm().dq[joint];
+  }
+
+  Joints middle() const {
+    Joints q{};
+    for (std::size_t i = 0; i < 7; i++) {
+      q[i] = (arm().q_min[i] + arm().q_max[i]) / 2.0;
+    }
+    return q;
+  }
+
+  /// A new wish now and then: rest, a little, or far too much.
+  Joints wish(double scale) {
+    std::uniform_real_distribution<double> anything(-scale, scale);
+    Joints result{};
+    for (double& value : result) {
+      const double share = anything(random_) / scale;
+      value = share < -0.5 ? 0.0 : share < 0.0 ? 0.05 * anything(random_) : 3.0 * anything(random_);
+    }
+    return result;
+  }
+
+  const ArmRateLimits limits_;
+  std::mt19937 random_{GetParam()};
+};
+
+TEST_P(RobotOfVersion, VelocitiesStayWithinAllLimits) {
+  Joints q = middle(), v{}, a{}, wanted{};
+  Joints fastest{};
+  for (int k = 0; k < 40000; k++) {
+    if (k % 900 == 0) {
+      wanted = wish(3.0);
+    }
+    const Joints next = limits_.limitVelocities(q, wanted, v, a);
+    for (std::size_t i = 0; i < 7; i++) {
+      const double next_a = (next[i] - v[i]) / kDeltaT;
+      const double next_q = q[i] + next[i] * kDeltaT;
+      EXPECT_LE(next[i], highest(i, next_q) + kVelocityRounding) << i << " at " << k;
+      EXPECT_GE(next[i], lowest(i, next_q) - kVelocityRounding) << i << " at " << k;
+      EXPECT_LE(std::abs(next_a), arm().ddq[i] + kAccelerationRounding) << i << " at " << k;
+      EXPECT_LE(std::abs(next_a - a[i]) / kDeltaT, arm().dddq[i] + 1e-4) << i << " at " << k;
+      fastest[i] = std::max(fastest[i], std::abs(next[i]));
+      a[i] = next_a;
+      v[i] = next[i];
+      // The Panda's limiter knows no positions.
+      q[i] = isFr3() ? next_q : std::clamp(next_q, arm().q_min[i], arm().q_max[i]);
+    }
+  }
+  // The test would see a limiter that is too strict, too.
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_GT(fastest[i], 0.8 * std::min(arm().dq[i], highest(i, middle()[i]))) << i;
+  }
+}
+
+TEST_P(RobotOfVersion, PositionsAreLimitedAsTheirVelocities) {
+  Joints q = middle(), v{}, a{}, wanted = q;
+  for (int k = 0; k < 5000; k++) {
+    if (k % 250 == 0) {
+      const Joints away = wish(1.0);
+      for (std::size_t i = 0; i < 7; i++) {
+        wanted[i] = q[i] + away[i];
+      }
+    }
+    Joints wanted_velocity{};
+    for (std::size_t i = 0; i < 7; i++) {
+      wanted_velocity[i] = (wanted[i] - q[i]) / kDeltaT;
+    }
+    const Joints velocities = limits_.limitVelocities(q, wanted_velocity, v, a);
+    const Joints next = limits_.limitPositions(wanted, q, v, a);
+    for (std::size_t i = 0; i < 7; i++) {
+      EXPECT_DOUBLE_EQ(q[i] + kDeltaT * velocities[i], next[i]);
+      a[i] = (velocities[i] - v[i]) / kDeltaT;
+      v[i] = velocities[i];
+      q[i] = next[i];
+    }
+  }
+}
+
+TEST_P(RobotOfVersion, AgreesWithTheClassicLimiterWhereThatApplies) {
+  if (isFr3()) {
+    GTEST_SKIP() << "the classic limiter knows no limits that depend on the position";
+  }
+  Joints q = middle(), v{}, a{}, wanted{};
+  for (int k = 0; k < 20000; k++) {
+    if (k % 300 == 0) {
+      wanted = wish(3.0);
+    }
+    const Joints next = limits_.limitVelocities(q, wanted, v, a);
+    EXPECT_EQ(franka::limitRate(franka::kMaxJointVelocity, franka::kMaxJointAcceleration,
+                                franka::kMaxJointJerk, wanted, v, a),
+              next);
+    for (std::size_t i = 0; i < 7; i++) {
+      a[i] = (next[i] - v[i]) / kDeltaT;
+      v[i] = next[i];
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RobotOfVersion, ::testing::Values(3, 5, 6, 9, 10),
+                         [](const auto& info) { return "Version" + std::to_string(info.param); });
+
+std::string jointsOf(double velocity, bool whole = true, const std::string& prefix = "fr3_") {
+  std::string text = "<robot name='r'>";
+  for (int i = 1; i <= 7; i++) {
+    text += "<joint name='" + prefix + "joint" + std::to_string(i) + "'><limit lower='-2' upper='" +
+            std::to_string(i) + "' velocity='" + std::to_string(velocity) + "'/>";
+    if (whole || i < 7) {
+      text += "<position_based_velocity_limits velocity_offset='0.25' deceleration_limit='6'/>";
+    }
+    text += "</joint>";
+  }
+  return text + "</robot>";
+}
+
+TEST(VelocityLimits, AreReadFromTheDescription) {
+  const auto limits = franka::velocityLimitsFromUrdf(jointsOf(1.5));
+  ASSERT_TRUE(limits);
+  EXPECT_EQ(1.5, limits->velocity[6]);
+  EXPECT_EQ(-2.0, limits->q_min[3]);
+  EXPECT_EQ(5.0, limits->q_max[4]);
+  EXPECT_EQ(0.25, limits->offset[0]);
+  // v = -offset + sqrt(2 a (end - q)), never above the joint's own
+  EXPECT_NEAR(std::sqrt(12.0 * 0.1) - 0.25, franka_core::upperVelocityLimit(*limits, 0, 0.9),
+              1e-12);
+  EXPECT_EQ(1.5, franka_core::upperVelocityLimit(*limits, 0, 0.0));
+  EXPECT_NEAR(-(std::sqrt(12.0 * 0.1) - 0.25), franka_core::lowerVelocityLimit(*limits, 0, -1.9),
+              1e-12);
+}
+
+TEST(VelocityLimits, AreNotGuessed) {
+  EXPECT_FALSE(franka::velocityLimitsFromUrdf(jointsOf(1.5, false)));
+  EXPECT_FALSE(franka::velocityLimitsFromUrdf("<robot/>"));
+  EXPECT_FALSE(franka::velocityLimitsFromUrdf("no description"));
+  EXPECT_FALSE(franka::velocityLimitsFromUrdf(""));
+}
+
+}  // namespace
