@@ -1,0 +1,124 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Simulated robots without ROS, their control interface, and client processes that take orders."""
+
+import json
+import os
+import select
+import socket
+import subprocess
+import sys
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+VERSIONS = {"panda": 5, "fr3": 10}
+
+
+def program() -> str:
+    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
+        found = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
+        if found.exists():
+            return str(found)
+    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
+
+
+class Simulation:
+    """A running franka_sim."""
+
+    def __init__(self, process: subprocess.Popen, robot: str, address: str):
+        self.process, self.robot, self.address = process, robot, address
+        self.version = VERSIONS[robot]
+
+    def ask(self, line: str) -> str:
+        """One command of the control interface; what follows `ok`."""
+        with socket.create_connection((self.address, 1340), timeout=60) as connection:
+            stream = connection.makefile("rw", newline="\n")
+            stream.write(line + "\n")
+            stream.flush()
+            answer = stream.readline().strip()
+        assert answer.startswith("ok"), f"{line}: {answer}"
+        return answer[3:]
+
+    def memory(self) -> float:
+        """Resident [MB]."""
+        lines = Path(f"/proc/{self.process.pid}/status").read_text().splitlines()
+        return float(next(line for line in lines if line.startswith("VmRSS")).split()[1]) / 1024
+
+    def descriptors(self) -> int:
+        return len(os.listdir(f"/proc/{self.process.pid}/fd"))
+
+
+@contextmanager
+def simulated(robot: str, address: str, pace: str, *arguments: str):
+    """Yields a robot that has opened its ports; fails when it ends by itself or will not end."""
+    command = [program(), "--robot", robot, "--ip", address, "--pace", pace, *arguments]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    try:
+        ready, _, _ = select.select([process.stdout], [], [], 60)
+        line = process.stdout.readline() if ready else ""
+        assert "waits for clients" in line, line or "franka_sim says nothing."
+        yield Simulation(process, robot, address)
+        assert process.poll() is None, "The simulation has ended by itself: " + process.stdout.read()
+    finally:
+        process.terminate()
+        try:
+            process.wait(20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            raise
+
+
+def go_first(pid: int = 0) -> None:
+    """Gives a process (0: this thread) the place before other work that a robot's clients are told to take,
+    where the system allows it: what is tested is the network, not the machine's load."""
+    with suppress(PermissionError, ProcessLookupError):
+        os.sched_setscheduler(pid, os.SCHED_FIFO, os.sched_param(50))
+
+
+class ClientProcess:
+    """A genuine or own client in a process of its own; `tell` gives it one task and returns the result."""
+
+    def __init__(self, library: str, python: str):
+        script = HERE / "genuine" / "network_client.py"
+        self.process = subprocess.Popen(
+            [python, str(script), library], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+        go_first(self.process.pid)
+        self._due = False  # a result
+
+    def tell(self, do: str, **task) -> dict:
+        self.give(do, **task)
+        return self.result()
+
+    def give(self, do: str, **task) -> None:
+        while self._due:  # a test that failed has left one behind
+            self.result()
+        self._due = True
+        self.process.stdin.write(json.dumps({"do": do, **task}) + "\n")
+        self.process.stdin.flush()
+
+    def line(self, timeout: float = 60.0) -> str:
+        ready, _, _ = select.select([self.process.stdout], [], [], timeout)
+        assert ready, f"The client has said nothing for {timeout} s."
+        return self.process.stdout.readline().strip()
+
+    def result(self, timeout: float = 60.0) -> dict:
+        line = self.line(timeout)
+        while line == "moving":
+            line = self.line(timeout)
+        self._due = False
+        return json.loads(line)
+
+
+@contextmanager
+def client_process(library: str, python: str = sys.executable):
+    client = ClientProcess(library, str(python))
+    try:
+        yield client
+    finally:
+        client.process.kill()
+        client.process.wait()
+        client.process.stdin.close()
+        client.process.stdout.close()

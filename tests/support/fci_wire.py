@@ -1,0 +1,192 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The robot's protocol byte by byte, and a client in slow motion: each of its steps is a call of its own.
+
+It checks nothing and repairs nothing, so that a test can send what no library would. Layouts are those of
+protocol 5 (a Panda's) and 10 (an FR3's). Everything waits with a limit and fails with a sentence.
+"""
+
+import select
+import socket
+import struct
+from dataclasses import dataclass
+
+HEADER = struct.Struct("<III")  # command, id, size of the whole message
+PORT = 1337
+IDLE, MOVE, REFLEX = 1, 2, 4  # robot_mode
+CONNECT, START, STOP = 0, 1, 2  # requests whose numbers are the same in both versions
+JOINT_POSITION, NO_GENERATOR, JOINT_IMPEDANCE, EXTERNAL = 0, 4, 0, 2
+COMMUNICATION = 25  # the error's index
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where things are in the datagrams of one version."""
+
+    state_size: int
+    command_size: int
+    number: str  # of the state's floats
+    fields: dict[str, int]  # offsets
+    errors: int
+    reasons: int
+    mode: int
+    rate: int
+    recovery: int  # the request's number
+    reflex: int  # status of a motion that a reflex ended
+
+
+LAYOUTS = {
+    5: Layout(
+        2373, 370, "d", {"tau_J": 1016, "q": 1184, "q_d": 1240, "dq": 1296}, 2282, 2323, 2364, 2365, 12, 6
+    ),
+    10: Layout(
+        1377, 371, "f", {"tau_J": 512, "q": 596, "q_d": 624, "dq": 652}, 1290, 1331, 1372, 1373, 10, 8
+    ),
+}
+
+
+class State:
+    """One state datagram."""
+
+    def __init__(self, version: int, data: bytes):
+        self.layout, self.data = LAYOUTS[version], data
+
+    @property
+    def message_id(self) -> int:
+        return struct.unpack_from("<Q", self.data)[0]
+
+    @property
+    def mode(self) -> int:
+        return self.data[self.layout.mode]
+
+    @property
+    def rate(self) -> float:
+        """control_command_success_rate."""
+        return struct.unpack_from("<" + self.layout.number, self.data, self.layout.rate)[0]
+
+    @property
+    def errors(self) -> list[int]:
+        return [i for i in range(41) if self.data[self.layout.errors + i]]
+
+    @property
+    def reasons(self) -> list[int]:
+        """Why the last motion ended, reflex_reason."""
+        return [i for i in range(41) if self.data[self.layout.reasons + i]]
+
+    def joints(self, field: str) -> tuple[float, ...]:
+        return struct.unpack_from("<7" + self.layout.number, self.data, self.layout.fields[field])
+
+
+def command(version: int, message_id: int, q=(0.0,) * 7, tau=(0.0,) * 7, finished=False) -> bytes:
+    """A command datagram with joint positions and torques."""
+    data = bytearray(LAYOUTS[version].command_size)
+    struct.pack_into("<Q7d", data, 0, message_id, *q)
+    data[313] = finished
+    struct.pack_into("<7d", data, 314, *tau)
+    if version >= 7:
+        data[370] = finished
+    return bytes(data)
+
+
+def move_request(version: int, controller: int, generator: int) -> bytes:
+    payload = struct.pack("<II6d", controller, generator, *(10.0, 3.12, 6.3) * 2)
+    return payload + (bytes(57) if version >= 10 else b"")
+
+
+class Client:
+    """One client. Give `with_states=False` for one that only speaks over TCP."""
+
+    def __init__(self, address: str, version: int, port: int = PORT):
+        self.version, self.next_id, self.robot = version, 0, None
+        self.udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.udp.bind(("", 0))
+        self.tcp = socket.create_connection((address, port), timeout=20)
+        self.tcp.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        self.tcp.close()
+        self.udp.close()
+
+    def reset(self):
+        """Ends the connection as a program does that crashes: with RST instead of FIN."""
+        self.tcp.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        self.close()
+
+    def message(self, number: int, payload: bytes = b"") -> bytes:
+        """A request with the next id, not sent."""
+        self.next_id += 1
+        return HEADER.pack(number, self.next_id - 1, HEADER.size + len(payload)) + payload
+
+    def request(self, number: int, payload: bytes = b"") -> int:
+        message = self.message(number, payload)
+        self.tcp.sendall(message)
+        return self.next_id - 1
+
+    def connect(self, version: int | None = None) -> tuple[int, int]:
+        """@returns status and the robot's version."""
+        udp_port = self.udp.getsockname()[1]
+        self.request(CONNECT, struct.pack("<HH", self.version if version is None else version, udp_port))
+        _, reply = self.reply()
+        return reply[0], struct.unpack_from("<H", reply, 1)[0]
+
+    def reply(self, timeout: float = 20.0) -> tuple[int, bytes]:
+        """@returns the next reply's id and what follows its header. Raises EOFError when there is none."""
+        self.tcp.settimeout(timeout)
+        _, identity, size = HEADER.unpack(self._exactly(HEADER.size))
+        return identity, self._exactly(size - HEADER.size)
+
+    def _exactly(self, size: int) -> bytes:
+        data = b""
+        while len(data) < size:
+            part = self.tcp.recv(size - len(data))
+            if not part:
+                raise EOFError("The robot has ended the connection.")
+            data += part
+        return data
+
+    def ended(self, timeout: float = 10.0) -> bool:
+        """Whether the robot ends the connection within that time."""
+        self.tcp.settimeout(timeout)
+        try:
+            return self.tcp.recv(1) == b""
+        except ConnectionError:
+            return True
+        except TimeoutError:
+            return False
+
+    def state(self, timeout: float = 20.0) -> State:
+        """The oldest state that has not been read."""
+        if not select.select([self.udp], [], [], timeout)[0]:
+            raise TimeoutError(f"The robot has sent no state for {timeout} s.")
+        data, self.robot = self.udp.recvfrom(65536)
+        return State(self.version, data)
+
+    def state_until(self, condition, most: int = 100000) -> State:
+        for _ in range(most):
+            state = self.state()
+            if condition(state):
+                return state
+        raise AssertionError(f"None of {most} states was the awaited one; the last is in mode {state.mode}.")
+
+    def send(self, datagram: bytes):
+        self.udp.sendto(datagram, self.robot)
+
+    def start(self, controller: int, generator: int) -> State:
+        """Starts a motion. @returns its first state, which waits for an answer."""
+        self.request(START, move_request(self.version, controller, generator))
+        _, reply = self.reply()
+        assert reply[0] == 1, f"The motion was not started but answered with status {reply[0]}."
+        return self.state_until(lambda state: state.mode == MOVE)
+
+    def recover(self) -> State:
+        """Automatic error recovery. @returns the first state in Idle."""
+        self.request(LAYOUTS[self.version].recovery)
+        _, reply = self.reply()
+        assert reply[0] == 0, f"The recovery was answered with status {reply[0]}."
+        return self.state_until(lambda state: state.mode == IDLE)
