@@ -423,7 +423,8 @@ def test_requests_may_come_byte_by_byte(raw):
                 client.tcp.sendall(message[i : i + 1])
             _, reply = client.reply()
         assert reply[0] == 1
-        state = client.state_until(lambda state: state.mode == MOVE)
+        client.state_until(lambda state: state.mode == MOVE)
+        state = client.state()
         steps(client, state, 10, state.joints("q_d"), finish=True)
         assert client.reply()[1][0] == 0
 

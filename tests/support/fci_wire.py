@@ -178,11 +178,12 @@ class Client:
         self.udp.sendto(datagram, self.robot)
 
     def start(self, controller: int, generator: int) -> State:
-        """Starts a motion. @returns its first state, which waits for an answer."""
+        """Starts a motion. @returns the state to answer: as all clients do, the second that shows it."""
         self.request(START, move_request(self.version, controller, generator))
         _, reply = self.reply()
         assert reply[0] == 1, f"The motion was not started but answered with status {reply[0]}."
-        return self.state_until(lambda state: state.mode == MOVE)
+        self.state_until(lambda state: state.mode == MOVE)
+        return self.state()
 
     def recover(self) -> State:
         """Automatic error recovery. @returns the first state in Idle."""

@@ -1,0 +1,34 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""franka_sim needs little memory, and no more of it however long it runs: a minute, and in the long form an
+hour, of the robot's time in lock-step."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE / "support")]
+
+from fci_session import client_process, simulated  # noqa: E402
+
+LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
+MINUTES = 60 if LONG else 1
+
+
+@pytest.mark.parametrize("robot", ["panda", "fr3"] if LONG else ["fr3"])
+def test_memory_is_little_and_flat(robot):
+    address = {"panda": "127.0.28.1", "fr3": "127.0.28.2"}[robot]
+    with simulated(robot, address, "lockstep") as sim, client_process("pyfranka") as client:
+        assert client.tell("connect", address=address)["outcome"] == "ok"
+        assert client.tell("move", seconds=5.0, torque=True)["outcome"] == "ok"
+        settled, descriptors = sim.memory(), sim.descriptors()
+        for _ in range(MINUTES):
+            client.give("move", seconds=60.0, torque=True)
+            result = client.result(timeout=300)
+            assert result["outcome"] == "ok", result
+        assert sim.memory() <= 80.0, f"{sim.memory():.1f} MB"
+        assert sim.memory() - settled < 0.5, f"{settled:.1f} MB have grown to {sim.memory():.1f} MB."
+        assert sim.descriptors() == descriptors
