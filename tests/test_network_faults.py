@@ -178,7 +178,7 @@ def survive(group, commands=None, states=None, exact=True, **task):
 # ---- 1: loss -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("percent", [0, 0.1, 1, 5, 10, 20] if LONG else [1, 20])
+@pytest.mark.parametrize("percent", [0, 0.1, 1, 5, 10, 20] if LONG else [20])
 def test_uniform_loss_of_commands_is_survived_and_counted(slow, percent):
     survive(slow, commands=lambda: losing(percent / 100))
     assert all(station.client.tell("mode")["mode"] == "Idle" for station in slow)
@@ -251,8 +251,8 @@ def test_a_network_that_is_always_late_ends_the_motion_at_once(slow):
 @pytest.mark.parametrize("ticks", [1, 10, 15] if LONG else [10])
 def test_a_short_stall_with_its_backlog_is_survived(slow, ticks):
     for result in survive(slow, states=lambda: stalling(150, ticks * TICK), exact=False):
-        # The client takes the newest of the backlog, and the clock jumps.
-        assert result["longest"] >= 0.8e-3 * ticks
+        # The client takes the newest of what has come when it wakes, and its clock jumps.
+        assert result["longest"] >= 0.5e-3 * ticks
 
 
 def test_a_long_stall_of_commands_ends_the_motion(slow):
@@ -485,6 +485,8 @@ def test_a_second_client_is_turned_away_and_disturbs_nobody(raw):
 
 
 def test_who_connects_and_says_nothing_makes_room(raw):
+    if raw.robot != "panda" and not LONG:
+        pytest.skip("The same for every robot; both in the long form.")
     with Client(raw.address, raw.version) as silent:
         assert silent.ended(10.0)
     connected(raw).close()

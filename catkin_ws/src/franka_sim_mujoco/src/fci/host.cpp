@@ -29,11 +29,12 @@ constexpr std::chrono::milliseconds kServeAtLeast{1};
 /// processor can work on it meanwhile (our choice).
 constexpr std::chrono::microseconds kSwiftAnswer{100};
 
-/// Before its first command a client needs two or three states more, at once. Those that follow are
-/// for one that missed them; each puts the client's clock, which counts states, ahead of the arm's,
-/// so that they come slowly (our choice).
-constexpr int kPromptReminders = 5;
-constexpr std::chrono::milliseconds kLaterReminders{20};
+/// Before its first command a client takes two states that show the motion, at once. More are for
+/// one that missed them. They come slowly: each that comes while the client works on its first
+/// answer puts its clock, which counts states, ahead of the arm's, and runs would not repeat (our
+/// choice).
+constexpr int kPromptStarts = 2;
+constexpr std::chrono::milliseconds kLaterStarts{50};
 
 /// While it makes up for a delay, clients still get so long for each answer (our choice).
 constexpr std::chrono::microseconds kLeastTimeToAnswer{400};
@@ -216,7 +217,7 @@ void Host::waitInLockStep() {
   if (due || news || Clock::now() - published_at_ >= kTick) {
     publishAll();
   }
-  reminders_ = 0;
+  starts_shown_ = 0;
   const Clock::time_point begin = Clock::now();
   // Whoever answers takes a while; where nobody does, one look at the sockets is enough.
   if (due) {
@@ -270,10 +271,10 @@ bool Host::waitForClients(Clock::time_point begin, bool all_answered) {
     return true;
   }
   // Before its first command a client needs fresh states; afterwards it has all it needs.
-  const Clock::duration pause = reminders_ < kPromptReminders ? kTick : kLaterReminders;
+  const Clock::duration pause = starts_shown_ < kPromptStarts ? kTick : kLaterStarts;
   if (now - published_at_ >= pause) {
     publishAll(true);
-    reminders_++;
+    starts_shown_++;
   }
   pollUntil(published_at_ + pause);
   return true;

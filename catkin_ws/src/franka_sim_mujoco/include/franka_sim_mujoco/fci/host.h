@@ -127,7 +127,7 @@ class Host {
   Clock::time_point published_at_{};
   std::uint64_t unpublished_ticks_{1};
   std::uint64_t rolling_{0};
-  int reminders_{0};  // states sent to a client that is to begin
+  int starts_shown_{0};  // states sent to a client that is to begin
   std::uint64_t ticks_{0};
 };
 
