@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node franka_gripper_node: actions and joint states of a Franka Hand."""
 
+import logging
 import math
+import os
 import threading
 import time
 
@@ -11,7 +13,7 @@ import rospy
 from control_msgs.msg import GripperCommandAction, GripperCommandResult
 from sensor_msgs.msg import JointState
 
-from franka_gripper.hand import Hand, Interrupted
+from franka_gripper.hand import Hand, Interrupted, Stopped
 from franka_gripper.msg import (
     GraspAction,
     GraspResult,
@@ -27,6 +29,7 @@ NO_EFFORT = 1e-4  # [N] smaller efforts of gripper_action mean: move, do not gra
 ARRIVED = 1e-4  # [m] nearer targets of gripper_action are reached already
 RETRY = 0.2  # [s] between attempts to reach a hand that is starting
 EPSILON = 0.005  # [m] libfranka's default tolerance of a grasp
+SILENCE = 1.0  # [s] older states are no longer published
 
 
 class Fault(Exception):
@@ -35,9 +38,19 @@ class Fault(Exception):
 
 def number(name, default, least):
     value = rospy.get_param("~" + name, default)
-    if not isinstance(value, (int, float)) or isinstance(value, bool) or not value >= least:
-        raise Fault(f"The parameter {rospy.resolve_name('~' + name)} must be a number not below {least}.")
+    given = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not given or not math.isfinite(value) or value < least:
+        raise Fault(f"The parameter {rospy.resolve_name('~' + name)} must be a number not below {least:g}.")
     return float(value)
+
+
+def tolerance(name):
+    """One of the tolerances of gripper_action; as in the original, one that is not in the map is zero."""
+    epsilons = rospy.get_param("~default_grasp_epsilon", None)
+    if epsilons is not None and not isinstance(epsilons, dict):
+        where = rospy.resolve_name("~default_grasp_epsilon")
+        raise Fault(f"The parameter {where} must be a map with the numbers inner and outer [m].")
+    return number("default_grasp_epsilon/" + name, EPSILON if epsilons is None else 0.0, 0.0)
 
 
 def required(name):
@@ -58,8 +71,8 @@ class Parameters:
         self.publish_rate = number("publish_rate", 30.0, 1e-3)
         self.connect_timeout = number("connect_timeout", 0.0, 0.0)
         self.stop_at_shutdown = bool(rospy.get_param("~stop_at_shutdown", False))
-        self.epsilon_inner = number("default_grasp_epsilon/inner", EPSILON, 0.0)
-        self.epsilon_outer = number("default_grasp_epsilon/outer", EPSILON, 0.0)
+        self.epsilon_inner = tolerance("inner")
+        self.epsilon_outer = tolerance("outer")
 
 
 def check(condition, text):
@@ -71,8 +84,8 @@ class GripperNode:
     """Five actions beside each other; a new goal on any of them ends the one that runs.
 
     As with the hand's own interface, a goal that the hand carried out without success is answered as
-    succeeded with result.success = False and a sentence; ABORTED are goals that are impossible or that
-    the hand refused, PREEMPTED those that a cancel or another goal ended.
+    succeeded with result.success = False and a sentence; ABORTED are goals that are impossible, that the
+    hand refused or that the action stop ended, PREEMPTED those that a cancel or another goal ended.
     """
 
     def __init__(self, parameters, hand):
@@ -101,6 +114,11 @@ class GripperNode:
                 rospy.logerr("The gripper did not stop at shutdown: %s", error)
         self._hand.close()
 
+    @property
+    def busy(self):
+        """Whether the hand carries out a command."""
+        return self._hand.busy
+
     # --- actions ------------------------------------------------------------------------------------
 
     def _serve(self, name, action, result_type, carry_out):
@@ -115,6 +133,8 @@ class GripperNode:
                 text = "Another command, or a cancel, ended this one."
                 self._explain(result, text)
                 server.set_preempted(result, text)
+            except Stopped:
+                self._abort(server, name, result, "The action stop ended this one.")
             except Fault as error:
                 self._abort(server, name, result, str(error))
             except Exception as error:
@@ -153,7 +173,7 @@ class GripperNode:
         result.success = self._hand.run(lambda gripper: gripper.move(goal.width, goal.speed), cancelled)
         if not result.success:
             result.error = (
-                f"The fingers stopped at {1e3 * self._hand.state.width:.1f} mm instead of "
+                f"The fingers stopped at {1e3 * self._hand.next_state().width:.1f} mm instead of "
                 f"{1e3 * goal.width:.1f} mm: something is in their way."
             )
 
@@ -171,9 +191,9 @@ class GripperNode:
         )
         if not result.success:
             result.error = (
-                f"The fingers came to rest at {1e3 * self._hand.state.width:.1f} mm, outside the expected "
-                f"{1e3 * (goal.width - inner):.1f} to {1e3 * (goal.width + outer):.1f} mm: there is no "
-                "object between them, or another one than expected."
+                f"The fingers came to rest at {1e3 * self._hand.next_state().width:.1f} mm, outside the "
+                f"expected {1e3 * (goal.width - inner):.1f} to {1e3 * (goal.width + outer):.1f} mm: there is "
+                "no object between them, or another one than expected."
             )
 
     def _command(self, goal, result, cancelled):
@@ -182,7 +202,8 @@ class GripperNode:
         width, effort = 2.0 * goal.command.position, goal.command.max_effort
         self._check_width(width)
         check(math.isfinite(effort), "max_effort must be a number.")
-        if abs(width - state.width) >= ARRIVED:
+        # Fingers that another command moves are not there, wherever they are.
+        if self._hand.busy or abs(width - state.width) >= ARRIVED:
             if abs(effort) < NO_EFFORT or width >= state.width:
 
                 def command(gripper):
@@ -203,7 +224,7 @@ class GripperNode:
                 f"The fingers did not reach {1e3 * width:.1f} mm: something is in their way, or there is "
                 "nothing to grasp.",
             )
-        result.position = self._hand.state.width
+        result.position = self._hand.next_state().width
         result.effort = 0.0
         result.stalled = False
         result.reached_goal = True
@@ -216,13 +237,15 @@ class GripperNode:
         )
         rate = rospy.Rate(self._parameters.publish_rate)
         while not self._ended.is_set() and not rospy.is_shutdown():
-            message.header.stamp = rospy.Time.now()
-            message.position = [0.5 * self._hand.state.width] * 2
-            self._publisher.publish(message)
             try:
+                # Old widths under a new time would be lies.
+                if self._hand.age < SILENCE:
+                    message.header.stamp = rospy.Time.now()
+                    message.position = [0.5 * self._hand.state.width] * 2
+                    self._publisher.publish(message)
                 rate.sleep()
-            except rospy.ROSInterruptException:
-                return
+            except (rospy.ROSInterruptException, rospy.ROSException):
+                return  # the node ends
 
 
 def connect(parameters, pyfranka):
@@ -254,4 +277,9 @@ def main():
     node = GripperNode(parameters, hand)
     rospy.spin()
     node.shutdown()
+    if node.busy:
+        # A hand goes on with what it does; the thread that waits for it must not return into an
+        # interpreter that is gone.
+        logging.shutdown()
+        os._exit(0)
     return 0

@@ -10,17 +10,22 @@ class Interrupted(Exception):
     """The command was ended by another one, or by its own caller."""
 
 
+class Stopped(Exception):
+    """The command was ended by `Hand.stop`."""
+
+
 class Hand:
     """Follows the state of a gripper and carries out its commands.
 
     Waiting for the end of a command blocks only the thread that asked for it. A new command ends the
-    one that runs, as `interrupt` does; the one that waited for it then gets Interrupted.
+    one that runs; the one that waited for it then gets Interrupted, or Stopped after `stop`.
 
     `connect` makes the connection, an object like pyfranka.Gripper; it is called again, once a second,
     after the connection was lost.
     """
 
     POLL = 0.01  # [s] between looks at whether a command shall end
+    WORD = 0.5  # [s] longest wait for a new state, of which the hand sends thirty a second
     RETRY = 1.0  # [s] between attempts to connect
 
     def __init__(self, connect, report=print):
@@ -29,11 +34,12 @@ class Hand:
         self._gripper = connect()
         self._state = self._gripper.read_once()
         self._fresh = time.monotonic()
+        self._arrived = threading.Condition()  # told of every state
         self._ended = threading.Event()
-        self._lock = threading.Lock()  # for the two below
-        self._busy = False
-        self._tickets = 0
-        self._idle = threading.Condition(self._lock)
+        self._idle = threading.Condition()  # guards what follows
+        self._busy = False  # the hand has a command
+        self._asked = 0  # counts commands and stops; a command ends when it is no longer the newest
+        self._stopped = 0  # what `_asked` was at the last stop
         self._reader = threading.Thread(target=self._follow, daemon=True)
         self._reader.start()
 
@@ -52,12 +58,26 @@ class Hand:
         """Since the newest state arrived [s]."""
         return time.monotonic() - self._fresh
 
+    @property
+    def busy(self):
+        """Whether a command is under way."""
+        return self._busy
+
+    def next_state(self):
+        """A state that arrived after this call; the newest one when the hand says nothing any more."""
+        asked = time.monotonic()
+        with self._arrived:
+            self._arrived.wait_for(lambda: self._fresh > asked, self.WORD)
+            return self._state
+
     def _follow(self):
         lost = False
         while not self._ended.is_set():
             try:
-                self._state = self._gripper.read_once()
-                self._fresh = time.monotonic()
+                state = self._gripper.read_once()
+                with self._arrived:
+                    self._state, self._fresh = state, time.monotonic()
+                    self._arrived.notify_all()
                 lost = False
             except Exception as error:
                 if not lost:
@@ -76,57 +96,65 @@ class Hand:
 
     def stop(self):
         """Ends the command that runs and the force of a grasp. Returns whether the hand did."""
+        with self._idle:
+            self._asked += 1
+            self._stopped = self._asked
         return self._gripper.stop()
-
-    def interrupt(self):
-        """Ends the command that runs, if one does."""
-        with self._lock:
-            self._tickets += 1
-            busy = self._busy
-        if busy:
-            self._gripper.stop()
 
     def run(self, command, cancelled=lambda: False):
         """Carries out command(gripper) and returns what it returns.
 
-        Another command that runs is ended first. Raises Interrupted when this one was ended before it
-        was through, and what the command raises otherwise. `cancelled` is asked now and then whether to
-        end it.
+        Another command that runs is ended first. Raises Interrupted or Stopped when this one was ended
+        before it was through, and what the command raises otherwise. `cancelled` is asked now and then
+        whether to end it.
         """
-        self.interrupt()
-        with self._lock:
-            ticket = self._tickets
-            while self._busy:
-                self._idle.wait(self.POLL)
-                if self._tickets != ticket or cancelled():
-                    raise Interrupted()
-            self._busy = True
-        try:
-            return self._await(command, ticket, cancelled)
-        finally:
-            with self._lock:
-                self._busy = False
-                self._idle.notify_all()
+        with self._idle:
+            self._asked += 1
+            ticket = self._asked
 
-    def _await(self, command, ticket, cancelled):
+            def end():
+                return self._asked != ticket or cancelled()
+
+            while self._busy and not end():
+                self._idle.wait(self.POLL)
+            if end():
+                raise self._reason(ticket)
+            self._busy = True
         outcome = {}
         done = threading.Event()
-
-        def work():
-            try:
-                outcome["result"] = command(self._gripper)
-            except Exception as error:
-                outcome["error"] = error
-            done.set()
-
-        threading.Thread(target=work, daemon=True).start()
-        stopped = False
-        while not done.wait(self.POLL):
-            if not stopped and cancelled():
-                self._gripper.stop()
-                stopped = True
-        if stopped or (self._tickets != ticket and "error" in outcome):
-            raise Interrupted()
+        threading.Thread(target=self._work, args=(command, outcome, done), daemon=True).start()
+        stopped = self._await(done, end)
+        if stopped and outcome.get("result") is None:
+            raise self._reason(ticket)
         if "error" in outcome:
             raise outcome["error"]
         return outcome["result"]
+
+    def _reason(self, ticket):
+        """Why the command with this ticket has to end."""
+        return Stopped() if self._stopped > ticket else Interrupted()
+
+    def _work(self, command, outcome, done):
+        try:
+            outcome["result"] = command(self._gripper)
+        except Exception as error:
+            outcome["error"] = error
+        with self._idle:
+            self._busy = False
+            self._idle.notify_all()
+        done.set()
+
+    def _await(self, done, end):
+        """Waits for the end of a command; returns whether it was asked for.
+
+        A stop may reach the hand before the command does, or be lost with the connection: it is repeated.
+        """
+        stopped = False
+        while not done.wait(self.POLL):
+            if end():
+                stopped = True
+                try:
+                    self._gripper.stop()
+                except Exception:
+                    done.wait(self.POLL)  # what the command raises says why
+        return stopped or end()
