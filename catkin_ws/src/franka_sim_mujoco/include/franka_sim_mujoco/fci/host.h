@@ -124,10 +124,10 @@ class Host {
   Clock::duration period_;
   Clock::time_point deadline_;
   bool spin_;
+  int starts_shown_{0};  // states sent to a client that is to begin
   Clock::time_point published_at_{};
   std::uint64_t unpublished_ticks_{1};
   std::uint64_t rolling_{0};
-  int starts_shown_{0};  // states sent to a client that is to begin
   std::uint64_t ticks_{0};
 };
 
