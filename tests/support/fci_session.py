@@ -74,7 +74,13 @@ def go_first(pid: int = 0) -> None:
     """Gives a process (0: this thread) the place before other work that a robot's clients are told to take,
     where the system allows it: what is tested is the network, not the machine's load."""
     with suppress(PermissionError, ProcessLookupError):
-        os.sched_setscheduler(pid, os.SCHED_FIFO, os.sched_param(50))
+        os.sched_setscheduler(pid, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(50))
+
+
+def go_with_all(pid: int = 0) -> None:
+    """Back to where it was before `go_first`."""
+    with suppress(PermissionError, ProcessLookupError):
+        os.sched_setscheduler(pid, os.SCHED_OTHER, os.sched_param(0))
 
 
 class ClientProcess:
