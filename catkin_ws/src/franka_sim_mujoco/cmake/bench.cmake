@@ -15,3 +15,7 @@ target_link_libraries(physics_bench franka_sim_physics ${MUJOCO_LIBRARY} benchma
 target_compile_definitions(physics_bench PRIVATE
   FRANKA_SIM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/physics/data"
   FRANKA_SIM_WORLDS="${CMAKE_CURRENT_SOURCE_DIR}/worlds")
+
+# A client of a running franka_sim; bench/run.py starts both.
+add_executable(client_of_franka_sim_bench bench/client_of_franka_sim_bench.cpp)
+target_link_libraries(client_of_franka_sim_bench Franka::Franka)
