@@ -64,3 +64,8 @@ foreach(name simulation parameters)
   add_rostest(test/ros/${name}.test DEPENDENCIES
     franka_sim_mujoco_node franka_hw_sim franka_gripper_sim)
 endforeach()
+# Panda and FR3, and names that say nothing of the robot.
+foreach(robot panda fr3)
+  add_rostest(test/ros/interfaces.test ARGS robot:=${robot} arm_id:=my_${robot}
+    DEPENDENCIES franka_sim_mujoco_node franka_hw_sim)
+endforeach()

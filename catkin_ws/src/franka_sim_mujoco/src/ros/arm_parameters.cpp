@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
 
@@ -127,6 +128,23 @@ std::string readArmId(const ros::NodeHandle& node, const std::string& robot_name
                                 " is empty; it must be the prefix of the arm's joint names.");
   }
   return arm_id;
+}
+
+std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std::string& arm_id,
+                                         const std::array<double, 7>& fallback) {
+  std::array<double, 7> stiffness = fallback;
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    const std::string name =
+        "motion_generators/position/gains/" + arm_id + "_joint" + std::to_string(i + 1) + "/p";
+    stiffness[i] = readNumber(node, name).value_or(stiffness[i]);
+  }
+  if (!isJointStiffness(stiffness)) {
+    throw std::invalid_argument(
+        "The parameters " +
+        node.resolveName("motion_generators/position/gains/" + arm_id + "_joint<1 to 7>/p") +
+        " are stiffnesses; they must lie between 0 and 14250 Nm/rad.");
+  }
+  return stiffness;
 }
 
 ControlUnitParameters readArmParameters(const ros::NodeHandle& node, const std::string& urdf,

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <controller_manager_msgs/ListControllers.h>
 #include <controller_manager_msgs/SwitchController.h>
+#include <franka_msgs/SetCartesianImpedance.h>
 #include <franka_msgs/SetEEFrame.h>
 #include <franka_msgs/SetForceTorqueCollisionBehavior.h>
+#include <franka_msgs/SetFullCollisionBehavior.h>
+#include <franka_msgs/SetJointImpedance.h>
 #include <franka_msgs/SetKFrame.h>
 #include <franka_msgs/SetLoad.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
@@ -11,6 +14,7 @@
 #include <ros/console.h>
 #include <ros/service.h>
 #include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -21,7 +25,10 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr char kLog[] = "franka_hw_sim";
-constexpr double kSwitchTimeout = 3.0;  ///< [s]
+constexpr double kSwitchTimeout = 3.0;     ///< [s]
+constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit gives up after 5 s of its own
+constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
+constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
 constexpr char kNotATransform[] =
     " is not a column-major 4x4 transform: its bottom row (entries 4, 8, 12 and 16) must be 0 0 0 "
     "1 and its "
@@ -35,47 +42,37 @@ std::array<double, N> toArray(const Array& values) {
   return result;
 }
 
+/// @throws std::runtime_error with a sentence for the first threshold that makes no sense
+CollisionThresholds checked(const CollisionThresholds& thresholds, const std::string& phase) {
+  const std::string fault = checkThresholds(thresholds);
+  if (!fault.empty()) {
+    throw std::runtime_error(phase + fault);
+  }
+  return thresholds;
+}
+
 }  // namespace
 
 ArmServices::ArmServices(const ros::NodeHandle& node, const std::string& arm_id, SimArm& arm,
-                         BetweenTicks between_ticks, bool restart_controllers)
+                         BetweenTicks between_ticks, PlaceJoint place_joint,
+                         bool restart_controllers)
     : node_(node),
       control_node_(node, "franka_control"),
       arm_id_(arm_id),
       arm_(arm),
       between_ticks_(std::move(between_ticks)),
+      place_joint_(std::move(place_joint)),
       restart_controllers_(restart_controllers),
       recovery_(
           control_node_, "error_recovery",
           [this](const franka_msgs::ErrorRecoveryGoalConstPtr& /*goal*/) { recover(); }, false) {
-  offer<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
-    check(arm_.unit().setEE(toArray<16>(request.NE_T_EE)), std::string("NE_T_EE") + kNotATransform);
-  });
-  offer<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
-    check(arm_.unit().setK(toArray<16>(request.EE_T_K)), std::string("EE_T_K") + kNotATransform);
-  });
-  offer<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
-    const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
-                                    toArray<9>(request.load_inertia)};
-    check(arm_.unit().setLoad(load),
-          "The load must be finite, its mass not negative, and its inertia a symmetric matrix that "
-          "is not "
-          "negative.");
-  });
-  offer<franka_msgs::SetForceTorqueCollisionBehavior>(
-      "set_force_torque_collision_behavior", [this](const auto& request) {
-        const CollisionThresholds thresholds{toArray<7>(request.lower_torque_thresholds_nominal),
-                                             toArray<7>(request.upper_torque_thresholds_nominal),
-                                             toArray<6>(request.lower_force_thresholds_nominal),
-                                             toArray<6>(request.upper_force_thresholds_nominal)};
-        const std::string fault = checkThresholds(thresholds);
-        if (!fault.empty()) {
-          throw std::runtime_error(fault);
-        }
-        check(arm_.unit().setCollisionBehavior(thresholds, thresholds),
-              "The thresholds must be finite and not negative.");
-      });
+  offerFrames();
+  offerCollisionBehavior();
+  offerImpedances();
   offerUserStop();
+  offerConnection("connect", true);
+  offerConnection("disconnect", false);
+  offerConfiguration();
   recovery_.start();
 }
 
@@ -106,6 +103,67 @@ void ArmServices::offer(const std::string& name,
   servers_.push_back(control_node_.advertiseService<Request, Response>(name, callback));
 }
 
+// --- configuration -------------------------------------------------------------------------------
+
+void ArmServices::offerFrames() {
+  offer<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
+    check(arm_.unit().setEE(toArray<16>(request.NE_T_EE)), std::string("NE_T_EE") + kNotATransform);
+  });
+  offer<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
+    check(arm_.unit().setK(toArray<16>(request.EE_T_K)), std::string("EE_T_K") + kNotATransform);
+  });
+  offer<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
+    const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
+                                    toArray<9>(request.load_inertia)};
+    check(arm_.unit().setLoad(load),
+          "The load must be finite, its mass not negative, and its inertia a symmetric matrix that "
+          "is not negative.");
+  });
+}
+
+void ArmServices::offerCollisionBehavior() {
+  offer<franka_msgs::SetForceTorqueCollisionBehavior>(
+      "set_force_torque_collision_behavior", [this](const auto& request) {
+        const CollisionThresholds thresholds =
+            checked({toArray<7>(request.lower_torque_thresholds_nominal),
+                     toArray<7>(request.upper_torque_thresholds_nominal),
+                     toArray<6>(request.lower_force_thresholds_nominal),
+                     toArray<6>(request.upper_force_thresholds_nominal)},
+                    "");
+        check(arm_.unit().setCollisionBehavior(thresholds, thresholds), kNotThresholds);
+      });
+  offer<franka_msgs::SetFullCollisionBehavior>(
+      "set_full_collision_behavior", [this](const auto& request) {
+        const CollisionThresholds acceleration =
+            checked({toArray<7>(request.lower_torque_thresholds_acceleration),
+                     toArray<7>(request.upper_torque_thresholds_acceleration),
+                     toArray<6>(request.lower_force_thresholds_acceleration),
+                     toArray<6>(request.upper_force_thresholds_acceleration)},
+                    "Acceleration phase: ");
+        const CollisionThresholds nominal =
+            checked({toArray<7>(request.lower_torque_thresholds_nominal),
+                     toArray<7>(request.upper_torque_thresholds_nominal),
+                     toArray<6>(request.lower_force_thresholds_nominal),
+                     toArray<6>(request.upper_force_thresholds_nominal)},
+                    "Nominal phase: ");
+        check(arm_.unit().setCollisionBehavior(acceleration, nominal), kNotThresholds);
+      });
+}
+
+void ArmServices::offerImpedances() {
+  offer<franka_msgs::SetJointImpedance>("set_joint_impedance", [this](const auto& request) {
+    check(arm_.unit().setJointImpedance(toArray<7>(request.joint_stiffness)),
+          "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
+  });
+  offer<franka_msgs::SetCartesianImpedance>("set_cartesian_impedance", [this](const auto& request) {
+    check(arm_.unit().setCartesianImpedance(toArray<6>(request.cartesian_stiffness)),
+          "cartesian_stiffness must hold three numbers from 10 to 3000 N/m and three from 1 to 300 "
+          "Nm/rad.");
+  });
+}
+
+// --- hands on the robot --------------------------------------------------------------------------
+
 void ArmServices::offerUserStop() {
   using Request = std_srvs::SetBool::Request;
   using Response = std_srvs::SetBool::Response;
@@ -128,6 +186,93 @@ void ArmServices::offerUserStop() {
   servers_.push_back(control_node_.advertiseService<Request, Response>("set_user_stop", callback));
 }
 
+void ArmServices::offerConnection(const std::string& name, bool connects) {
+  using Request = std_srvs::Trigger::Request;
+  using Response = std_srvs::Trigger::Response;
+  const boost::function<bool(Request&, Response&)> callback = [this, connects](Request& /*request*/,
+                                                                               Response& response) {
+    try {
+      between_ticks_([&] {
+        if (arm_.connected() == connects) {
+          throw std::runtime_error(connects ? "The arm is connected already."
+                                            : "The arm is disconnected already.");
+        }
+        if (arm_.setConnected(connects) != RequestStatus::kSuccess) {
+          throw std::runtime_error(
+              "A controller commands the arm: stop it (controller_manager/switch_controller) "
+              "before disconnecting.");
+        }
+      });
+      response.success = true;
+    } catch (const std::exception& error) {
+      response.success = false;
+      response.message = error.what();
+    }
+    return true;
+  };
+  servers_.push_back(control_node_.advertiseService<Request, Response>(name, callback));
+}
+
+// --- another configuration of the joints ---------------------------------------------------------
+
+void ArmServices::offerConfiguration() {
+  using Request = franka_msgs::SetJointConfiguration::Request;
+  using Response = franka_msgs::SetJointConfiguration::Response;
+  const std::string name = "set_franka_model_configuration";
+  const boost::function<bool(Request&, Response&)> callback = [this, name](Request& request,
+                                                                           Response& response) {
+    try {
+      placeJoints(request);
+      response.success = true;
+    } catch (const std::exception& error) {
+      ROS_ERROR_NAMED(kLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), error.what());
+      response.success = false;
+      response.error = error.what();
+    }
+    return true;
+  };
+  servers_.push_back(node_.advertiseService<Request, Response>(name, callback));
+}
+
+void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request& request) {
+  const std::vector<std::string>& names = request.joint_names;
+  if (names.empty() || (names.size() == 1 && names.front().empty())) {
+    throw std::runtime_error("No joints are named in joint_names.");
+  }
+  if (names.size() != request.joint_positions.size()) {
+    throw std::runtime_error("joint_names holds " + std::to_string(names.size()) +
+                             " names, but joint_positions " +
+                             std::to_string(request.joint_positions.size()) + " positions.");
+  }
+  std::vector<std::string> complaints;
+  between_ticks_([&] {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      try {
+        place_joint_(names[i], request.joint_positions[i]);
+      } catch (const std::exception& error) {
+        complaints.emplace_back(error.what());
+      }
+    }
+    if (restart_controllers_) {
+      arm_.jointsWerePlaced();
+    } else {
+      arm_.worldWasReset();
+    }
+  });
+  for (const std::string& complaint : complaints) {
+    ROS_WARN_NAMED(kLog, "%s: set_franka_model_configuration: %s", arm_id_.c_str(),
+                   complaint.c_str());
+  }
+  if (complaints.size() == names.size()) {
+    throw std::runtime_error("No joint could be put anywhere. " + complaints.front());
+  }
+  if (restart_controllers_) {
+    restartArmControllers();
+  }
+}
+
+// --- recovery ------------------------------------------------------------------------------------
+
 void ArmServices::check(RequestStatus status, const std::string& why_invalid) {
   switch (status) {
     case RequestStatus::kSuccess:
@@ -135,9 +280,13 @@ void ArmServices::check(RequestStatus status, const std::string& why_invalid) {
     case RequestStatus::kInvalidArgument:
       throw std::runtime_error(why_invalid);
     case RequestStatus::kNotPossible:
-      throw std::runtime_error("This cannot be done in the arm's present mode (" +
-                               std::to_string(static_cast<int>(arm_.state().robot_mode)) +
-                               " in franka_msgs/FrankaState).");
+      throw std::runtime_error(
+          arm_.unit().state().robot_mode == franka_core::RobotMode::kMove
+              ? "This cannot be done while a controller moves the arm: stop that controller "
+                "(controller_manager/switch_controller), then try again."
+              : "This cannot be done in the arm's present mode (" +
+                    std::to_string(static_cast<int>(arm_.unit().state().robot_mode)) +
+                    " in franka_msgs/FrankaState).");
   }
 }
 
@@ -161,8 +310,30 @@ void ArmServices::recoverUnit() {
           "The user stop is pressed: release it (service franka_control/set_user_stop) before "
           "recovering.");
     }
-    check(arm_.recover(), "");
+    if (arm_.recover() != RequestStatus::kSuccess) {
+      throw std::runtime_error(
+          "The arm cannot recover by itself: it stands beyond a joint limit or is led by hand. Put "
+          "it elsewhere (service set_franka_model_configuration).");
+    }
   });
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(kRecoveryTimeout);
+  while (recovering()) {
+    if (ros::WallTime::now() > deadline) {
+      throw std::runtime_error("The recovery did not end within " +
+                               std::to_string(static_cast<int>(kRecoveryTimeout)) +
+                               " s. Is the simulation paused?");
+    }
+    ros::WallDuration(kRecoveryPoll).sleep();
+  }
+  if (arm_.needsRecovery()) {
+    throw std::runtime_error("The arm did not come to rest: the recovery has failed.");
+  }
+}
+
+bool ArmServices::recovering() {
+  bool recovering = false;
+  between_ticks_([&] { recovering = arm_.recovering(); });
+  return recovering;
 }
 
 std::vector<std::string> ArmServices::runningArmControllers() {
@@ -178,7 +349,8 @@ std::vector<std::string> ArmServices::runningArmControllers() {
     bool commands_arm = false;
     for (const auto& claim : controller.claimed_resources) {
       for (const std::string& resource : claim.resources) {
-        commands_arm = commands_arm || resource.rfind(arm_id_ + "_joint", 0) == 0;
+        commands_arm = commands_arm || resource.rfind(arm_id_ + "_joint", 0) == 0 ||
+                       resource == arm_id_ + "_robot";
       }
     }
     if (controller.state == "running" && commands_arm) {
@@ -201,9 +373,8 @@ void ArmServices::restartArmControllers() {
   restart.request.start_asap = true;
   restart.request.timeout = kSwitchTimeout;
   if (!ros::service::call(service, restart) || !restart.response.ok) {
-    throw std::runtime_error(
-        "The arm has recovered but its controllers could not be restarted by " + service +
-        ". Is the simulation paused? Restart them by hand.");
+    throw std::runtime_error("The arm is ready but its controllers could not be restarted by " +
+                             service + ". Is the simulation paused? Restart them by hand.");
   }
 }
 

@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/lowpass_filter.h>
+#include <franka_core/error_names.h>
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/controller_check.h>
@@ -10,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -21,13 +22,11 @@ namespace {
 constexpr char kLog[] = "franka_hw_sim";
 constexpr double kDefaultTauExtLowpassFilter = 1.0;
 constexpr double kReportPeriod = 1.0;  ///< [s]
+/// Whose limits hold (decision 25).
+constexpr unsigned kPandaProtocol = 5, kFr3Protocol = 10;
 
+using franka_hw::ControlMode;
 using transmission_interface::TransmissionInfo;
-
-/// Names with and without the package in front are both in use.
-bool namesInterface(const std::string& found, const std::string& wanted) {
-  return found == wanted || found == "hardware_interface/" + wanted;
-}
 
 double readFilter(const ros::NodeHandle& node) {
   const double alpha =
@@ -38,6 +37,49 @@ double readFilter(const ros::NodeHandle& node) {
                                 "; it must lie between 0 (nothing passes) and 1 (no filter).");
   }
   return alpha;
+}
+
+double readCutoff(const ros::NodeHandle& node) {
+  const double cutoff =
+      readNumber(node, "cutoff_frequency").value_or(franka::kDefaultCutoffFrequency);
+  if (!(cutoff > 0.0)) {
+    throw std::invalid_argument("The parameter " + node.resolveName("cutoff_frequency") + " is " +
+                                std::to_string(cutoff) +
+                                " Hz; it must be positive (from 1000 on nothing is filtered).");
+  }
+  return cutoff;
+}
+
+franka_core::ControllerMode readController(const ros::NodeHandle& node) {
+  const std::string name = readString(node, "internal_controller").value_or("joint_impedance");
+  if (name == "joint_impedance") {
+    return franka_core::ControllerMode::kJointImpedance;
+  }
+  if (name == "cartesian_impedance") {
+    return franka_core::ControllerMode::kCartesianImpedance;
+  }
+  throw std::invalid_argument("The parameter " + node.resolveName("internal_controller") + " is '" +
+                              name + "'; it must be joint_impedance or cartesian_impedance.");
+}
+
+SimArmOptions readOptions(const ros::NodeHandle& node, bool reflexes) {
+  SimArmOptions options;
+  options.filter_alpha = readFilter(node);
+  options.shaping.rate_limiting = readBool(node, "rate_limiting").value_or(true);
+  options.shaping.cutoff_frequency = readCutoff(node);
+  options.shaping.torques = reflexes;
+  options.internal_controller = readController(node);
+  return options;
+}
+
+std::string namesOfErrors(std::uint64_t errors) {
+  std::string names;
+  for (std::size_t i = 0; i < franka_core::kErrorNames.size(); ++i) {
+    if ((errors >> i & 1) != 0) {
+      names += (names.empty() ? "" : ", ") + std::string(franka_core::kErrorNames[i]);
+    }
+  }
+  return names;
 }
 
 /// The world's gravity in the axes of the arm's base.
@@ -81,12 +123,17 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   ControlUnitParameters parameters =
       readArmParameters(node, robot.urdf, arm_id_, model.getLink(arm_id_ + "_hand") != nullptr,
                         gravityInBase(world, arm_id_ + "_link0"));
+  parameters.protocol_version = model.getName() == "fr3" ? kFr3Protocol : kPandaProtocol;
+  parameters.has_hand = has_hand;
   parameters.setters_in_motion = true;
+  parameters.reflexes = readBool(node, "reflexes").value_or(false);
   parameters.substeps = World::kSubsteps;
   parameters.rotor_inertia = robot.arm_physics.rotor_inertia;
   parameters.coulomb_friction = robot.arm_physics.coulomb_friction;
   parameters.viscous_friction = robot.arm_physics.damping;
-  arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_), readFilter(node));
+  arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_),
+                                  readOptions(node, parameters.reflexes));
+  arm_->unit().setJointImpedance(readJointStiffness(node, arm_id_, parameters.joint_stiffness));
   hand_ = has_hand ? &world.hand(robot.name, arm_id_) : nullptr;
 
   singularity_threshold_ = readNumber(node, "singularity_warning_threshold").value_or(-1.0);
@@ -95,11 +142,18 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   }
   checkComplete();
   registerAll();
+  registerLimits(model);
 
   const bool restart_controllers =
       readBool(node, "restart_controllers_after_recovery").value_or(true);
-  services_ =
-      std::make_unique<ArmServices>(node, arm_id_, *arm_, robot.between_ticks, restart_controllers);
+  const PlaceJoint place_joint = [this, &world](const std::string& joint, double position) {
+    if (findJoint(joint) == nullptr) {
+      throw std::runtime_error("'" + joint + "' is no joint of the arm or its hand.");
+    }
+    world.setJointPosition(joint, position);
+  };
+  services_ = std::make_unique<ArmServices>(node, arm_id_, *arm_, robot.between_ticks, place_joint,
+                                            restart_controllers);
   initialized_ = std::make_unique<realtime_tools::RealtimePublisher<std_msgs::Bool>>(
       node, "initialized", 1, true);
   publishInitialized(false);
@@ -120,140 +174,6 @@ void FrankaHWSim::nameJoints(const urdf::Model& model, bool has_hand) {
     joints_[kArmJoints].name = arm_id_ + "_finger_joint1";
     joints_[kArmJoints + 1].name = arm_id_ + "_finger_joint2";
   }
-}
-
-FrankaHWSim::Joint* FrankaHWSim::findJoint(const std::string& name) {
-  const auto joint = std::find_if(joints_.begin(), joints_.end(),
-                                  [&](const Joint& candidate) { return candidate.name == name; });
-  return joint == joints_.end() || name.empty() ? nullptr : &*joint;
-}
-
-void FrankaHWSim::addTransmission(const TransmissionInfo& transmission, const urdf::Model& model) {
-  if (transmission.type_ == "transmission_interface/SimpleTransmission") {
-    addJoint(transmission, model);
-  } else if (transmission.type_ == "franka_hw/FrankaStateInterface") {
-    addState(transmission, model);
-  } else if (transmission.type_ == "franka_hw/FrankaModelInterface") {
-    addModel(transmission, model);
-  } else {
-    ROS_WARN_NAMED(kLog,
-                   "%s: the transmission '%s' has the type '%s', which is not simulated: ignored.",
-                   arm_id_.c_str(), transmission.name_.c_str(), transmission.type_.c_str());
-  }
-}
-
-void FrankaHWSim::addJoint(const TransmissionInfo& transmission, const urdf::Model& model) {
-  if (transmission.joints_.size() != 1) {
-    throw std::invalid_argument("the transmission '" + transmission.name_ +
-                                "' must have one joint but has " +
-                                std::to_string(transmission.joints_.size()) + ".");
-  }
-  const auto& info = transmission.joints_.front();
-  Joint* joint = findJoint(info.name_);
-  if (joint == nullptr) {
-    if (!model.getJoint(info.name_)) {
-      throw std::invalid_argument("the transmission '" + transmission.name_ +
-                                  "' names the joint '" + info.name_ +
-                                  "', which the URDF does not have.");
-    }
-    ROS_WARN_NAMED(kLog,
-                   "%s: the joint '%s' of the transmission '%s' is none of this arm's: ignored.",
-                   arm_id_.c_str(), info.name_.c_str(), transmission.name_.c_str());
-    return;
-  }
-  joint->has_state = true;
-  for (const std::string& interface : info.hardware_interfaces_) {
-    if (namesInterface(interface, "EffortJointInterface")) {
-      joint->has_effort = true;
-    } else if (namesInterface(interface, "PositionJointInterface") ||
-               namesInterface(interface, "VelocityJointInterface")) {
-      ROS_DEBUG_NAMED(kLog, "%s: %s is not simulated.", info.name_.c_str(), interface.c_str());
-    } else if (!namesInterface(interface, "JointStateInterface")) {
-      ROS_WARN_NAMED(kLog, "%s: the hardware interface '%s' of the joint '%s' is unknown: ignored.",
-                     arm_id_.c_str(), interface.c_str(), info.name_.c_str());
-    }
-  }
-}
-
-void FrankaHWSim::addState(const TransmissionInfo& transmission, const urdf::Model& model) {
-  std::set<std::string> names;
-  for (const auto& joint : transmission.joints_) {
-    if (!model.getJoint(joint.name_)) {
-      throw std::invalid_argument("the transmission '" + transmission.name_ +
-                                  "' names the joint '" + joint.name_ +
-                                  "', which the URDF does not have.");
-    }
-    names.insert(joint.name_);
-  }
-  if (transmission.joints_.size() != kArmJoints || names.size() != kArmJoints) {
-    throw std::invalid_argument(
-        "the transmission '" + transmission.name_ +
-        "' (franka_hw/FrankaStateInterface) must have the arm's 7 joints but has " +
-        std::to_string(transmission.joints_.size()) + ".");
-  }
-  franka_states_.registerHandle(franka_hw::FrankaStateHandle(arm_id_ + "_robot", arm_->state()));
-}
-
-void FrankaHWSim::addModel(const TransmissionInfo& transmission, const urdf::Model& model) {
-  const std::string who =
-      "the transmission '" + transmission.name_ + "' (franka_hw/FrankaModelInterface) ";
-  if (transmission.joints_.size() != 2) {
-    throw std::invalid_argument(who +
-                                "must have two joints, with the roles root and tip, but has " +
-                                std::to_string(transmission.joints_.size()) + ".");
-  }
-  const auto jointOfRole = [&](const std::string& role) {
-    for (const auto& joint : transmission.joints_) {
-      if (joint.role_ == role) {
-        const auto found = model.getJoint(joint.name_);
-        if (!found) {
-          throw std::invalid_argument(who + "names the joint '" + joint.name_ +
-                                      "', which the URDF does not have.");
-        }
-        return found;
-      }
-    }
-    throw std::invalid_argument(who + "has no joint with the role '" + role + "'.");
-  };
-  const std::string root = jointOfRole("root")->parent_link_name;
-  const std::string tip = jointOfRole("tip")->child_link_name;
-  model_ = std::make_unique<franka_hw::ModelKDL>(model, root, tip, singularity_threshold_);
-  franka_models_.registerHandle(
-      franka_hw::FrankaModelHandle(arm_id_ + "_model", *model_, arm_->state()));
-}
-
-void FrankaHWSim::checkComplete() const {
-  for (std::size_t i = 0; i < kArmJoints; ++i) {
-    if (!joints_[i].has_effort) {
-      throw std::invalid_argument(
-          "its URDF declares no transmission with an EffortJointInterface for '" + joints_[i].name +
-          "'. Was it made with the xacro argument gazebo:=true?");
-    }
-  }
-  if (franka_states_.getNames().size() != 1 || !model_) {
-    throw std::invalid_argument(
-        "its URDF must declare one transmission of the type franka_hw/FrankaStateInterface and one "
-        "of the "
-        "type franka_hw/FrankaModelInterface. Was it made with the xacro argument gazebo:=true?");
-  }
-}
-
-void FrankaHWSim::registerAll() {
-  for (Joint& joint : joints_) {
-    if (!joint.has_state) {
-      continue;
-    }
-    joint_states_.registerHandle(hardware_interface::JointStateHandle(
-        joint.name, &joint.position, &joint.velocity, &joint.effort));
-    if (joint.has_effort) {
-      efforts_.registerHandle(
-          hardware_interface::JointHandle(joint_states_.getHandle(joint.name), &joint.command));
-    }
-  }
-  registerInterface(&joint_states_);
-  registerInterface(&efforts_);
-  registerInterface(&franka_states_);
-  registerInterface(&franka_models_);
 }
 
 void FrankaHWSim::readSim(ros::Time time, ros::Duration /*period*/) {
@@ -277,12 +197,9 @@ void FrankaHWSim::readSim(ros::Time time, ros::Duration /*period*/) {
   }
 }
 
-void FrankaHWSim::writeSim(ros::Time /*time*/, ros::Duration /*period*/) {
-  std::array<double, kArmJoints> torque;
-  for (std::size_t i = 0; i < kArmJoints; ++i) {
-    torque[i] = joints_[i].command;
-  }
-  arm_->write(torque);
+void FrankaHWSim::writeSim(ros::Time /*time*/, ros::Duration period) {
+  holdJointLimits(period);
+  arm_->write();
   if (hand_ != nullptr) {
     std::array<double, 2> force{};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -295,9 +212,17 @@ void FrankaHWSim::writeSim(ros::Time /*time*/, ros::Duration /*period*/) {
 
 void FrankaHWSim::worldWasReset() {
   arm_->worldWasReset();
+  position_limits_.reset();
   for (Joint& joint : joints_) {
     joint.command = 0.0;
   }
+}
+
+// --- controllers come and go ---------------------------------------------------------------------
+
+bool FrankaHWSim::checkForConflict(
+    const std::list<hardware_interface::ControllerInfo>& controllers) const {
+  return conflict(controllers, arm_id_);
 }
 
 bool FrankaHWSim::prepareSwitch(
@@ -310,35 +235,57 @@ bool FrankaHWSim::prepareSwitch(
       return false;
     }
   }
-  if (arm_->userStopped() && anyCommandsArm(start_list, arm_id_)) {
+  if (claimedMode(start_list, arm_id_) == ControlMode::None) {
+    return true;
+  }
+  if (!arm_->connected()) {
+    ROS_ERROR_NAMED(kLog,
+                    "%s: controllers cannot be started while the arm is disconnected: call the "
+                    "service franka_control/connect first.",
+                    arm_id_.c_str());
+    return false;
+  }
+  if (arm_->userStopped() || arm_->needsRecovery()) {
     ROS_WARN_NAMED(
         kLog,
-        "%s: the user stop is pressed: the controller starts but has no effect before the stop is "
-        "released and franka_control/error_recovery called.",
-        arm_id_.c_str());
+        "%s: %s: the controller starts but has no effect before %sfranka_control/"
+        "error_recovery is called.",
+        arm_id_.c_str(),
+        arm_->userStopped() ? "the user stop is pressed" : "an error has stopped the arm",
+        arm_->userStopped() ? "the stop is released and " : "");
   }
   return true;
 }
 
 void FrankaHWSim::doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                            const std::list<hardware_interface::ControllerInfo>& stop_list) {
-  const bool starts = anyCommandsArm(start_list, arm_id_);
-  const bool stops = anyCommandsArm(stop_list, arm_id_);
-  const bool restarts = start_list.empty() && stop_list.empty();
-  if (starts || stops || restarts) {
-    // The last torque of a controller that went must not act on.
-    for (std::size_t i = 0; i < kArmJoints; ++i) {
-      joints_[i].command = 0.0;
-    }
-  }
-  if (stops) {
-    arm_->controlStops();
-  }
-  if (starts) {
-    arm_->controlStarts();
-  } else if (restarts) {
+  const ControlMode starts = claimedMode(start_list, arm_id_);
+  const ControlMode stops = claimedMode(stop_list, arm_id_);
+  const ControlMode rest = arm_->mode() & ~stops;
+  if (starts != ControlMode::None || stops != ControlMode::None) {
+    position_limits_.reset();
+    arm_->control(rest | starts, rest);
+  } else if (start_list.empty() && stop_list.empty()) {
+    position_limits_.reset();
     arm_->controlRestarts();
   }
+}
+
+FrankaHWSim::SwitchState FrankaHWSim::switchResult() const {
+  switch (arm_->switchResult()) {
+    case SimArm::Switch::kOngoing:
+      return SwitchState::ONGOING;
+    case SimArm::Switch::kRefused:
+      return SwitchState::ERROR;
+    default:
+      return SwitchState::DONE;
+  }
+}
+
+FrankaHWSim::SwitchState FrankaHWSim::switchResult(
+    const hardware_interface::ControllerInfo& controller) const {
+  // Who commands nothing of the arm need not wait for it.
+  return commandsArm(controller, arm_id_) ? switchResult() : SwitchState::DONE;
 }
 
 void FrankaHWSim::publishInitialized(bool initialized) {
@@ -352,12 +299,20 @@ void FrankaHWSim::publishInitialized(bool initialized) {
 void FrankaHWSim::report() {
   const std::uint64_t refused = arm_->refusedCommands();
   if (refused != reported_commands_) {
-    ROS_WARN_NAMED(
-        kLog,
-        "%s: %llu torque commands were not finite numbers and have been ignored: the running "
-        "controller computes NaN or infinity.",
-        arm_id_.c_str(), static_cast<unsigned long long>(refused - reported_commands_));
+    ROS_WARN_NAMED(kLog,
+                   "%s: %llu commands were not finite numbers: the running controller computes NaN "
+                   "or infinity. "
+                   "Such torques are ignored, such motions end.",
+                   arm_id_.c_str(), static_cast<unsigned long long>(refused - reported_commands_));
     reported_commands_ = refused;
+  }
+  const std::uint64_t aborts = arm_->aborts();
+  if (aborts != reported_aborts_) {
+    reported_aborts_ = aborts;
+    ROS_ERROR_NAMED(kLog,
+                    "%s: the motion was ended by the robot: %s. Its controllers have no effect "
+                    "before the action franka_control/error_recovery is called.",
+                    arm_id_.c_str(), namesOfErrors(arm_->lastErrors()).c_str());
   }
   if (model_->takeSingularityWarning()) {
     ROS_WARN_NAMED(kLog,

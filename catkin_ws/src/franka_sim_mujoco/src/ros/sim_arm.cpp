@@ -10,6 +10,10 @@ namespace franka_sim_mujoco {
 
 namespace {
 
+using franka_core::MotionGeneratorMode;
+using franka_core::RobotMode;
+using franka_hw::ControlMode;
+
 template <std::size_t N>
 void smooth(double alpha, std::array<double, N>& filtered, std::array<double, N>& signal) noexcept {
   for (std::size_t i = 0; i < N; ++i) {
@@ -18,24 +22,61 @@ void smooth(double alpha, std::array<double, N>& filtered, std::array<double, N>
   }
 }
 
-bool allFinite(const std::array<double, 7>& values) noexcept {
+template <std::size_t N>
+bool allFinite(const std::array<double, N>& values) noexcept {
   return std::all_of(values.begin(), values.end(),
                      [](double value) { return std::isfinite(value); });
 }
 
+bool allFinite(const franka_core::RobotCommand& command) noexcept {
+  return allFinite(command.tau_J_d) && allFinite(command.q_c) && allFinite(command.dq_c) &&
+         allFinite(command.O_T_EE_c) && allFinite(command.O_dP_EE_c) && allFinite(command.elbow_c);
+}
+
+/// An arm at full speed comes to rest within half a second.
+constexpr int kLongestStop = 2000;  // [ticks]
+
+bool contains(ControlMode mode, ControlMode part) noexcept {
+  return (mode & part) != ControlMode::None;
+}
+
+MotionGeneratorMode generatorOf(ControlMode mode) noexcept {
+  if (contains(mode, ControlMode::JointPosition)) {
+    return MotionGeneratorMode::kJointPosition;
+  }
+  if (contains(mode, ControlMode::JointVelocity)) {
+    return MotionGeneratorMode::kJointVelocity;
+  }
+  if (contains(mode, ControlMode::CartesianPose)) {
+    return MotionGeneratorMode::kCartesianPosition;
+  }
+  if (contains(mode, ControlMode::CartesianVelocity)) {
+    return MotionGeneratorMode::kCartesianVelocity;
+  }
+  return MotionGeneratorMode::kNone;
+}
+
 }  // namespace
 
-SimArm::SimArm(const ControlUnitParameters& parameters, ArmPlant& plant, double filter_alpha)
-    : unit_(parameters), plant_(plant), filter_alpha_(filter_alpha) {
+SimArm::SimArm(const ControlUnitParameters& parameters, ArmPlant& plant,
+               const SimArmOptions& options)
+    : unit_(parameters), plant_(plant), options_(options) {
   unit_.setUserStop(false);
 }
 
+// --- a tick --------------------------------------------------------------------------------------
+
 void SimArm::read(const ros::Time& time) noexcept {
-  franka_core::toFranka(unit_.observe(plant_.measure()), state_);
+  unit_.observe(plant_.measure());
+  if (switch_ == Switch::kOngoing) {
+    tryToStart();
+  }
+  franka_core::toFranka(unit_.state(), state_);
   state_.time = franka::Duration(time.toNSec() / 1000000);
-  if (filter_alpha_ < 1.0) {
+  if (options_.filter_alpha < 1.0) {
     filter();
   }
+  watch();
 }
 
 void SimArm::filter() noexcept {
@@ -45,49 +86,122 @@ void SimArm::filter() noexcept {
     K_F_ext_filtered_ = state_.K_F_ext_hat_K;
     filter_is_fresh_ = false;
   }
-  smooth(filter_alpha_, tau_ext_filtered_, state_.tau_ext_hat_filtered);
-  smooth(filter_alpha_, O_F_ext_filtered_, state_.O_F_ext_hat_K);
-  smooth(filter_alpha_, K_F_ext_filtered_, state_.K_F_ext_hat_K);
+  smooth(options_.filter_alpha, tau_ext_filtered_, state_.tau_ext_hat_filtered);
+  smooth(options_.filter_alpha, O_F_ext_filtered_, state_.O_F_ext_hat_K);
+  smooth(options_.filter_alpha, K_F_ext_filtered_, state_.K_F_ext_hat_K);
 }
 
-void SimArm::write(const std::array<double, 7>& torque) noexcept {
-  const franka_core::RobotCommand* command = nullptr;
-  if (unit_.state().robot_mode == franka_core::RobotMode::kMove) {
-    if (allFinite(torque)) {
-      command_.message_id = unit_.state().message_id;
-      command_.tau_J_d = torque;
-      command = &command_;
-    } else {
-      refused_commands_.fetch_add(1, std::memory_order_relaxed);
-    }
-  }
-  const std::array<double, 7>& motor_torque = unit_.actuate(command);
+void SimArm::write() noexcept {
+  const std::array<double, 7>& motor_torque = unit_.actuate(command());
   plant_.setBrakes(unit_.brakesClosed());
   plant_.applyTorques(motor_torque);
 }
 
+const franka_core::RobotCommand* SimArm::command() noexcept {
+  if (unit_.state().robot_mode != RobotMode::kMove || switch_ == Switch::kOngoing) {
+    return nullptr;
+  }
+  command_ = shapeCommand(options_.shaping, mode_, commands_, unit_.state(), unit_.limits());
+  if (allFinite(command_)) {
+    return &command_;
+  }
+  refused_commands_.fetch_add(1, std::memory_order_relaxed);
+  return generates() ? &command_ : nullptr;
+}
+
+// Tells the other threads how the arm fares.
+void SimArm::watch() noexcept {
+  const bool faulty = unit_.state().robot_mode == RobotMode::kReflex;
+  if (faulty && !faulty_.load(std::memory_order_relaxed)) {
+    std::uint64_t errors = 0;
+    for (std::size_t i = 0; i < unit_.state().errors.size(); ++i) {
+      errors |= unit_.state().errors[i] ? std::uint64_t{1} << i : 0;
+    }
+    last_errors_.store(errors, std::memory_order_relaxed);
+    aborts_.fetch_add(1, std::memory_order_release);
+  }
+  faulty_.store(faulty, std::memory_order_relaxed);
+}
+
+// --- controllers come and go ---------------------------------------------------------------------
+
+bool SimArm::generates() const noexcept { return generatorOf(mode_) != MotionGeneratorMode::kNone; }
+
+bool SimArm::canConnect() const noexcept {
+  return !userStopped() && connected() &&
+         (unit_.state().robot_mode == RobotMode::kIdle ||
+          unit_.state().robot_mode == RobotMode::kMove);
+}
+
+void SimArm::control(ControlMode mode, ControlMode without) noexcept {
+  unit_.stopMotion();
+  mode_ = mode;
+  fallback_ = without;
+  needs_recovery_ = needs_recovery_ && (userStopped() || mode == ControlMode::None);
+  connect();
+}
+
+void SimArm::controlRestarts() noexcept {
+  if (mode_ != ControlMode::None && !needs_recovery_ &&
+      (unit_.state().robot_mode != RobotMode::kMove || generates())) {
+    unit_.stopMotion();
+    connect();
+  }
+}
+
 void SimArm::connect() noexcept {
-  if (!userStopped()) {
+  switch_ = Switch::kDone;
+  ticks_waited_ = 0;
+  resetCommands();
+  if (mode_ != ControlMode::None && canConnect()) {
+    tryToStart();
+  }
+}
+
+void SimArm::tryToStart() noexcept {
+  if (!canConnect()) {
+    switch_ = Switch::kDone;
+    return;
+  }
+  ControlUnit::MoveRequest request;
+  request.motion_generator_mode = generatorOf(mode_);
+  request.controller_mode = contains(mode_, ControlMode::JointTorque)
+                                ? franka_core::ControllerMode::kExternalController
+                                : options_.internal_controller;
+  if (unit_.startMotion(request) != ControlUnit::Status::kMotionStarted) {
+    switch_ = Switch::kOngoing;
+    if (++ticks_waited_ > kLongestStop) {
+      refuse(Refusal::kNotAtRest);
+    }
+    return;
+  }
+  if (unit_.state().robot_mode != RobotMode::kMove) {
+    refuse(Refusal::kSingular);
+    return;
+  }
+  switch_ = Switch::kDone;
+  resetCommands();
+}
+
+void SimArm::refuse(Refusal why) noexcept {
+  refusal_.store(why, std::memory_order_relaxed);
+  switch_ = Switch::kRefused;
+  mode_ = fallback_;
+  resetCommands();
+  if (mode_ == ControlMode::JointTorque) {
     unit_.startTorqueControl();
   }
 }
 
-void SimArm::controlStarts() noexcept {
-  claimed_ = true;
-  needs_recovery_ = needs_recovery_ && userStopped();
-  connect();
+// The last commands of a controller that went must not act on.
+void SimArm::resetCommands() noexcept {
+  const franka_core::RobotState& state = unit_.state();
+  commands_ = ArmCommands();
+  commands_.position = state.q_d;
+  commands_.pose = state.O_T_EE_c;
 }
 
-void SimArm::controlStops() noexcept {
-  claimed_ = false;
-  unit_.stopMotion();
-}
-
-void SimArm::controlRestarts() noexcept {
-  if (claimed_ && !needs_recovery_) {
-    connect();
-  }
-}
+// --- hands on the robot --------------------------------------------------------------------------
 
 void SimArm::setUserStop(bool pressed) noexcept {
   if (pressed == userStopped()) {
@@ -109,9 +223,38 @@ RequestStatus SimArm::recover() noexcept {
   return status;
 }
 
+bool SimArm::recovering() const noexcept {
+  return unit_.state().robot_mode == RobotMode::kAutomaticErrorRecovery;
+}
+
+RequestStatus SimArm::setConnected(bool connected) noexcept {
+  if (!connected && mode_ != ControlMode::None) {
+    return RequestStatus::kNotPossible;
+  }
+  unit_.setFciActive(connected);
+  connected_.store(connected, std::memory_order_relaxed);
+  return RequestStatus::kSuccess;
+}
+
 void SimArm::worldWasReset() noexcept {
+  // The history of a motion ends here; its controllers start anew with the next tick.
+  const bool moving = unit_.state().robot_mode == RobotMode::kMove && generates();
+  if (moving) {
+    unit_.stopMotion();
+  }
   unit_.restart();
   filter_is_fresh_ = true;
+  resetCommands();
+  ticks_waited_ = 0;
+  if (moving) {
+    switch_ = Switch::kOngoing;
+  }
+}
+
+void SimArm::jointsWerePlaced() noexcept {
+  unit_.stopMotion();
+  switch_ = Switch::kDone;
+  worldWasReset();
 }
 
 }  // namespace franka_sim_mujoco

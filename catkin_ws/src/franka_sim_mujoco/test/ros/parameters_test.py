@@ -45,6 +45,11 @@ WRONG = [
     ),
     ("restart_controllers_after_recovery", "yes", "restart_controllers_after_recovery"),
     ("friction", "ice", "ice"),
+    ("rate_limiting", 1, "rate_limiting"),
+    ("cutoff_frequency", 0, "cutoff_frequency"),
+    ("internal_controller", "soft", "joint_impedance or cartesian_impedance"),
+    ("reflexes", "on", "reflexes"),
+    ("motion_generators/position/gains/panda_joint3/p", -1, "stiffnesses"),
 ]
 
 
@@ -101,6 +106,11 @@ class ParametersTest(unittest.TestCase):
             "set_load",
             "set_force_torque_collision_behavior",
             "set_user_stop",
+            "set_full_collision_behavior",
+            "set_joint_impedance",
+            "set_cartesian_impedance",
+            "connect",
+            "disconnect",
         ):
             self.assertIn(f"/right/franka_control/{name}\n", services)
         self.assertIn("/right/controller_manager/list_controllers\n", services)

@@ -5,6 +5,8 @@
 /// The parts of the ROS room that need no master: queue, pace, world names, physics file, mailbox,
 /// claims.
 
+#include <franka_sim_mujoco/robot/motion/joint_motion.h>
+#include <franka_sim_mujoco/ros/command_shaper.h>
 #include <franka_sim_mujoco/ros/controller_check.h>
 #include <franka_sim_mujoco/ros/gripper_mailbox.h>
 #include <franka_sim_mujoco/ros/pacer.h>
@@ -250,26 +252,130 @@ hardware_interface::ControllerInfo controller(const std::string& interface,
   return info;
 }
 
-TEST(ControllerCheck, TakesWholeArmsAndWholeHandsByEffort) {
-  const std::set<std::string> arm{"a_joint1", "a_joint2", "a_joint3", "a_joint4",
-                                  "a_joint5", "a_joint6", "a_joint7"};
-  const std::set<std::string> hand{"a_finger_joint1", "a_finger_joint2"};
-  std::set<std::string> six = arm, both = arm;
+const std::set<std::string> kArm{"a_joint1", "a_joint2", "a_joint3", "a_joint4",
+                                 "a_joint5", "a_joint6", "a_joint7"};
+const std::set<std::string> kHand{"a_finger_joint1", "a_finger_joint2"};
+
+TEST(ControllerCheck, TakesWholeArmsAndWholeHands) {
+  std::set<std::string> six = kArm, both = kArm, with_wheel = kArm;
   six.erase("a_joint4");
-  both.insert(hand.begin(), hand.end());
-  EXPECT_EQ("", whyRefused(controller("EffortJointInterface", arm), "a"));
-  EXPECT_EQ("", whyRefused(controller("EffortJointInterface", hand), "a"));
-  EXPECT_EQ("", whyRefused(controller("EffortJointInterface", {}), "a"));
-  EXPECT_TRUE(contains(whyRefused(controller("PositionJointInterface", arm), "a"),
+  both.insert(kHand.begin(), kHand.end());
+  with_wheel.insert("wheel");
+  for (const char* interface :
+       {"EffortJointInterface", "PositionJointInterface", "VelocityJointInterface"}) {
+    EXPECT_EQ("", whyRefused(controller(interface, kArm), "a"));
+    EXPECT_EQ("", whyRefused(controller(interface, {}), "a"));
+    EXPECT_NE("", whyRefused(controller(interface, six), "a"));
+    EXPECT_NE("", whyRefused(controller(interface, both), "a"));
+    EXPECT_NE("", whyRefused(controller(interface, kArm), "b"));
+    EXPECT_NE("", whyRefused(controller(interface, {"a_finger_joint1"}), "a"));
+    EXPECT_NE("", whyRefused(controller(interface, with_wheel), "a"));
+    EXPECT_EQ("", whyRefused(controller(interface, with_wheel), "a", {"wheel"}));
+    EXPECT_EQ("", whyRefused(controller(interface, {"wheel"}), "a", {"wheel"}));
+  }
+  EXPECT_EQ("", whyRefused(controller("EffortJointInterface", kHand), "a"));
+  EXPECT_TRUE(contains(whyRefused(controller("PositionJointInterface", kHand), "a"),
                        "PositionJointInterface"));
-  EXPECT_NE("", whyRefused(controller("EffortJointInterface", six), "a"));
-  EXPECT_NE("", whyRefused(controller("EffortJointInterface", both), "a"));
-  EXPECT_NE("", whyRefused(controller("EffortJointInterface", arm), "b"));
-  EXPECT_NE("", whyRefused(controller("EffortJointInterface", {"a_finger_joint1"}), "a"));
-  EXPECT_TRUE(commandsArm(controller("EffortJointInterface", arm), "a"));
-  EXPECT_FALSE(commandsArm(controller("EffortJointInterface", hand), "a"));
-  EXPECT_FALSE(commandsArm(controller("EffortJointInterface", arm), "panda"));
+  EXPECT_TRUE(contains(whyRefused(controller("OtherInterface", kArm), "a"), "OtherInterface"));
+  hardware_interface::ControllerInfo pose = controller("", {"a_robot"});
+  pose.claimed_resources.front().hardware_interface = "franka_hw::FrankaPoseCartesianInterface";
+  EXPECT_EQ("", whyRefused(pose, "a"));
+  EXPECT_TRUE(contains(whyRefused(pose, "b"), "b_robot"));
 }
+
+TEST(ControllerCheck, KnowsWhatIsClaimedOfTheArm) {
+  using franka_hw::ControlMode;
+  hardware_interface::ControllerInfo pose = controller("EffortJointInterface", kArm);
+  pose.claimed_resources.emplace_back("franka_hw::FrankaPoseCartesianInterface",
+                                      std::set<std::string>{"a_robot"});
+  EXPECT_EQ(ControlMode::JointTorque | ControlMode::CartesianPose, claimedMode({pose}, "a"));
+  EXPECT_EQ(ControlMode::None, claimedMode({pose}, "panda"));
+  EXPECT_EQ(ControlMode::None, claimedMode({controller("EffortJointInterface", kHand)}, "a"));
+  EXPECT_EQ(ControlMode::JointVelocity,
+            claimedMode({controller("VelocityJointInterface", kArm)}, "a"));
+  EXPECT_TRUE(commandsArm(pose, "a"));
+  EXPECT_FALSE(commandsArm(controller("EffortJointInterface", kHand), "a"));
+}
+
+TEST(ControllerCheck, ConflictsAreThoseOfTheRobot) {
+  const auto effort = controller("EffortJointInterface", kArm);
+  const auto position = controller("PositionJointInterface", kArm);
+  const auto velocity = controller("VelocityJointInterface", kArm);
+  const auto wheel = controller("VelocityJointInterface", {"wheel"});
+  hardware_interface::ControllerInfo pose = controller("", {"a_robot"});
+  pose.claimed_resources.front().hardware_interface = "franka_hw::FrankaPoseCartesianInterface";
+  const auto hand = controller("EffortJointInterface", kHand);
+  EXPECT_FALSE(conflict({effort, position, hand, wheel}, "a"));
+  EXPECT_FALSE(conflict({effort, pose}, "a"));
+  EXPECT_TRUE(conflict({effort, effort}, "a"));
+  EXPECT_TRUE(conflict({position, velocity}, "a"));
+  EXPECT_TRUE(conflict({position, pose}, "a"));
+  EXPECT_TRUE(conflict({pose, pose}, "a"));
+  EXPECT_TRUE(conflict({hand, hand}, "a"));
+  EXPECT_TRUE(conflict({wheel, wheel}, "a"));
+}
+
+MotionLimits limitsOf(unsigned protocol) { return motionLimitsOfProtocol(protocol); }
+
+TEST(CommandShaper, PassesOnWhatIsWithinTheLimits) {
+  ShapingOptions options;
+  options.cutoff_frequency = 1000.0;
+  franka_core::RobotState state{};
+  state.message_id = 7;
+  ArmCommands wanted;
+  wanted.torque.fill(3.0);
+  wanted.velocity.fill(1e-6);
+  const auto mode = franka_hw::ControlMode::JointTorque | franka_hw::ControlMode::JointVelocity;
+  const franka_core::RobotCommand command = shapeCommand(options, mode, wanted, state, limitsOf(5));
+  EXPECT_EQ(7u, command.message_id);
+  EXPECT_EQ(wanted.torque, command.tau_J_d) << "torques are limited only where reflexes act";
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_NEAR(1e-6, command.dq_c[i], 1e-15);
+  }
+  options.torques = true;
+  EXPECT_NEAR(1.0, shapeCommand(options, mode, wanted, state, limitsOf(5)).tau_J_d[3], 1e-5);
+}
+
+TEST(CommandShaper, HandsOnWhatIsNoNumberForTheRobotToJudge) {
+  ArmCommands wanted;
+  wanted.position[2] = std::nan("");
+  wanted.pose[0] = 2.0;
+  const franka_core::RobotState state{};
+  const auto position =
+      shapeCommand({}, franka_hw::ControlMode::JointPosition, wanted, state, limitsOf(5));
+  EXPECT_TRUE(std::isnan(position.q_c[2]));
+  const auto pose =
+      shapeCommand({}, franka_hw::ControlMode::CartesianPose, wanted, state, limitsOf(5));
+  EXPECT_EQ(2.0, pose.O_T_EE_c[0]);
+}
+
+/// The robot itself judges what the shaper makes of commands that jump.
+class ShapedMotion : public testing::TestWithParam<unsigned> {};
+
+TEST_P(ShapedMotion, IsNeverRefused) {
+  const MotionLimits limits = limitsOf(GetParam());
+  for (const double cutoff : {100.0, 1000.0}) {
+    ShapingOptions options;
+    options.cutoff_frequency = cutoff;
+    JointMotion motion;
+    franka_core::RobotState state{};
+    state.q_d = {{0.0, -0.8, 0.0, -2.0, 0.0, 1.6, 0.0}};
+    motion.start(state.q_d);
+    ArmCommands wanted;
+    for (int tick = 0; tick < 4000; ++tick) {
+      wanted.velocity.fill(tick / 250 % 2 == 0 ? 0.7 : -0.7);  // jumps every quarter of a second
+      const auto command =
+          shapeCommand(options, franka_hw::ControlMode::JointVelocity, wanted, state, limits);
+      ASSERT_FALSE(motion.takeVelocities(command.dq_c, limits)) << tick;
+      state.q_d = motion.last().q;
+      state.dq_d = motion.last().dq;
+      state.ddq_d = motion.last().ddq;
+    }
+    EXPECT_NEAR(-0.7, state.dq_d[0], 1e-2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PandaAndFr3, ShapedMotion, testing::Values(5u, 10u));
 
 }  // namespace
 }  // namespace franka_sim_mujoco

@@ -5,6 +5,7 @@
 #include <franka_sim_mujoco/robot/control_unit.h>
 #include <ros/node_handle.h>
 
+#include <array>
 #include <string>
 
 namespace franka_sim_mujoco {
@@ -17,6 +18,13 @@ namespace franka_sim_mujoco {
 ControlUnitParameters readArmParameters(const ros::NodeHandle& node, const std::string& urdf,
                                         const std::string& arm_id, bool has_hand,
                                         const std::array<double, 3>& gravity);
+
+/// Stiffness of the internal joint impedance controller [Nm/rad]: the proportional gains
+/// `motion_generators/position/gains/<arm_id>_jointN/p`. The original follows positions by a PID of
+/// each joint; here the robot's own controller does, whose damping follows from its stiffness:
+/// other gains have no counterpart. @throws std::invalid_argument with a sentence
+std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std::string& arm_id,
+                                         const std::array<double, 7>& fallback);
 
 /// The prefix of an arm's joint names: the parameter arm_id, else the namespace without slashes,
 /// else the robot's name. @throws std::invalid_argument with a sentence when it is empty or no text

@@ -2,25 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_hw/control_mode.h>
 #include <hardware_interface/controller_info.h>
 
 #include <list>
+#include <set>
 #include <string>
 
 namespace franka_sim_mujoco {
 
 /// Why a controller cannot run on a simulated arm, as a sentence; empty when it can: it claims
-/// nothing, the efforts of exactly the arm's seven joints, or the efforts of exactly its two
-/// fingers.
+/// nothing; each joint interface on all seven of the arm's joints, or none; a Cartesian interface
+/// on `<arm_id>_robot`; the efforts of both fingers; and any of the other joints.
+/// @param others joints of the same robot that belong to no Franka arm
 std::string whyRefused(const hardware_interface::ControllerInfo& controller,
-                       const std::string& arm_id);
+                       const std::string& arm_id, const std::set<std::string>& others = {});
 
-/// Whether a controller commands joints of the arm (not its fingers). Real-time safe.
+/// Why controllers cannot run together, as franka_hw::FrankaHW decides for the arm; fingers and
+/// other joints take one controller each. Logs the reason. @returns whether they conflict
+bool conflict(const std::list<hardware_interface::ControllerInfo>& controllers,
+              const std::string& arm_id);
+
+/// Whether a controller commands anything of the arm (not its fingers). Real-time safe.
 bool commandsArm(const hardware_interface::ControllerInfo& controller,
                  const std::string& arm_id) noexcept;
 
-/// Whether one of them does. Real-time safe.
-bool anyCommandsArm(const std::list<hardware_interface::ControllerInfo>& controllers,
-                    const std::string& arm_id) noexcept;
+/// What the controllers claim of the arm. Real-time safe.
+franka_hw::ControlMode claimedMode(const std::list<hardware_interface::ControllerInfo>& controllers,
+                                   const std::string& arm_id) noexcept;
 
 }  // namespace franka_sim_mujoco

@@ -1,0 +1,190 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka/lowpass_filter.h>
+#include <franka/rate_limiting.h>
+#include <franka_sim_mujoco/robot/tick.h>
+#include <franka_sim_mujoco/robot/transforms.h>
+#include <franka_sim_mujoco/ros/command_shaper.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+using franka_hw::ControlMode;
+using Joints = std::array<double, 7>;
+
+// Kept free of every limit, as by libfranka's limiter, so that rounding never exceeds one.
+constexpr double kMargin = 1e-3;
+
+template <std::size_t N>
+bool allFinite(const std::array<double, N>& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool contains(ControlMode mode, ControlMode part) noexcept {
+  return (mode & part) != ControlMode::None;
+}
+
+bool isFiltered(const ShapingOptions& options) noexcept {
+  return options.cutoff_frequency < franka::kMaxCutoffFrequency;
+}
+
+template <std::size_t N>
+void filter(const ShapingOptions& options, const std::array<double, N>& last,
+            std::array<double, N>& values) noexcept {
+  if (!isFiltered(options)) {
+    return;
+  }
+  const double gain = kTick / (kTick + 1.0 / (2.0 * M_PI * options.cutoff_frequency));
+  for (std::size_t i = 0; i < N; ++i) {
+    values[i] = gain * values[i] + (1.0 - gain) * last[i];
+  }
+}
+
+/// The velocity that comes closest to the wanted one: within jerk, acceleration, and an
+/// acceleration that goes to zero where the velocity limit is near.
+double limitVelocity(double lowest, double highest, double max_ddq, double max_dddq, double dq,
+                     double last_dq, double last_ddq) noexcept {
+  const double change =
+      std::clamp((dq - last_dq) / kTick - last_ddq, -max_dddq * kTick, max_dddq * kTick);
+  const double slope = max_dddq / max_ddq;
+  const double most = std::min(max_ddq, slope * (highest - last_dq));
+  const double least = std::max(-max_ddq, slope * (lowest - last_dq));
+  return last_dq + kTick * std::max(least, std::min(most, last_ddq + change));
+}
+
+void limitVelocities(const franka_core::RobotState& state, const MotionLimits& limits,
+                     Joints& dq) noexcept {
+  for (std::size_t i = 0; i < dq.size(); ++i) {
+    dq[i] = limitVelocity(limits.lowestVelocity(i, state.q_d[i]) + kMargin,
+                          limits.highestVelocity(i, state.q_d[i]) - kMargin,
+                          limits.arm.ddq[i] - kMargin, limits.arm.dddq[i] - kMargin, dq[i],
+                          state.dq_d[i], state.ddq_d[i]);
+  }
+}
+
+Joints shapePositions(const ShapingOptions& options, Joints q, const franka_core::RobotState& state,
+                      const MotionLimits& limits) noexcept {
+  filter(options, state.q_d, q);
+  if (options.rate_limiting) {
+    Joints dq;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      dq[i] = (q[i] - state.q_d[i]) / kTick;
+    }
+    limitVelocities(state, limits, dq);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      q[i] = state.q_d[i] + dq[i] * kTick;
+    }
+  }
+  return q;
+}
+
+Joints shapeVelocities(const ShapingOptions& options, Joints dq,
+                       const franka_core::RobotState& state, const MotionLimits& limits) noexcept {
+  filter(options, state.dq_d, dq);
+  if (options.rate_limiting) {
+    limitVelocities(state, limits, dq);
+  }
+  return dq;
+}
+
+Transform shapePose(const ShapingOptions& options, Transform pose,
+                    const franka_core::RobotState& state, const MotionLimits& limits) {
+  if (isFiltered(options)) {
+    pose = franka::cartesianLowpassFilter(kTick, pose, state.O_T_EE_c, options.cutoff_frequency);
+  }
+  if (options.rate_limiting) {
+    const auto& [v, a, j] = limits.arm.translation;
+    const auto& [w, dw, ddw] = limits.arm.rotation;
+    pose =
+        franka::limitRate(v - kMargin, a - kMargin, j - kMargin, w - kMargin, dw - kMargin,
+                          ddw - kMargin, pose, state.O_T_EE_c, state.O_dP_EE_c, state.O_ddP_EE_c);
+  }
+  return pose;
+}
+
+std::array<double, 6> shapeTwist(const ShapingOptions& options, std::array<double, 6> twist,
+                                 const franka_core::RobotState& state, const MotionLimits& limits) {
+  filter(options, state.O_dP_EE_c, twist);
+  if (options.rate_limiting) {
+    const auto& [v, a, j] = limits.arm.translation;
+    const auto& [w, dw, ddw] = limits.arm.rotation;
+    twist = franka::limitRate(v - kMargin, a - kMargin, j - kMargin, w - kMargin, dw - kMargin,
+                              ddw - kMargin, twist, state.O_dP_EE_c, state.O_ddP_EE_c);
+  }
+  return twist;
+}
+
+void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbow,
+                const franka_core::RobotState& state, const MotionLimits& limits,
+                franka_core::RobotCommand& command) noexcept {
+  command.valid_elbow = elbow[0] != 0.0 || elbow[1] != 0.0;
+  command.elbow_c = elbow;
+  if (!command.valid_elbow || !allFinite(elbow)) {
+    return;
+  }
+  double& q3 = command.elbow_c[0];
+  std::array<double, 1> filtered{{q3}};
+  filter(options, std::array<double, 1>{{state.elbow_c[0]}}, filtered);
+  q3 = filtered[0];
+  if (options.rate_limiting) {
+    const auto& [v, a, j] = limits.arm.elbow;
+    const double dq3 =
+        limitVelocity(-v + kMargin, v - kMargin, a - kMargin, j - kMargin,
+                      (q3 - state.elbow_c[0]) / kTick, state.delbow_c[0], state.ddelbow_c[0]);
+    q3 = state.elbow_c[0] + dq3 * kTick;
+  }
+}
+
+Joints shapeTorques(const ShapingOptions& options, Joints torque,
+                    const franka_core::RobotState& state, const MotionLimits& limits) noexcept {
+  filter(options, state.tau_J_d, torque);
+  for (std::size_t i = 0; options.rate_limiting && i < torque.size(); ++i) {
+    const double step = (limits.arm.dtau[i] - kMargin) * kTick;
+    torque[i] = std::clamp(torque[i], state.tau_J_d[i] - step, state.tau_J_d[i] + step);
+  }
+  return torque;
+}
+
+}  // namespace
+
+franka_core::RobotCommand shapeCommand(const ShapingOptions& options, ControlMode mode,
+                                       const ArmCommands& wanted,
+                                       const franka_core::RobotState& state,
+                                       const MotionLimits& limits) noexcept {
+  franka_core::RobotCommand command;
+  command.message_id = state.message_id;
+  if (contains(mode, ControlMode::JointTorque)) {
+    const bool shaped = options.torques && allFinite(wanted.torque);
+    command.tau_J_d = shaped ? shapeTorques(options, wanted.torque, state, limits) : wanted.torque;
+  }
+  if (contains(mode, ControlMode::JointPosition)) {
+    command.q_c = allFinite(wanted.position)
+                      ? shapePositions(options, wanted.position, state, limits)
+                      : wanted.position;
+  }
+  if (contains(mode, ControlMode::JointVelocity)) {
+    command.dq_c = allFinite(wanted.velocity)
+                       ? shapeVelocities(options, wanted.velocity, state, limits)
+                       : wanted.velocity;
+  }
+  // The functions of libfranka throw for what is checked here before.
+  if (contains(mode, ControlMode::CartesianPose)) {
+    command.O_T_EE_c = isTransform(wanted.pose) && isTransform(state.O_T_EE_c)
+                           ? shapePose(options, wanted.pose, state, limits)
+                           : wanted.pose;
+    shapeElbow(options, wanted.pose_elbow, state, limits, command);
+  }
+  if (contains(mode, ControlMode::CartesianVelocity)) {
+    command.O_dP_EE_c =
+        allFinite(wanted.twist) ? shapeTwist(options, wanted.twist, state, limits) : wanted.twist;
+    shapeElbow(options, wanted.twist_elbow, state, limits, command);
+  }
+  return command;
+}
+
+}  // namespace franka_sim_mujoco
