@@ -21,6 +21,15 @@ namespace {
 
 using franka_core::RobotState;
 
+// Of the hand alone, in its own frame [m].
+Eigen::Vector3d handCenter() { return {-0.01, 0.0, 0.03}; }
+
+Eigen::Vector3d inWorld(const Pose& pose, const Eigen::Vector3d& point) {
+  const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
+                                pose.orientation[3]);
+  return turn * point + Eigen::Vector3d(pose.position.data());
+}
+
 class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
  protected:
   std::string id() const { return GetParam(); }
@@ -192,6 +201,41 @@ TEST_P(UnitInWorldTest, AKilogramInTheHandThatIsNotConfiguredReadsItsWeight) {
   EXPECT_NEAR(0.0, unit->state().O_F_ext_hat_K[1], 0.01);
 }
 
+TEST_P(UnitInWorldTest, AKilogramThatIsNotConfiguredReadsItsWeightAndItsInertiaAtFullSpeed) {
+  // A point of 1 kg at the hand's centre of mass: the arm exerts m (a - g) on it, whatever else it
+  // does. Its acceleration comes from the second difference of where the world has it.
+  start("empty", "<mass value=\"0.73\"", "<mass value=\"1.73\"");
+  tick();
+  ASSERT_EQ(RequestStatus::kSuccess, unit->startTorqueControl());
+  SineDriver driver(unit->parameters(), unit->parameters().end_effector, 4.0, 0.5,
+                    id() == "fr3" ? kFr3Speed : kPandaSpeed);
+  const Eigen::Vector3d in_hand = handCenter();
+  constexpr double kSmoothing = 1e-3 / (1e-3 + 1.0 / (2 * 3.14159265358979324 * 100));
+  std::array<Eigen::Vector3d, 3> places;
+  Eigen::Vector3d expected(0, 0, 9.81);
+  double worst = 0.0;
+  double strongest = 0.0;
+  for (int i = 0; i < 6000; i++) {
+    const RobotState& state = unit->observe(arm->measure());
+    places = {places[1], places[2], inWorld(world->bodyPose(id() + "_hand"), in_hand)};
+    if (i > 2) {
+      const Eigen::Vector3d a = (places[2] - 2 * places[1] + places[0]) * 1e6;
+      expected += kSmoothing * (a + Eigen::Vector3d(0, 0, 9.81) - expected);
+    }
+    if (i > 100) {
+      const Eigen::Vector3d read(state.O_F_ext_hat_K.data());
+      worst = std::max(worst, (read - expected).norm());
+      strongest = std::max(strongest, (expected - Eigen::Vector3d(0, 0, 9.81)).norm());
+    }
+    const franka_core::RobotCommand command = driver.command(state);
+    act(&command);
+  }
+  std::printf("%s with 1 kg too much: inertial forces up to %.2f N, worst error %.4f N\n",
+              GetParam(), strongest, worst);
+  EXPECT_GT(strongest, 3.0);
+  EXPECT_LT(worst, 0.1);
+}
+
 TEST_P(UnitInWorldTest, UserStopAtSpeedLocksTheArmWithoutACollision) {
   start("empty");
   tick();
@@ -343,6 +387,83 @@ TEST_P(UnitInWorldTest, InternalControllersHaveTheStiffnessThatWasSet) {
     EXPECT_NEAR(s.O_F_ext_hat_K[1], force, 0.005 * 4) << GetParam();
     EXPECT_NEAR(-4.0, s.O_F_ext_hat_K[1], 0.02);
   }
+}
+
+TEST_P(UnitInWorldTest, CartesianImpedanceHasTheSetStiffnessInEachOfItsSixAxes) {
+  // Pushed along and about each axis of K, where K stands when the arm has come to rest.
+  over_fci = true;
+  const std::array<double, 6> K{{400, 500, 600, 30, 40, 50}};
+  for (std::size_t axis = 0; axis < 6; axis++) {
+    start("empty");
+    tick();
+    ASSERT_EQ(RequestStatus::kSuccess, unit->setCartesianImpedance(K));
+    franka_core::fci::MoveRequest move;
+    move.controller_mode = franka_core::ControllerMode::kCartesianImpedance;
+    ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+    franka_core::RobotCommand hold;
+    hold.q_c = unit->state().q_d;
+    const Eigen::Matrix4d from = Eigen::Map<const Eigen::Matrix4d>(unit->state().O_T_EE_d.data());
+    const double size = axis < 3 ? 3.0 : 1.0;
+    for (int i = 0; i < 7000; i++) {
+      const auto& pose = unit->state().O_T_EE;  // K is EE
+      const std::array<double, 3> along{{size * pose[4 * (axis % 3)],
+                                         size * pose[4 * (axis % 3) + 1],
+                                         size * pose[4 * (axis % 3) + 2]}};
+      if (axis < 3) {
+        world->pushAt(id() + "_hand", {{pose[12], pose[13], pose[14]}}, along, 1);
+      } else {
+        world->push(id() + "_hand", {{0, 0, 0}}, along, 1);
+      }
+      tick(&hold);
+    }
+    ASSERT_EQ(franka_core::RobotMode::kMove, unit->state().robot_mode);
+    const Eigen::Matrix4d now = Eigen::Map<const Eigen::Matrix4d>(unit->state().O_T_EE.data());
+    const Eigen::Matrix3d R = now.topLeftCorner<3, 3>();
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(from.topLeftCorner<3, 3>().transpose() * R));
+    Eigen::Matrix<double, 6, 1> moved;
+    moved << R.transpose() * (now - from).topRightCorner<3, 1>(), turn.angle() * turn.axis();
+    EXPECT_NEAR(K[axis], size / moved[static_cast<int>(axis)], 0.005 * K[axis])
+        << GetParam() << ", axis " << axis;
+  }
+}
+
+TEST_P(UnitInWorldTest, AsynchronousMotionsTakeTheArmToEachNewTarget) {
+  if (id() != "fr3") {
+    GTEST_SKIP() << "Protocol 10 is an FR3's.";
+  }
+  over_fci = true;
+  start("empty");
+  tick();
+  franka_core::fci::MoveRequest move;
+  move.use_async_motion_generator = true;
+  move.maximum_velocity.fill(0.5);
+  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+  franka_core::RobotCommand target;
+  target.q_c = unit->state().q_d;
+  double fastest = 0.0;
+  for (int leg = 0; leg < 4; leg++) {
+    // The second target comes while the arm is on its way to the first.
+    target.q_c[0] = leg == 0 ? 0.6 : -0.2 * leg;
+    target.q_c[5] += leg % 2 == 0 ? 0.3 : -0.3;
+    for (int i = 0; i < (leg == 0 ? 400 : 4000); i++) {
+      tick(&target);
+      for (std::size_t j = 0; j < 7; j++) {
+        fastest = std::max(fastest, std::abs(unit->state().dq_d[j]));
+      }
+    }
+    ASSERT_EQ(franka_core::RobotMode::kMove, unit->state().robot_mode);
+    for (std::size_t j = 0; j < 7 && leg > 0; j++) {
+      EXPECT_EQ(target.q_c[j], unit->state().q_d[j]) << leg << ", joint " << j;
+      EXPECT_NEAR(target.q_c[j], unit->state().q[j], 1e-3) << leg << ", joint " << j;
+      EXPECT_NEAR(0.0, unit->state().dq[j], 1e-3);
+    }
+  }
+  // The generator keeps a thousandth below what it was told.
+  EXPECT_NEAR(0.5 * 0.999, fastest, 1e-9);
+  target.motion_generation_finished = true;
+  run(20, &target);
+  EXPECT_EQ(franka_core::RobotMode::kIdle, unit->state().robot_mode);
+  EXPECT_EQ(franka_core::fci::Status::kSuccess, unit->takeMotionEnd());
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, UnitInWorldTest, ::testing::Values("panda", "fr3"));
