@@ -6,6 +6,7 @@
 #include <franka/exception.h>
 #include <ros/console.h>
 #include <ros/init.h>
+#include <std_msgs/Bool.h>
 
 #include <chrono>
 #include <thread>
@@ -40,6 +41,8 @@ bool ControlNode::init() {
   health_ =
       std::make_unique<LoopHealth>(private_nh_, private_nh_.param<std::string>("arm_id", "robot"));
   health_->connected(true);
+  has_error_publisher_ = private_nh_.advertise<std_msgs::Bool>("has_error", 1, true);
+  setError(false);
   controller_manager_ =
       std::make_unique<controller_manager::ControllerManager>(&franka_hw_, public_nh_);
   offerConnection();
@@ -133,13 +136,16 @@ void ControlNode::recover() {
     if (franka_hw_.robotMode() != franka::RobotMode::kIdle) {
       franka_hw_.robot().automaticErrorRecovery();
     }
-    has_error_ = false;
-    health_->hasError(false);
+    setError(false);
     recovery_server_->setSucceeded();
     ROS_INFO("franka_control_node: recovered from the error.");
   } catch (const std::exception& error) {
-    ROS_ERROR_STREAM("franka_control_node: the robot did not recover. " << error.what());
-    recovery_server_->setAborted(franka_msgs::ErrorRecoveryResult(), error.what());
+    std::string reason = error.what();
+    if (franka_hw_.robotMode() == franka::RobotMode::kUserStopped) {
+      reason += " The user stop is pressed: release it, and the robot goes on by itself.";
+    }
+    ROS_ERROR_STREAM("franka_control_node: the robot did not recover. " << reason);
+    recovery_server_->setAborted(franka_msgs::ErrorRecoveryResult(), reason);
   }
 }
 
@@ -191,8 +197,7 @@ void ControlNode::watchIdleRobot() {
   last_update_ = now;
   if (has_error_ && robot_stopped_ && franka_hw_.robotMode() == franka::RobotMode::kIdle) {
     // Somebody else recovered it, or released the user stop.
-    has_error_ = false;
-    health_->hasError(false);
+    setError(false);
   }
   // Lets those take the robot who wait for it.
   std::this_thread::sleep_for(std::chrono::microseconds(100));
@@ -253,10 +258,17 @@ void ControlNode::updateControllers(const ros::Time& time, const ros::Duration& 
 }
 
 void ControlNode::motionFailed(const std::string& what, const std::vector<franka::Record>& log) {
-  has_error_ = true;
   interrupted_ = true;
-  health_->hasError(true);
+  setError(true);
   aborts_->report(what, log);
+}
+
+void ControlNode::setError(bool has_error) {
+  has_error_ = has_error;
+  health_->hasError(has_error);
+  std_msgs::Bool message;
+  message.data = has_error;
+  has_error_publisher_.publish(message);
 }
 
 void ControlNode::robotLost(const std::string& what) {
@@ -268,11 +280,10 @@ void ControlNode::robotLost(const std::string& what) {
   connected_ = false;
   lost_ = true;
   // What ran when it was lost must not move it when it is back, unless somebody says so.
-  has_error_ = franka_hw_.controllerActive() || has_error_;
   robot_stopped_ = false;
   interrupted_ = true;
   health_->connected(false);
-  health_->hasError(has_error_);
+  setError(franka_hw_.controllerActive() || has_error_);
   withdrawRobot();
   franka_hw_.dropConnection();
 }

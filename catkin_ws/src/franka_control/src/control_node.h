@@ -29,7 +29,8 @@ namespace franka_control {
 /// Parameters beside those of FrankaHW, in the node's own namespace: `reconnect` (bool, false): try
 /// to connect again, once a second, to a robot that was lost; `restart_controllers_after_recovery`
 /// (bool, true): whether controllers that were running when the robot stopped start again after a
-/// recovery, through their starting(), or are stopped.
+/// recovery, through their starting(), or are stopped. Topic `has_error` (std_msgs/Bool, latched):
+/// whether the robot stopped and waits for a recovery.
 class ControlNode {
  public:
   ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle& private_nh);
@@ -59,6 +60,8 @@ class ControlNode {
   bool updateMoving(const ros::Time& time, const ros::Duration& period);
   void updateControllers(const ros::Time& time, const ros::Duration& period, bool reset);
   void motionFailed(const std::string& what, const std::vector<franka::Record>& log);
+  /// Outside motions only: it publishes.
+  void setError(bool has_error);
   void robotLost(const std::string& what);
   void reconnect();
 
@@ -73,6 +76,7 @@ class ControlNode {
   std::unique_ptr<franka_hw::ServiceContainer> robot_services_;
   std::unique_ptr<RecoveryServer> recovery_server_;
   ros::ServiceServer connect_server_, disconnect_server_;
+  ros::Publisher has_error_publisher_;
 
   std::atomic_bool connected_{false};
   std::atomic_bool lost_{false};  // the connection, without being asked to

@@ -81,7 +81,7 @@ class Session:
             capture_output=True,
         )
 
-    def wait_for_master(self, timeout: float = 20.0) -> None:
+    def wait_for_master(self, timeout: float = 60.0) -> None:
         """Until the master accepts connections."""
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:

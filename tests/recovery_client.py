@@ -1,0 +1,152 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Reflexes and the user stop while a controller runs, as a user meets them; prints what came of it as JSON.
+
+Run by test_recovery.py with the interpreter that ROS uses. Arguments: the arm, the address of the simulated
+robot, how many reflexes.
+"""
+
+import json
+import socket
+import sys
+import time
+
+import actionlib
+import rospy
+from actionlib_msgs.msg import GoalStatus
+from controller_manager_msgs.srv import ListControllers, SwitchController
+from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
+from geometry_msgs.msg import PoseStamped
+from std_msgs.msg import Bool, String
+
+CONTROLLER = "cartesian_impedance_example_controller"
+CONTROL_PORT = 1340
+PATIENCE = 15.0  # for whatever should happen at once [s]
+PUSH = "0 0 -220 60"  # far beyond the thresholds [N, ms]
+
+
+class Person:
+    """Whoever stands beside the robot: pushes it, presses the user stop."""
+
+    def __init__(self, address):
+        self._stream = socket.create_connection((address, CONTROL_PORT), 5.0).makefile("rw")
+
+    def does(self, line):
+        self._stream.write(line + "\n")
+        self._stream.flush()
+        answer = self._stream.readline().strip()
+        if not answer.startswith("ok"):
+            raise RuntimeError(f"{line}: {answer}")
+
+
+class Robot:
+    """What the topics, services and actions of the node show."""
+
+    def __init__(self):
+        self.state = None
+        self.has_error = None
+        self.aborts = []
+        rospy.Subscriber("/franka_state_controller/franka_states", FrankaState, self._store, queue_size=1)
+        rospy.Subscriber("/franka_control/has_error", Bool, lambda m: setattr(self, "has_error", m.data))
+        rospy.Subscriber("/franka_control/abort", String, lambda m: self.aborts.append(m.data))
+        self._target = rospy.Publisher(f"/{CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1)
+        self._recovery = actionlib.ActionClient("/franka_control/error_recovery", ErrorRecoveryAction)
+        if not self._recovery.wait_for_server(rospy.Duration(30.0)):
+            raise RuntimeError("no error_recovery")
+        self._list = rospy.ServiceProxy("/controller_manager/list_controllers", ListControllers)
+
+    def _store(self, state):
+        self.state = state
+
+    def waits(self, condition):
+        """How long it took until a condition held [s], or None."""
+        begin = time.monotonic()
+        while time.monotonic() - begin < PATIENCE:
+            if self.state is not None and condition():
+                return time.monotonic() - begin
+            time.sleep(0.005)
+        return None
+
+    def shows(self, mode):
+        return self.waits(lambda: self.state.robot_mode == mode) is not None
+
+    def ask_recovery(self):
+        return self._recovery.send_goal(ErrorRecoveryGoal())
+
+    def told(self, goal):
+        """[status, text] of a recovery that was asked for."""
+        if self.waits(lambda: goal.get_comm_state() == actionlib.CommState.DONE) is None:
+            return [None, "no answer"]
+        return [goal.get_terminal_state(), goal.get_goal_status_text()]
+
+    def recover(self):
+        return self.told(self.ask_recovery())
+
+    def runs(self):
+        return {c.name: c.state for c in self._list().controller}.get(CONTROLLER)
+
+    def follows(self):
+        """Whether the end effector goes where the controller is told: 3 cm up or down."""
+        target = PoseStamped()
+        target.header.frame_id = f"{sys.argv[1]}_link0"
+        x, y, z = self.state.O_T_EE[12:15]
+        up = 0.03 if z < 0.5 else -0.03
+        target.pose.position.x, target.pose.position.y, target.pose.position.z = x, y, z + up
+        target.pose.orientation.x = 1.0
+        self._target.publish(target)
+        return self.waits(lambda: abs(self.state.O_T_EE[14] - z) > 0.01) is not None
+
+
+def reflexes(robot, person, count):
+    outcomes = []
+    for _ in range(count):
+        robot.aborts.clear()
+        person.does(f"push {sys.argv[1]}_link7 {PUSH}")
+        outcome = {"reflex": robot.shows(FrankaState.ROBOT_MODE_REFLEX)}
+        outcome["has_error"] = robot.waits(lambda: robot.has_error) is not None
+        outcome["reported"] = robot.waits(lambda: bool(robot.aborts)) is not None and robot.aborts[0]
+        outcome["recovery"] = robot.recover()
+        outcome["moves"] = robot.shows(FrankaState.ROBOT_MODE_MOVE)
+        outcome["error_gone"] = robot.waits(lambda: not robot.has_error) is not None
+        outcome["controller"] = robot.runs()
+        outcome["follows"] = robot.follows()
+        outcomes.append(outcome)
+    return outcomes
+
+
+def user_stop(robot, person):
+    person.does("user_stop on")
+    report = {"stopped": robot.shows(FrankaState.ROBOT_MODE_USER_STOPPED)}
+    report["has_error"] = robot.waits(lambda: robot.has_error) is not None
+    report["recovery_while_pressed"] = robot.recover()
+    report["still_stopped"] = robot.state.robot_mode == FrankaState.ROBOT_MODE_USER_STOPPED
+    person.does("user_stop off")
+    report["moves"] = robot.shows(FrankaState.ROBOT_MODE_MOVE)
+    report["follows"] = robot.follows()
+    return report
+
+
+def main():
+    rospy.init_node("recovery_client", anonymous=True)
+    robot, person = Robot(), Person(sys.argv[2])
+    switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
+    started = switch(start_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
+    report = {"started": started, "moves": robot.shows(FrankaState.ROBOT_MODE_MOVE)}
+    report["early"] = robot.recover()
+    report["goes_on"] = robot.follows()
+    report["reflexes"] = reflexes(robot, person, int(sys.argv[3]))
+    person.does(f"push {sys.argv[1]}_link7 {PUSH}")
+    robot.shows(FrankaState.ROBOT_MODE_REFLEX)
+    robot.waits(lambda: robot.has_error)
+    both = [robot.ask_recovery(), robot.ask_recovery()]
+    report["twice"] = [robot.told(goal) for goal in both]
+    report["follows_after_both"] = robot.shows(FrankaState.ROBOT_MODE_MOVE) and robot.follows()
+    report["user_stop"] = user_stop(robot, person)
+    report["stopped"] = switch(stop_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
+    report["idle"] = robot.shows(FrankaState.ROBOT_MODE_IDLE)
+    report["succeeded"] = GoalStatus.SUCCEEDED
+    print(json.dumps(report))
+
+
+if __name__ == "__main__":
+    main()
