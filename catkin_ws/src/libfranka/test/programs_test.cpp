@@ -3,8 +3,11 @@
 //
 // Programs as users write them, built against the public headers alone and run as they are. An
 // address with a port is all that tells them that the robot is none.
+#include <franka_core/fci/gripper_codec.h>
+
 #include <cstdlib>
 
+#include "fake_gripper.h"
 #include "random_state.h"
 #include "robot_fixture.h"
 
@@ -36,6 +39,37 @@ INSTANTIATE_TEST_SUITE_P(All, Programs,
                          ::testing::Values("joint_positions", "velocities_and_pose",
                                            "impedance_with_motion", "active_control"),
                          [](const auto& info) { return std::string(info.param); });
+
+/// Runs the program of the hand. @returns its exit status
+int graspAndLetGo(const FakeGripper& fake, const std::string& homing, const std::string& width) {
+  const std::string command = std::string(LIBFRANKA_TEST_PROGRAMS) + "/libfranka_program_gripper " +
+                              fake.address() + " " + homing + " " + width + " > /dev/null 2>&1";
+  return WEXITSTATUS(std::system(command.c_str()));
+}
+
+TEST(HandPrograms, RunUnchanged) {
+  namespace hand = franka_core::fci::gripper;
+  FakeGripper fake(3);
+  const auto show = [&fake](bool is_grasped) {
+    hand::State state;
+    state.width = 0.03;
+    state.max_width = 0.08;
+    state.is_grasped = is_grasped;
+    hand::StateBuffer buffer;
+    hand::encodeState(state, buffer);
+    fake.state.assign(buffer.begin(), buffer.end());
+  };
+  show(true);
+  EXPECT_EQ(0, graspAndLetGo(fake, "1", "0.03"));
+  std::vector<unsigned> commands;
+  for (const FakeGripper::Bytes& request : fake.requests()) {
+    commands.push_back(request[0]);
+  }
+  // Homing, move, grasp, stop.
+  EXPECT_EQ((std::vector<unsigned>{1, 3, 2, 4}), commands);
+  EXPECT_EQ(1, graspAndLetGo(fake, "0", "0.09"));
+  EXPECT_EQ(5u, fake.requests().size() + 1);
+}
 
 }  // namespace
 }  // namespace franka_test
