@@ -140,9 +140,8 @@ std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std:
   }
   if (!isJointStiffness(stiffness)) {
     throw std::invalid_argument(
-        "The parameters " +
-        node.resolveName("motion_generators/position/gains/" + arm_id + "_joint<1 to 7>/p") +
-        " are stiffnesses; they must lie between 0 and 14250 Nm/rad.");
+        "The parameters " + node.resolveName("motion_generators/position/gains") + "/" + arm_id +
+        "_joint<1 to 7>/p are stiffnesses; they must lie between 0 and 14250 Nm/rad.");
   }
   return stiffness;
 }

@@ -54,9 +54,9 @@ def state():
     return rospy.wait_for_message("/franka_state_controller/franka_states", FrankaState, WAIT)
 
 
-def state_when(condition):
+def state_when(condition, wait=WAIT):
     """The first state that meets a condition; fails loudly when none does in time."""
-    end = time.monotonic() + WAIT
+    end = time.monotonic() + wait
     while time.monotonic() < end:
         now = state()
         if condition(now):
@@ -186,7 +186,8 @@ class SimulationTest(unittest.TestCase):
         self.assertFalse(bad.success)
         self.assertIn("lower", bad.error)
         self.assertFalse(push("no_such_body", Vector3(), Vector3(), False, Point(), 1).success)
-        state_when(lambda s: abs(s.O_F_ext_hat_K[0]) < 0.5)
+        # The push lasts 100 s of simulated time, which a busy machine takes a while for.
+        state_when(lambda s: abs(s.O_F_ext_hat_K[0]) < 0.5, wait=3 * WAIT)
 
     def test_user_stop_disconnects_until_recovery(self):
         stop = service("/franka_control/set_user_stop", SetBool)
