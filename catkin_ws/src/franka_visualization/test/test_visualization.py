@@ -1,0 +1,138 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""franka_visualization.launch on a virtual screen, against a simulated robot; and its nodes without one."""
+
+import os
+import re
+import select
+import subprocess
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+import yaml
+from franka_sim_mujoco.session import Session
+from PIL import Image
+
+ADDRESS = "127.0.33.1"
+# What the simulated robot starts from (the ready pose), and its hand.
+READY = [0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398]
+
+
+def program() -> str:
+    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
+        found = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
+        if found.exists():
+            return str(found)
+    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
+
+
+@contextmanager
+def process(*command, **options):
+    running = subprocess.Popen(command, **options)
+    try:
+        yield running
+    finally:
+        running.terminate()
+        try:
+            running.wait(20)
+        except subprocess.TimeoutExpired:
+            running.kill()
+            running.wait()
+
+
+@contextmanager
+def robot(name):
+    command = [program(), "--robot", name, "--ip", ADDRESS]
+    with process(*command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as simulation:
+        ready, _, _ = select.select([simulation.stdout], [], [], 60)
+        line = simulation.stdout.readline() if ready else ""
+        assert "waits for clients" in line, line or "franka_sim says nothing."
+        yield
+
+
+@pytest.fixture(scope="module")
+def screen():
+    """A virtual screen with software OpenGL; its number is X's own choice."""
+    read, write = os.pipe()
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x960x24"]
+    with pytest.MonkeyPatch.context() as patch, process(*command, pass_fds=[write], **quiet):
+        os.close(write)
+        with os.fdopen(read) as answer:
+            patch.setenv("DISPLAY", f":{answer.readline().strip()}")
+        patch.setenv("LIBGL_ALWAYS_SOFTWARE", "1")
+        patch.setenv("QT_X11_NO_MITSHM", "1")
+        yield
+
+
+def shows_robot(path) -> bool:
+    """Takes a picture of the screen: is there something bright, as the arm is, in rviz's dark view?"""
+    subprocess.run(["import", "-window", "root", str(path)], check=True, timeout=60)
+    with Image.open(path) as picture:
+        view = picture.convert("L").crop((400, 80, 1150, 850))
+        return sum(view.histogram()[150:]) > 10000
+
+
+def launch(log, name, *arguments) -> Session:
+    names = [f"robot_ip:={ADDRESS}", f"robot:={name}", *arguments]
+    return Session("franka_visualization", "franka_visualization.launch", *names, log=log)
+
+
+def joint_states(session) -> dict:
+    """The merged joint states, once arm and hand have been heard of."""
+    deadline = time.monotonic() + 120
+    while time.monotonic() < deadline:
+        session.check()
+        echo = session.run("rostopic", "echo", "-n1", "/joint_states", timeout=120).stdout
+        message = yaml.safe_load(echo.partition("---")[0])
+        names = message["name"]
+        states = dict(zip(names, message["position"]))
+        # Until a source speaks its joints stand in the middle of their ranges.
+        if abs(states.get(names[3], 0.0) - READY[3]) < 0.01:
+            return states
+    pytest.fail(f"The arm does not show:\n{echo}\n{session.tail(40)}")
+
+
+@pytest.mark.parametrize("name", ["panda", "fr3"] if os.environ.get("FRANKA_TEST_LONG") else ["panda"])
+def test_arm_and_hand_are_shown_together(screen, tmp_path, name):
+    rviz = name == "panda"
+    with robot(name), launch(tmp_path / "launch.log", name, f"rviz:={str(rviz).lower()}") as session:
+        session.wait_for_master()
+        states = joint_states(session)
+        assert list(states)[:7] == [f"{name}_joint{i}" for i in range(1, 8)]
+        assert list(states)[7:] == [f"{name}_finger_joint1", f"{name}_finger_joint2"]
+        assert list(states.values())[:7] == pytest.approx(READY, abs=0.01)
+        fingers = list(states.values())[7:]
+        assert fingers[0] == fingers[1] and 0.0 <= fingers[0] <= 0.04
+        if rviz:
+            deadline = time.monotonic() + 180
+            picture = Path(os.environ.get("FRANKA_TEST_PICTURES", tmp_path)) / "rviz.png"
+            while not shows_robot(picture):
+                session.check()
+                assert time.monotonic() < deadline, f"rviz shows nothing:\n{session.tail(40)}"
+                time.sleep(0.5)
+        session.check()
+    log = (tmp_path / "launch.log").read_text(errors="replace")
+    assert not re.findall(r"^.*\[ ?(?:WARN|ERROR|FATAL)\].*$", log, re.M)
+
+
+@pytest.mark.parametrize(
+    "address, sentence",
+    [("no.such.host.invalid", "no.such.host.invalid"), ("127.0.33.9", "Please install FCI feature")],
+)
+def test_without_a_robot_the_nodes_end_with_a_sentence(tmp_path, address, sentence):
+    log = tmp_path / "launch.log"
+    arguments = [f"robot_ip:={address}", "rviz:=false"]
+    with Session("franka_visualization", "franka_visualization.launch", *arguments, log=log) as session:
+        session.wait_for_master()
+        deadline = time.monotonic() + 180
+        while log.read_text(errors="replace").count("exit code 255") < 2:
+            assert time.monotonic() < deadline, session.tail(40)
+            time.sleep(0.2)
+    text = log.read_text(errors="replace")
+    for node in ("robot_joint_state_publisher", "gripper_joint_state_publisher"):
+        errors = re.findall(rf"^.*\[ERROR\].*{node}: .*$", text, re.M)
+        assert len(errors) == 1, text
+        assert sentence in errors[0]
