@@ -437,6 +437,19 @@ def test_replies_carry_the_requests_number_whatever_it_is(raw):
             assert client.reply()[0] == identity
 
 
+def test_replies_may_take_longer_than_a_second(stepped):
+    for station in stepped:
+        station.proxy.reply_delay = 1.2
+        station.client.give("set_load")
+    try:
+        for station in stepped:
+            result = station.client.result()
+            assert result["outcome"] == "ok" and 1.2 <= result["wall"] < 10.0, result
+    finally:
+        for station in stepped:
+            station.proxy.reply_delay = 0.0
+
+
 @pytest.mark.parametrize("header", [(99, 0, 12), (1, 0, 11), (1, 0, 4294967295), (2, 0, 4000), (2, 0, 13)])
 def test_what_cannot_be_understood_ends_the_connection_not_the_robot(raw, header):
     with connected(raw) as client:

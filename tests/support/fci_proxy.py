@@ -68,21 +68,19 @@ def losing_from(first: int, count: int):
 
 
 def bursts(begin: float, end: float, longest: int):
-    """Gilbert's two states: a burst begins and ends with these probabilities, and is cut at `longest`."""
-    left = [0]
+    """Gilbert's two states: a burst begins and ends with these probabilities, and is cut at `longest`.
+
+    Between two bursts one datagram at least passes.
+    """
+    burst = [0]
 
     def rule(number, data, chance):
+        begins, ends = chance.random() < begin, chance.random() < end
         if number == 0:
-            left[0] = 0
-        draws = chance.random(), chance.random()
-        if left[0] == 0 and draws[0] < begin:
-            left[0] = longest
-        elif left[0] > 0 and draws[1] < end:
-            left[0] = 0
-        if left[0] == 0:
-            return [(0.0, data)]
-        left[0] -= 1
-        return []
+            burst[0] = 0
+        goes_on = not ends and burst[0] < longest if burst[0] else begins
+        burst[0] = burst[0] + 1 if goes_on else 0
+        return [] if goes_on else [(0.0, data)]
 
     return rule
 
@@ -154,6 +152,7 @@ class Proxy:
     def __init__(self, address: str, robot: str, version: int):
         self.address, self.robot, self.version = address, robot, version
         self.commands, self.states = Channel(), Channel()
+        self.reply_delay = 0.0  # of what the robot says over TCP [s]
         self.rates: list[float] = []  # control_command_success_rate of each state of the last motion
         self._moving = False
         self._listener = socket.create_server((address, PORT), backlog=4)
@@ -241,7 +240,10 @@ class _Link:
             self.client_udp = (self.client.getpeername()[0], port)
             own = struct.pack("<HH", version, self.to_robot.getsockname()[1])
             data = data[: HEADER.size] + own + data[HEADER.size + 4 :]
-        sink.sendall(data)
+        if source is self.robot and self.proxy.reply_delay > 0.0 and data:
+            self._later(self.proxy.reply_delay, sink, data, None)
+        else:
+            sink.sendall(data)
         return bool(data)
 
     def _state(self):
@@ -268,10 +270,16 @@ class _Link:
             if delay == 0.0:
                 sink.sendto(data, address)
             else:
-                self.order += 1
-                heapq.heappush(self.waiting, (time.monotonic() + delay, self.order, sink, data, address))
+                self._later(delay, sink, data, address)
+
+    def _later(self, delay, sink, data, address):
+        self.order += 1
+        heapq.heappush(self.waiting, (time.monotonic() + delay, self.order, sink, data, address))
 
     def _flush(self):
         while self.waiting and self.waiting[0][0] <= time.monotonic():
             _, _, sink, data, address = heapq.heappop(self.waiting)
-            sink.sendto(data, address)
+            if address is None:
+                sink.sendall(data)
+            else:
+                sink.sendto(data, address)
