@@ -1,0 +1,99 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a user sees while the robot comes and goes; prints what came of it as JSON.
+
+Run by test_robot_gone.py with the interpreter that ROS uses. Arguments: the arm, the simulated robot's process
+id, whether the node connects again by itself, then the command that starts another robot.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import rospy
+from controller_manager_msgs.srv import ListControllers, SwitchController
+from franka_msgs.msg import FrankaState
+from recovery_client import CONTROLLER, Robot
+from std_srvs.srv import Trigger
+
+GONE = 10.0  # how long the robot keeps silent [s]
+
+
+def call(name):
+    answer = rospy.ServiceProxy(f"/franka_control/{name}", Trigger)()
+    return [answer.success, answer.message]
+
+
+def node_answers():
+    return len(rospy.ServiceProxy("/controller_manager/list_controllers", ListControllers)().controller) >= 2
+
+
+def fresh_state(robot):
+    """Whether states arrive that are not those of before."""
+    robot.state = None
+    return robot.waits(lambda: True) is not None
+
+
+def comes_back(robot, reconnects):
+    """The robot is there again: connection, recovery, and the controller goes on."""
+    report = {"connect": None if reconnects else connect_patiently()}
+    robot.waits(lambda: robot.state.robot_mode == FrankaState.ROBOT_MODE_IDLE and robot.has_error)
+    deadline = time.monotonic() + 20.0
+    recovered = robot.recover()
+    while recovered[0] is None and time.monotonic() < deadline:
+        recovered = robot.recover()
+    report["recovery"] = recovered
+    report["moves"] = robot.shows(FrankaState.ROBOT_MODE_MOVE)
+    report["follows"] = robot.follows()
+    return report
+
+
+def connect_patiently():
+    """Connects as soon as the robot listens."""
+    deadline = time.monotonic() + 20.0
+    answer = call("connect")
+    while not answer[0] and time.monotonic() < deadline:
+        time.sleep(0.2)
+        answer = call("connect")
+    return answer
+
+
+def main():
+    rospy.init_node("robot_gone_client", anonymous=True)
+    pid, reconnects, command = int(sys.argv[2]), sys.argv[3] == "true", sys.argv[4:]
+    robot = Robot()
+    switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
+    report = {"started": switch(start_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok}
+    report["moves"] = robot.shows(FrankaState.ROBOT_MODE_MOVE)
+
+    os.kill(pid, signal.SIGSTOP)
+    report["silence_noticed"] = robot.waits(lambda: robot.has_error) is not None
+    time.sleep(GONE)
+    report["alive_without_robot"] = node_answers()
+    os.kill(pid, signal.SIGCONT)
+    report["after_silence"] = comes_back(robot, reconnects)
+
+    os.kill(pid, signal.SIGKILL)
+    report["death_noticed"] = robot.waits(lambda: robot.has_error) is not None
+    if not reconnects:
+        report["refused"] = call("connect")
+    other = subprocess.Popen(command)
+    try:
+        report["after_restart"] = comes_back(robot, reconnects)
+        report["aborts"] = robot.aborts
+        report["stopped"] = switch(stop_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
+        report["idle"] = robot.shows(FrankaState.ROBOT_MODE_IDLE)
+        report["disconnect"] = call("disconnect")
+        report["connect_again"] = call("connect")
+        report["fresh"] = fresh_state(robot)
+        print(json.dumps(report))
+    finally:
+        other.kill()
+        other.wait()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""franka_control_node outlives its robot: silent for ten seconds, killed, started anew."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+SOURCE = HERE.parent / "catkin_ws/src"
+sys.path.insert(0, str(SOURCE / "franka_sim_mujoco/src"))
+
+from franka_sim_mujoco.session import Session  # noqa: E402
+
+SUCCEEDED = 3
+ADDRESS = "127.0.7.4"
+
+
+@pytest.fixture(scope="module", params=["false", "true"], ids=["told_to_connect", "connects_by_itself"])
+def report(request, tmp_path_factory):
+    reconnect, folder = request.param, tmp_path_factory.mktemp("gone")
+    parameters = folder / "controllers.yaml"
+    config = SOURCE / "franka_example_controllers/config/franka_example_controllers.yaml"
+    parameters.write_text(config.read_text().replace("$(arg arm_id)", "panda"))
+    executable = subprocess.run(
+        ["catkin_find", "--first-only", "--libexec", "franka_sim_mujoco", "franka_sim"],
+        text=True,
+        capture_output=True,
+        check=True,
+    ).stdout.strip()
+    command = [executable, "--robot", "panda", "--no-hand", "--ip", ADDRESS]
+    launch = ["franka_control", "franka_control.launch", "load_gripper:=false", f"robot_ip:={ADDRESS}"]
+    launch += ["realtime_config:=ignore", "connect_timeout:=30", f"reconnect:={reconnect}"]
+    robot = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    try:
+        with Session(*launch, log=folder / "launch.log") as session:
+            session.wait_for_master()
+            session.run("rosparam", "load", str(parameters))
+            load = ["rosrun", "controller_manager", "controller_manager", "load"]
+            loaded = session.run(*load, "cartesian_impedance_example_controller", check=False, timeout=90)
+            assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
+            client = ["/usr/bin/python3", str(HERE / "robot_gone_client.py")]
+            client += ["panda", str(robot.pid), reconnect, *command]
+            result = session.run(*client, check=False, timeout=240)
+            print(result.stdout, session.tail(80), sep="\n")
+            assert result.returncode == 0, f"{result}\n{session.tail(60)}"
+            session.check()
+            return dict(json.loads(result.stdout.strip().splitlines()[-1]), log=session.tail(400))
+    finally:
+        robot.kill()
+        robot.wait()
+
+
+def test_a_silent_robot_is_reported_and_comes_back(report):
+    assert report["started"] and report["moves"]
+    assert report["silence_noticed"] and report["alive_without_robot"]
+    assert report["after_silence"]["recovery"] == [SUCCEEDED, ""], report
+    assert report["after_silence"]["moves"] and report["after_silence"]["follows"]
+    assert "the robot is lost" in report["log"]
+
+
+def test_a_robot_that_was_started_anew_is_taken_again(report):
+    assert report["death_noticed"]
+    if "refused" in report:
+        success, message = report["refused"]
+        assert not success and "refused" in message
+    assert report["after_restart"]["recovery"] == [SUCCEEDED, ""], report
+    assert report["after_restart"]["moves"] and report["after_restart"]["follows"]
+
+
+def test_the_connection_can_still_be_given_up_and_taken(report):
+    assert report["stopped"] and report["idle"]
+    assert report["disconnect"] == [True, ""] and report["connect_again"] == [True, ""]
+    assert report["fresh"]
