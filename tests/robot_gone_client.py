@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a user sees while the robot comes and goes; prints what came of it as JSON.
 
-Run by test_robot_gone.py with the interpreter that ROS uses. Arguments: the arm, the simulated robot's process
+Run by test_robot_gone.py with ROS's interpreter. Arguments: the arm, the simulated robot's process
 id, whether the node connects again by itself, then the command that starts another robot.
 """
 
