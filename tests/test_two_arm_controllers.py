@@ -1,0 +1,42 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The two-arm examples by their launch files, each on two simulated robots."""
+
+import json
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"))
+
+from franka_sim_mujoco.session import Session  # noqa: E402
+
+
+def outcome_of(tmp_path, launch, client):
+    arguments = ["franka_example_controllers", launch, "sim:=true", "rviz:=false", "rqt:=false"]
+    with Session(*arguments, *client[1:], log=tmp_path / "launch.log") as session:
+        session.wait_for_master()
+        command = ["/usr/bin/python3", str(HERE / "two_arm_controllers_client.py"), *client[0]]
+        result = session.run(*command, check=False, timeout=200)
+        print(result.stdout, result.stderr, session.tail(60), sep="\n")
+        assert result.returncode == 0, f"{result}\n{session.tail(60)}"
+        session.check()
+        return json.loads(result.stdout.strip().splitlines()[-1])
+
+
+def test_two_arms_hold_their_relative_pose_while_the_marker_is_dragged(tmp_path):
+    robots = "robot_ips:={panda_1/robot_ip: 127.0.7.11, panda_2/robot_ip: 127.0.7.12}"
+    launch = "dual_arm_cartesian_impedance_example_controller.launch"
+    outcome = outcome_of(tmp_path, launch, (["dual"], robots))
+    assert outcome["pairs"] > 20
+    assert outcome["worst"] < 1e-3  # [m]
+    assert outcome["still_moving_under_control"]
+
+
+def test_the_follower_follows_a_leader_that_is_pushed(tmp_path):
+    addresses = ["leader_ip:=127.0.7.13", "follower_ip:=127.0.7.14"]
+    client = (["teleop", "127.0.7.13"], *addresses)
+    outcome = outcome_of(tmp_path, "teleop_joint_pd_example_controller.launch", client)
+    assert outcome["leader"] > 0.05 and outcome["follower"] > 0.05  # [rad]
+    assert outcome["error"] < 2e-3  # [rad]
+    assert outcome["still_moving_under_control"]
