@@ -187,9 +187,9 @@ def interrupted(fingers):
     }
     news = {
         "homing": homing,
-        "move": lambda: move(0.08, 0.02),
+        "move": lambda: move(0.03, 0.02),
         "grasp": lambda: grasp(0.01, 0.02),
-        "gripper_action": lambda: command(0.04),
+        "gripper_action": lambda: command(0.02),
         "stop": stop,
     }
     report = {}
@@ -273,11 +273,13 @@ def death(fingers):
     print("kill", flush=True)
     report = {"running": running.result()}
     report["meanwhile"] = move(0.05).result()
+    deadline = time.monotonic() + 30.0
+    while time.time() - fingers.stamps[-1] < 1.0 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    report["silent"] = time.time() - fingers.stamps[-1] >= 1.0
     print("restart", flush=True)
     sys.stdin.readline()
-    seen = len(fingers.stamps)
-    report["again"] = fingers.next(5, 30.0)
-    report["silence"] = max(b - a for a, b in zip(fingers.stamps[seen - 2 :], fingers.stamps[seen - 1 :]))
+    report["again"] = fingers.next(5, 60.0)
     report["move"] = move(0.05).result() + [fingers.until(lambda width: abs(width - 0.05) < 1e-3)]
     return report
 
