@@ -3,4 +3,10 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-setup(**generate_distutils_setup(packages=["pyfranka"], package_dir={"": "src"}))
+setup(
+    **generate_distutils_setup(
+        packages=["pyfranka"],
+        package_dir={"": "src"},
+        package_data={"pyfranka": ["py.typed", "*.pyi"]},
+    )
+)

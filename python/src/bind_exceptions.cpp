@@ -20,19 +20,30 @@ void raise(PyObject* type, const char* what, Fill fill) {
   PyErr_SetObject(type, error.ptr());
 }
 
+template <typename Error>
+void bindPlain(py::module_& module, const char* name, const py::object& base, const char* doc) {
+  const py::object type = py::register_exception<Error>(module, name, base);
+  type.attr("__doc__") = doc;
+}
+
 }  // namespace
 
 void bindExceptions(py::module_& module) {
   const py::object base =
       py::register_exception<franka::Exception>(module, "Exception", PyExc_RuntimeError);
   base.attr("__doc__") = "Base of all errors of a robot; the text is a sentence for a person.";
-  py::register_exception<franka::ModelException>(module, "ModelException", base);
-  py::register_exception<franka::NetworkException>(module, "NetworkException", base);
-  py::register_exception<franka::ProtocolException>(module, "ProtocolException", base);
-  py::register_exception<franka::CommandException>(module, "CommandException", base);
-  py::register_exception<franka::RealtimeException>(module, "RealtimeException", base);
-  py::register_exception<franka::InvalidOperationException>(module, "InvalidOperationException",
-                                                            base);
+  bindPlain<franka::ModelException>(module, "ModelException", base, "The model cannot be had.");
+  bindPlain<franka::NetworkException>(module, "NetworkException", base,
+                                      "The connection cannot be made, or is lost.");
+  bindPlain<franka::ProtocolException>(module, "ProtocolException", base,
+                                       "The robot says what makes no sense.");
+  bindPlain<franka::CommandException>(module, "CommandException", base,
+                                      "The robot refused or aborted a command.");
+  bindPlain<franka::RealtimeException>(module, "RealtimeException", base,
+                                       "The system gives this program no real-time priority.");
+  bindPlain<franka::InvalidOperationException>(
+      module, "InvalidOperationException", base,
+      "Not possible now: another operation runs, or the motion has been closed.");
 
   static py::exception<franka::ControlException> control(module, "ControlException", base);
   control.attr("__doc__") = "A motion was aborted. `log` holds the last records, oldest first.";

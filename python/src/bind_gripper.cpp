@@ -17,63 +17,85 @@ using release = pybind11::gil_scoped_release;
 
 void bindHand(py::module_& module) {
   using namespace franka;
-  py::class_<GripperState>(module, "GripperState")
+  py::class_<GripperState>(module, "GripperState", "State of the Franka Hand.")
       .def_readonly("width", &GripperState::width, "Between the fingers [m].")
       .def_readonly("max_width", &GripperState::max_width, "As found by homing [m].")
-      .def_readonly("is_grasped", &GripperState::is_grasped)
-      .def_readonly("temperature", &GripperState::temperature, "[C]")
+      .def_readonly("is_grasped", &GripperState::is_grasped,
+                    "Whether an object as wide as asked is held.")
+      .def_readonly("temperature", &GripperState::temperature, "Of the hand [deg C].")
       .def_property_readonly(
-          "time", [](const GripperState& state) { return state.time.toSec(); }, "[s]");
+          "time", [](const GripperState& state) { return state.time.toSec(); },
+          "Since the hand started [s].");
   py::class_<Gripper>(module, "Gripper",
                       "The Franka Hand. Commands wait for their end; stop() from another thread "
                       "interrupts them, which raises CommandException in the one that waits.")
-      .def(py::init<const std::string&>(), py::call_guard<release>(), py::arg("address"))
-      .def_property_readonly("server_version", &Gripper::serverVersion)
+      .def(py::init<const std::string&>(), py::call_guard<release>(), py::arg("address"),
+           "Connects. Raises NetworkException, IncompatibleVersionException.")
+      .def_property_readonly("server_version", &Gripper::serverVersion,
+                             "Version of the protocol that the hand speaks.")
       .def("homing", &Gripper::homing, py::call_guard<release>(),
-           "Finds out how far the fingers open. Returns whether it succeeded.")
+           "Finds out how far the fingers open. Returns whether it succeeded.\n\nRaises "
+           "CommandException when it is refused or ended by another command, NetworkException.")
       .def("grasp", &Gripper::grasp, py::call_guard<release>(), py::arg("width"), py::arg("speed"),
            py::arg("force"), py::arg("epsilon_inner") = 0.005, py::arg("epsilon_outer") = 0.005,
            "Closes [m, m/s] and holds with a force [N]. Returns whether what is held is as wide as "
-           "asked, within the epsilons [m].")
+           "asked, within the epsilons [m].\n\nRaises CommandException when it is refused or ended "
+           "by another command, NetworkException.")
       .def("move", &Gripper::move, py::call_guard<release>(), py::arg("width"), py::arg("speed"),
-           "Moves the fingers [m, m/s]. Returns whether they arrived.")
-      .def("stop", &Gripper::stop, py::call_guard<release>(), "Ends what the hand is doing.")
+           "Moves the fingers [m, m/s]. Returns whether they arrived.\n\nRaises CommandException "
+           "when "
+           "it is refused or ended by another command, NetworkException.")
+      .def("stop", &Gripper::stop, py::call_guard<release>(),
+           "Ends what the hand is doing and the force of a grasp. Returns whether it did.")
       .def("read_once", &Gripper::readOnce, py::call_guard<release>(),
-           "Waits for the next GripperState.");
+           "Waits for the next GripperState. Raises NetworkException when none comes.");
 }
 
 void bindVacuum(py::module_& module) {
   using namespace franka;
-  py::enum_<VacuumGripperDeviceStatus>(module, "VacuumGripperDeviceStatus")
+  py::enum_<VacuumGripperDeviceStatus>(module, "VacuumGripperDeviceStatus",
+                                       "How well the gripper is.")
       .value("Green", VacuumGripperDeviceStatus::kGreen)
       .value("Yellow", VacuumGripperDeviceStatus::kYellow)
       .value("Orange", VacuumGripperDeviceStatus::kOrange)
       .value("Red", VacuumGripperDeviceStatus::kRed);
-  py::class_<VacuumGripperState>(module, "VacuumGripperState")
-      .def_readonly("in_control_range", &VacuumGripperState::in_control_range)
-      .def_readonly("part_detached", &VacuumGripperState::part_detached)
-      .def_readonly("part_present", &VacuumGripperState::part_present)
-      .def_readonly("device_status", &VacuumGripperState::device_status)
-      .def_readonly("actual_power", &VacuumGripperState::actual_power, "[%]")
-      .def_readonly("vacuum", &VacuumGripperState::vacuum, "[mbar]")
+  py::class_<VacuumGripperState>(module, "VacuumGripperState", "State of the vacuum gripper.")
+      .def_readonly("in_control_range", &VacuumGripperState::in_control_range,
+                    "Whether the vacuum is within its bounds.")
+      .def_readonly("part_detached", &VacuumGripperState::part_detached,
+                    "Whether the object has been dropped off.")
+      .def_readonly("part_present", &VacuumGripperState::part_present,
+                    "Whether there is vacuum enough to hold an object.")
+      .def_readonly("device_status", &VacuumGripperState::device_status, "How well the gripper is.")
+      .def_readonly("actual_power", &VacuumGripperState::actual_power, "Of the pump [%].")
+      .def_readonly("vacuum", &VacuumGripperState::vacuum, "At the cups [mbar].")
       .def_property_readonly(
-          "time", [](const VacuumGripperState& state) { return state.time.toSec(); }, "[s]");
+          "time", [](const VacuumGripperState& state) { return state.time.toSec(); },
+          "Since the gripper started [s].");
 
   py::class_<VacuumGripper> gripper(module, "VacuumGripper", "The vacuum gripper.");
-  py::enum_<VacuumGripper::ProductionSetupProfile>(gripper, "ProductionSetupProfile")
+  py::enum_<VacuumGripper::ProductionSetupProfile>(gripper, "ProductionSetupProfile",
+                                                   "One of four sets of bounds of the gripper.")
       .value("P0", VacuumGripper::ProductionSetupProfile::kP0)
       .value("P1", VacuumGripper::ProductionSetupProfile::kP1)
       .value("P2", VacuumGripper::ProductionSetupProfile::kP2)
       .value("P3", VacuumGripper::ProductionSetupProfile::kP3);
-  gripper.def(py::init<const std::string&>(), py::call_guard<release>(), py::arg("address"))
-      .def_property_readonly("server_version", &VacuumGripper::serverVersion)
+  gripper
+      .def(py::init<const std::string&>(), py::call_guard<release>(), py::arg("address"),
+           "Connects. Raises NetworkException, IncompatibleVersionException.")
+      .def_property_readonly("server_version", &VacuumGripper::serverVersion,
+                             "Version of the protocol that the gripper speaks.")
       .def("vacuum", &VacuumGripper::vacuum, py::call_guard<release>(), py::arg("vacuum"),
            py::arg("timeout"), py::arg("profile") = VacuumGripper::ProductionSetupProfile::kP0,
-           "Vacuums an object [10 mbar] within a time (timedelta).")
+           "Vacuums an object [10 mbar] within a time (timedelta). Returns whether it is held.\n\n"
+           "Raises CommandException, NetworkException.")
       .def("drop_off", &VacuumGripper::dropOff, py::call_guard<release>(), py::arg("timeout"),
-           "Drops what is held within a time (timedelta).")
-      .def("stop", &VacuumGripper::stop, py::call_guard<release>())
-      .def("read_once", &VacuumGripper::readOnce, py::call_guard<release>());
+           "Drops what is held within a time (timedelta). Returns whether it did.\n\nRaises "
+           "CommandException, NetworkException.")
+      .def("stop", &VacuumGripper::stop, py::call_guard<release>(),
+           "Ends what the gripper is doing. Returns whether it did.")
+      .def("read_once", &VacuumGripper::readOnce, py::call_guard<release>(),
+           "Waits for the next VacuumGripperState. Raises NetworkException when none comes.");
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ void bindKinematics(py::class_<Model>& type) {
                                   arrayOf<16>(EE_T_K, "EE_T_K")),
                         Shape::kMatrix4);
           },
-          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"))
+          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"),
+          "The same for joint positions, 7 [rad], and the poses of EE and K, 4x4.")
       .def(
           "zero_jacobian",
           [](const Model& self, Frame frame, const RobotState& state) {
@@ -75,7 +76,8 @@ void bindDynamics(py::class_<Model>& type) {
             return copy(self.gravity(state, arrayOf<3>(gravity_earth, "gravity_earth")),
                         Shape::kVector);
           },
-          py::arg("state"), py::arg("gravity_earth"));
+          py::arg("state"), py::arg("gravity_earth"),
+          "The same with another gravity in O, 3 [m/s^2].");
 }
 
 std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, const std::string& root,
@@ -109,7 +111,9 @@ void bindModel(py::module_& module) {
   py::class_<franka_hw::ModelKDL> kdl(module, "ModelKDL",
                                       "The arm's model on KDL, from a URDF; no robot needed.");
   kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
-          "Chain from link `root` to link `tip` of a URDF text.");
+          "Chain from link `root` to link `tip` of a URDF text. Raises ValueError for a text that "
+          "is no "
+          "URDF, RuntimeError for a chain that is no arm.");
   bindKinematics(kdl);
   bindDynamics(kdl);
 }

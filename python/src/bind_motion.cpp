@@ -27,12 +27,16 @@ template <typename Command, typename Member>
 void bindCommand(py::module_& module, const char* name, const char* field, Member member,
                  Shape shape, const char* doc) {
   auto type = py::class_<Command>(module, name, doc);
-  type.def_property_readonly(field,
-                             [member, shape](const py::object& self) {
-                               return view(self.cast<const Command&>().*member, shape, self);
-                             })
-      .def_readwrite("motion_finished", &Command::motion_finished)
-      .def("__copy__", [](const Command& self) { return Command(self); });
+  type.def_property_readonly(
+          field,
+          [member, shape](const py::object& self) {
+            return view(self.cast<const Command&>().*member, shape, self);
+          },
+          doc)
+      .def_readwrite("motion_finished", &Command::motion_finished,
+                     "Whether this is the last command of its motion.")
+      .def(
+          "__copy__", [](const Command& self) { return Command(self); }, "Another one, equal.");
   constexpr std::size_t kSize =
       std::tuple_size<std::remove_reference_t<decltype(std::declval<Command>().*member)>>::value;
   if constexpr (std::is_constructible_v<Command, std::array<double, kSize>,
@@ -40,15 +44,18 @@ void bindCommand(py::module_& module, const char* name, const char* field, Membe
     type.def(py::init([name](const py::object& values, const py::object& elbow) {
                return cartesian<Command, kSize>(values, elbow, name);
              }),
-             py::arg("values"), py::arg("elbow") = py::none())
-        .def_property_readonly("elbow", [](const py::object& self) {
-          return view(self.cast<const Command&>().elbow, Shape::kVector, self);
-        });
+             py::arg("values"), py::arg("elbow") = py::none(), doc)
+        .def_property_readonly(
+            "elbow",
+            [](const py::object& self) {
+              return view(self.cast<const Command&>().elbow, Shape::kVector, self);
+            },
+            "Joint 3 [rad], sign of joint 4; zeros when not commanded.");
   } else {
     type.def(py::init([name](const py::object& values) {
                return Command(arrayOf<kSize>(values, name));
              }),
-             py::arg("values"));
+             py::arg("values"), doc);
   }
 }
 
@@ -63,8 +70,8 @@ void bindWrite(py::class_<Motion>& type) {
           self.get().writeOnce(command);
         }
       },
-      py::call_guard<py::gil_scoped_release>(), py::arg("command"),
-      py::arg("torques") = py::none());
+      py::call_guard<py::gil_scoped_release>(), py::arg("command"), py::arg("torques") = py::none(),
+      "The same with a motion, which torques may go along with, 7 [Nm].");
 }
 
 }  // namespace
@@ -116,11 +123,15 @@ void bindMotion(py::module_& module) {
           "Raises ControlException when the motion was aborted.")
       .def("close", &Motion::close, py::call_guard<py::gil_scoped_release>(),
            "Ends the motion; the robot brakes if it still moves. Never raises.")
-      .def("__enter__", [](const py::object& self) { return self; })
-      .def("__exit__", [](Motion& self, const py::args&) {
-        const py::gil_scoped_release release;
-        self.close();
-      });
+      .def(
+          "__enter__", [](const py::object& self) { return self; }, "The motion itself.")
+      .def(
+          "__exit__",
+          [](Motion& self, const py::args&) {
+            const py::gil_scoped_release release;
+            self.close();
+          },
+          "Ends the motion.");
   motion.def(
       "write_once", [](Motion& self, const Torques& torques) { self.get().writeOnce(torques); },
       py::call_guard<py::gil_scoped_release>(), py::arg("command"),

@@ -174,7 +174,8 @@ void bindSetters(py::class_<Robot>& robot) {
 
 void bindRobot(py::module_& module) {
   using release = py::gil_scoped_release;
-  py::enum_<RealtimeConfig>(module, "RealtimeConfig")
+  py::enum_<RealtimeConfig>(module, "RealtimeConfig",
+                            "Whether a program without real-time priority may control the robot.")
       .value("Enforce", RealtimeConfig::kEnforce)
       .value("Ignore", RealtimeConfig::kIgnore);
 

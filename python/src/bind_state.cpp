@@ -114,16 +114,17 @@ void bindState(py::module_& module) {
   py::class_<RobotState> state(module, "RobotState",
                                "State of a robot. Arrays are numpy views of it that cannot be "
                                "written; matrices have two dimensions.");
-  state.def(py::init<>());
+  state.def(py::init<>(), "All zero, poses the identity; for models without a robot.");
   bindFrames(state);
   bindLoads(state);
   bindJoints(state);
   bindContacts(state);
-  state.def_readonly("current_errors", &RobotState::current_errors)
-      .def_readonly("last_motion_errors", &RobotState::last_motion_errors)
+  state.def_readonly("current_errors", &RobotState::current_errors, "Errors now.")
+      .def_readonly("last_motion_errors", &RobotState::last_motion_errors,
+                    "Errors that ended the last motion.")
       .def_readonly("control_command_success_rate", &RobotState::control_command_success_rate,
                     "Share of the last 100 commands that arrived; 0 when no motion runs.")
-      .def_readonly("robot_mode", &RobotState::robot_mode)
+      .def_readonly("robot_mode", &RobotState::robot_mode, "What the robot is doing.")
       .def_property_readonly(
           "time", [](const RobotState& self) { return self.time.toSec(); },
           "Since the robot started [s].")
@@ -134,27 +135,37 @@ void bindState(py::module_& module) {
       });
 
   py::class_<franka::Record>(module, "Record", "A state, and the command sent just before it.")
-      .def_readonly("state", &franka::Record::state)
-      .def_property_readonly("q_c",
-                             [](const franka::Record& record) {
-                               return copy(record.command.joint_positions.q, Shape::kVector);
-                             })
-      .def_property_readonly("dq_c",
-                             [](const franka::Record& record) {
-                               return copy(record.command.joint_velocities.dq, Shape::kVector);
-                             })
-      .def_property_readonly("O_T_EE_c",
-                             [](const franka::Record& record) {
-                               return copy(record.command.cartesian_pose.O_T_EE, Shape::kMatrix4);
-                             })
-      .def_property_readonly("O_dP_EE_c",
-                             [](const franka::Record& record) {
-                               return copy(record.command.cartesian_velocities.O_dP_EE,
-                                           Shape::kVector);
-                             })
-      .def_property_readonly("tau_J_d", [](const franka::Record& record) {
-        return copy(record.command.torques.tau_J, Shape::kVector);
-      });
+      .def_readonly("state", &franka::Record::state, "The state received.")
+      .def_property_readonly(
+          "q_c",
+          [](const franka::Record& record) {
+            return copy(record.command.joint_positions.q, Shape::kVector);
+          },
+          "Joint positions, 7 [rad].")
+      .def_property_readonly(
+          "dq_c",
+          [](const franka::Record& record) {
+            return copy(record.command.joint_velocities.dq, Shape::kVector);
+          },
+          "Joint velocities, 7 [rad/s].")
+      .def_property_readonly(
+          "O_T_EE_c",
+          [](const franka::Record& record) {
+            return copy(record.command.cartesian_pose.O_T_EE, Shape::kMatrix4);
+          },
+          "Pose of EE in O, 4x4.")
+      .def_property_readonly(
+          "O_dP_EE_c",
+          [](const franka::Record& record) {
+            return copy(record.command.cartesian_velocities.O_dP_EE, Shape::kVector);
+          },
+          "Twist of EE in O, 6 [m/s, rad/s].")
+      .def_property_readonly(
+          "tau_J_d",
+          [](const franka::Record& record) {
+            return copy(record.command.torques.tau_J, Shape::kVector);
+          },
+          "Torques, 7 [Nm].");
   module.def("log_to_csv", &franka::logToCSV, py::arg("log"),
              "The records of a ControlException as comma separated values.");
 }
