@@ -152,8 +152,9 @@ def slowest(ticks: float) -> float:
     return ticks * TICK + 2.0
 
 
-def survive(group, commands=None, states=None, exact=True, **task):
-    """Every motion ends well, and the robots' success rate is what the proxy let through.
+def survive(group, commands=None, states=None, least=None, **task):
+    """Every motion ends well, and the robots' success rate is what the proxy let through, or where that
+    does not say it, at least `least`.
 
     A busy machine loses cycles of its own, which the same comparison shows: then all is done again, three
     times at most.
@@ -164,7 +165,7 @@ def survive(group, commands=None, states=None, exact=True, **task):
         for station, result in zip(group, results):
             share, rates = station.proxy.commands.worst_share(), station.proxy.rates[101:]
             assert not rates or min(rates) <= share + 0.0101, "The robot counts commands that never came."
-            undisturbed = not exact or (rates and min(rates) > share - 0.0101)
+            undisturbed = rates and min(rates) > (share - 0.0101 if least is None else least)
             if result["outcome"] != "ok" and not undisturbed:
                 recover([station])
             else:
@@ -186,7 +187,7 @@ def test_uniform_loss_of_commands_is_survived_and_counted(slow, percent):
 
 @pytest.mark.parametrize("percent", [1, 5, 20] if LONG else [5])
 def test_uniform_loss_of_states_is_survived(slow, percent):
-    for result in survive(slow, states=lambda: losing(percent / 100), exact=False):
+    for result in survive(slow, states=lambda: losing(percent / 100), least=0.95 - 2 * percent / 100):
         assert result["longest"] > 0.0015, "No state was lost."
 
 
@@ -227,13 +228,14 @@ DELAYS = {
     "half a cycle each way": lambda: delaying(0.25 * TICK),
     "normal jitter": lambda: delaying(lambda chance: chance.gauss(0.4, 0.2) * TICK),
     "Pareto jitter": lambda: delaying(lambda chance: 0.05 * chance.paretovariate(1.5) * TICK),
-    "reordering": lambda: delaying(lambda chance: chance.uniform(0.0, 1.2) * TICK),
+    "reordering": lambda: lambda number, data, chance: [(1.2 * TICK if number % 10 == 9 else 0.0, data)],
 }
 
 
 @pytest.mark.parametrize("kind", DELAYS if LONG else ["Pareto jitter"])
 def test_delays_within_the_cycle_are_survived(slow, kind):
-    survive(slow, commands=DELAYS[kind], states=DELAYS[kind] if "each way" in kind else None, exact=False)
+    states = DELAYS[kind] if "each way" in kind else None
+    survive(slow, commands=DELAYS[kind], states=states, least=0.85)
 
 
 def test_a_network_that_is_always_late_ends_the_motion_at_once(slow):
@@ -250,7 +252,7 @@ def test_a_network_that_is_always_late_ends_the_motion_at_once(slow):
 
 @pytest.mark.parametrize("ticks", [1, 10, 15] if LONG else [10])
 def test_a_short_stall_with_its_backlog_is_survived(slow, ticks):
-    for result in survive(slow, states=lambda: stalling(150, ticks * TICK), exact=False):
+    for result in survive(slow, states=lambda: stalling(150, ticks * TICK), least=0.8):
         # The client takes the newest of what has come when it wakes, and its clock jumps.
         assert result["longest"] >= 0.5e-3 * ticks
 
@@ -525,7 +527,7 @@ def test_connecting_again_and_again_leaks_nothing(raw):
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.8] if LONG else [0.6])
 def test_a_program_may_compute_for_most_of_a_cycle(slow, share):
-    survive(slow, compute=share * TICK, exact=False)
+    survive(slow, compute=share * TICK, least=0.9)
 
 
 def test_a_program_slower_than_a_cycle_is_stopped(slow):

@@ -119,15 +119,6 @@ def every(period: int, change):
     return rule
 
 
-def instead(period: int, change):
-    """Each `period`-th datagram is replaced by what `change(data, random)` makes of it."""
-
-    def rule(number, data, chance):
-        return [(0.0, change(data, chance) if number % period == period - 1 else data)]
-
-    return rule
-
-
 def renumbered(by: int):
     """The datagram with another message_id: an old one again, or one from the future."""
 
