@@ -181,6 +181,7 @@ void FrankaCombinableHW::moveRobot() {
 
 void FrankaCombinableHW::control(
     const std::function<bool(const ros::Time&, const ros::Duration&)>& /*ros_callback*/) {
+  const InControl in_control(*this);
   if (!controllerActive()) {
     return;
   }

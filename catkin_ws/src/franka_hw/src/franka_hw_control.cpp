@@ -82,8 +82,7 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   }
 
   const bool was_active = controller_active_;
-  std::unique_lock<std::mutex> robot_lock(robot_mutex_, std::defer_lock);
-  if (!endMotion(robot_lock)) {
+  if (!endMotion()) {
     ROS_ERROR_STREAM("FrankaHW: the motion of '" << arm_id_ << "' did not end within "
                                                  << kLongestStop.count() << " s.");
     return false;
@@ -109,10 +108,11 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   return true;
 }
 
-bool FrankaHW::endMotion(std::unique_lock<std::mutex>& robot_lock) {
+bool FrankaHW::endMotion() {
+  // Not by means of robot_mutex_: a loop that only reads takes it again before others wake up.
   controller_active_ = false;
   const auto deadline = std::chrono::steady_clock::now() + kLongestStop;
-  while (!robot_lock.try_lock()) {
+  while (in_control_) {
     if (std::chrono::steady_clock::now() > deadline) {
       return false;
     }
@@ -141,6 +141,7 @@ void FrankaHW::control(
     ROS_ERROR("FrankaHW: control was called before init.");
     return;
   }
+  const InControl in_control(*this);
   if (!controller_active_) {
     return;
   }

@@ -24,7 +24,9 @@ std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
           "The robot cannot be configured while a controller commands it. Stop that controller "
           "(rosservice call /controller_manager/switch_controller), then try again.");
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    // A loop that reads states leaves the robot for some microseconds only, which one must not
+    // sleep.
+    std::this_thread::yield();
     lock.try_lock();
   }
   return lock;

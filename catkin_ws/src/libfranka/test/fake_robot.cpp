@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <franka_core/fci/command_codec.h>
 #include <franka_core/fci/reply_codec.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -157,6 +158,9 @@ void FakeRobot::serve() {
 void FakeRobot::acceptClient() {
   client_ = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (client_ >= 0) {
+    // Two replies in a row must not wait for each other's acknowledgement.
+    const int at_once = 1;
+    setsockopt(client_, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof(at_once));
     connections_++;
     stream_.clear();
     client_udp_port_ = 0;

@@ -248,7 +248,20 @@ class FrankaHW : public hardware_interface::RobotHW {
   virtual void initRobot();
 
   /// Ends the motion under way and waits for it. @returns false when it does not end in time
-  bool endMotion(std::unique_lock<std::mutex>& robot_lock);
+  bool endMotion();
+
+  /// That control() is at work: held while a run function may be called, which a switch replaces.
+  /// To be taken before controllerActive() is asked.
+  class InControl {
+   public:
+    explicit InControl(FrankaHW& robot) : robot_(robot) { robot_.in_control_ = true; }
+    ~InControl() { robot_.in_control_ = false; }
+    InControl(const InControl&) = delete;
+    InControl& operator=(const InControl&) = delete;
+
+   private:
+    FrankaHW& robot_;
+  };
 
   CollisionConfig collision_config_{};
 
@@ -332,6 +345,7 @@ class FrankaHW : public hardware_interface::RobotHW {
 
   RunSettings run_settings_;
   std::atomic_bool motion_goes_on_{false};
+  std::atomic_bool in_control_{false};
   double connect_timeout_{0.0};  // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
 
