@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/mjcf_robot.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "physics/contact_settings.h"
 #include "physics/mesh_assets.h"
+#include "physics/mjcf_inertial.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim_mujoco::physics {
@@ -65,7 +65,7 @@ class Writer {
       body->SetAttribute("name", nameOf(segment).c_str());
       setPose(body, segment.pose);
       bodies.push_back(body);
-      writeInertial(segment, body);
+      writeInertial(segment.inertial, body);
       writeJoint(segment, body);
       for (const auto& [link, pose] : segment.links) {
         writeShapes(robot_.urdf.links[link], pose, body);
@@ -81,21 +81,6 @@ class Writer {
  private:
   const std::string& nameOf(const Segment& segment) const {
     return robot_.urdf.links[segment.link].name;
-  }
-
-  static void writeInertial(const Segment& segment, XMLElement* body) {
-    if (segment.inertial.mass == 0) {
-      return;
-    }
-    // Principal axes by our own hand: MuJoCo's diagonalisation is good to 1e-8 only.
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(segment.inertial.inertia);
-    Eigen::Matrix3d axes = solver.eigenvectors();
-    axes.col(2) = axes.col(0).cross(axes.col(1));
-    XMLElement* inertial = append(body, "inertial");
-    inertial->SetAttribute("pos", toText(segment.inertial.com).c_str());
-    inertial->SetAttribute("quat", toText(Eigen::Quaterniond(axes).normalized()).c_str());
-    inertial->SetAttribute("mass", toText({segment.inertial.mass}).c_str());
-    inertial->SetAttribute("diaginertia", toText(Eigen::Vector3d(solver.eigenvalues())).c_str());
   }
 
   double of(const std::map<std::string, double>& values, const std::string& joint) const {
@@ -305,7 +290,7 @@ class Writer {
   bool mayCollide(int a, int b) const {
     const bool fingers = isFinger(robot_.urdf.links[robot_.segments[a].link]) &&
                          isFinger(robot_.urdf.links[robot_.segments[b].link]);
-    return distance(a, b) > 2 && !fingers;
+    return robot_.urdf.self_collide && distance(a, b) > 2 && !fingers;
   }
 
   void writeExcludes() {
@@ -317,7 +302,7 @@ class Writer {
           e->SetAttribute("body1", nameOf(robot_.segments[a]).c_str());
           e->SetAttribute("body2", nameOf(robot_.segments[b]).c_str());
         }
-        if (distance(a, b) == 2) {
+        if (robot_.urdf.self_collide && distance(a, b) == 2) {
           writeAttachedPairs(robot_.segments[a], robot_.segments[b]);
           writeAttachedPairs(robot_.segments[b], robot_.segments[a]);
         }

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/mjcf_world.h"
 
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -34,6 +37,16 @@ constexpr const char* kEmptyWorld = R"(<mujoco model="empty">
     <geom name="ground" type="plane" size="5 5 0.1" material="ground" condim="3" solref="0.01 1"/>
   </worldbody>
 </mujoco>)";
+
+/// Empty when it cannot be read.
+std::string readText(const std::string& file) {
+  std::error_code error;
+  std::ostringstream text;
+  if (std::filesystem::is_regular_file(file, error)) {
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+  }
+  return text.str();
+}
 
 /// The last element of that name below the root (robots come after everything of the world file);
 /// made when there is none.
@@ -77,17 +90,6 @@ double angleUnit(const XMLElement& root) {
   return unit;
 }
 
-void nameGeoms(XMLElement* body, int* count) {
-  for (auto* e = body->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-    const std::string kind = e->Name();
-    if (kind == "geom" && e->Attribute("name") == nullptr) {
-      e->SetAttribute("name", ("world/geom_" + std::to_string((*count)++)).c_str());
-    } else if (kind == "body") {
-      nameGeoms(e, count);
-    }
-  }
-}
-
 /// Geoms with their sliding friction: the world's by name, those of robots from the attribute.
 void collectGeoms(XMLElement* body, const std::map<std::string, double>& frictions,
                   std::vector<std::pair<XMLElement*, double>>* geoms) {
@@ -118,10 +120,68 @@ bool movesFreely(const mjModel& model, int body) {
 
 }  // namespace
 
-MjcfWorld::MjcfWorld(const std::string& file)
-    : title_(file.empty() ? "The built-in world" : "World file " + file) {
+MjcfWorld::MjcfWorld(const std::string& file, ResourceResolver resolve)
+    : title_(file.empty() ? "The built-in world" : "World file " + file),
+      resolve_(std::move(resolve)) {
   load(file);
   inspect();
+}
+
+MjcfWorld::MjcfWorld(const MjcfWorld& other, std::vector<std::shared_ptr<const MjcfObject>> objects)
+    : title_(other.title_),
+      resolve_(other.resolve_),
+      objects_(std::move(objects)),
+      aliases_(other.aliases_),
+      unsupported_(other.unsupported_),
+      angle_unit_(other.angle_unit_) {
+  other.document_.DeepCopy(&document_);
+  inspect();
+}
+
+std::unique_ptr<MjcfWorld> MjcfWorld::with(const std::string& object, const std::string& text,
+                                           const Pose& pose) const {
+  auto all = objects_;
+  all.push_back(readObject(object, text, pose, angle_unit_, resolve_));
+  return std::unique_ptr<MjcfWorld>(new MjcfWorld(*this, std::move(all)));
+}
+
+std::unique_ptr<MjcfWorld> MjcfWorld::without(const std::string& object) const {
+  std::vector<std::shared_ptr<const MjcfObject>> rest;
+  for (const auto& present : objects_) {
+    if (present->name != object) {
+      rest.push_back(present);
+    }
+  }
+  if (rest.size() == objects_.size()) {
+    throw std::runtime_error("There is no object '" + object +
+                             "' that was put into the simulated world.");
+  }
+  return std::unique_ptr<MjcfWorld>(new MjcfWorld(*this, std::move(rest)));
+}
+
+std::vector<std::string> MjcfWorld::objects() const {
+  std::vector<std::string> names;
+  for (const auto& object : objects_) {
+    names.push_back(object->name);
+  }
+  return names;
+}
+
+std::vector<BodyAlias> MjcfWorld::aliases() const {
+  std::vector<BodyAlias> all = aliases_;
+  for (const auto& object : objects_) {
+    all.insert(all.end(), object->aliases.begin(), object->aliases.end());
+  }
+  return all;
+}
+
+std::set<std::string> MjcfWorld::unsupported(const std::string& object) const {
+  for (const auto& present : objects_) {
+    if (present->name == object) {
+      return present->unsupported;
+    }
+  }
+  return object.empty() ? unsupported_ : std::set<std::string>();
 }
 
 void MjcfWorld::load(const std::string& file) {
@@ -130,16 +190,27 @@ void MjcfWorld::load(const std::string& file) {
     document_.Parse(kEmptyWorld);
   } else {
     folder = folderOf(file);
-    loadExpanded(file, title_, &document_);
+    const std::string text = readText(file);
+    if (looksLikeSdf(text)) {
+      loadSdf(text, folder);
+    } else {
+      loadExpanded(file, title_, &document_);
+    }
   }
   XMLElement* root = document_.RootElement();
   if (root == nullptr || std::string(root->Name()) != "mujoco") {
-    throw std::runtime_error(title_ + ": it is no MJCF, its root element is " +
+    throw std::runtime_error(title_ + ": it is neither MJCF nor SDF, its root element is " +
                              (root == nullptr ? "missing" : "<" + std::string(root->Name()) + ">") +
-                             " instead of <mujoco>.");
+                             " instead of <mujoco> or <sdf>.");
   }
   checkCompiler(*root, title_);
   normalise(folder);
+}
+
+void MjcfWorld::loadSdf(const std::string& text, const std::string& folder) {
+  SdfScene scene = readSdf(text, folder, title_, resolve_);
+  aliases_ = writeSdf(&scene, 1, true, &document_).aliases;
+  unsupported_ = scene.unsupported;
 }
 
 void MjcfWorld::normalise(const std::string& folder) {
@@ -157,12 +228,32 @@ void MjcfWorld::normalise(const std::string& folder) {
   int count = 0;
   for (auto* e = root->FirstChildElement("worldbody"); e != nullptr;
        e = e->NextSiblingElement("worldbody")) {
-    nameGeoms(e, &count);
+    nameGeoms(e, "world", &count);
+  }
+}
+
+void MjcfWorld::compose(tinyxml2::XMLDocument* document) const {
+  document_.DeepCopy(document);
+  for (const auto& object : objects_) {
+    for (auto* from = object->document.RootElement()->FirstChildElement(); from != nullptr;
+         from = from->NextSiblingElement()) {
+      if (std::string(from->Name()) == "compiler") {
+        continue;
+      }
+      XMLElement* to = section(document->RootElement(), from->Name());
+      for (auto* e = from->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+        to->InsertEndChild(e->DeepClone(document));
+      }
+    }
   }
 }
 
 void MjcfWorld::inspect() {
-  const ModelPtr model = compile(toText(document_), title_);
+  tinyxml2::XMLDocument composed;
+  compose(&composed);
+  const ModelPtr model =
+      compile(toText(composed),
+              objects_.empty() ? title_ : title_ + " with object '" + objects_.back()->name + "'");
   for (int i = 0; i < model->ngeom; ++i) {
     WorldGeom geom;
     const char* name = mj_id2name(model.get(), mjOBJ_GEOM, i);
@@ -202,7 +293,7 @@ void MjcfWorld::rankFrictions(XMLElement* root) const {
 
 std::string MjcfWorld::merge(const std::vector<const RobotModel*>& robots, bool visuals) const {
   tinyxml2::XMLDocument merged;
-  document_.DeepCopy(&merged);
+  compose(&merged);
   XMLElement* root = merged.RootElement();
   const MjcfTarget target{section(root, "asset"),
                           section(root, "worldbody"),

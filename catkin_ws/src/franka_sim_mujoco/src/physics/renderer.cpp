@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/physics/renderer.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "physics/gl_context.h"
@@ -34,6 +35,44 @@ mjvCamera freeCamera(const Camera& camera) {
   result.azimuth = std::atan2(line.y(), line.x()) / kDegree;
   result.elevation = std::asin(line.z() / line.norm()) / kDegree;
   return result;
+}
+
+void checkSize(int width, int height) {
+  if (width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture) {
+    throw std::runtime_error("A picture of " + std::to_string(width) + " x " +
+                             std::to_string(height) +
+                             " pixels cannot be drawn; each side can have 1 to " +
+                             std::to_string(kLargestPicture) + ".");
+  }
+}
+
+/// The z-buffer's numbers (rows from the bottom) as distances (rows from the top). 1 is the far end
+/// of what is drawn: nothing was hit.
+std::vector<float> toMetres(const std::vector<float>& buffer, const mjModel& model, int width,
+                            int height) {
+  const double near = model.vis.map.znear * model.stat.extent;
+  const double far = model.vis.map.zfar * model.stat.extent;
+  std::vector<float> metres(buffer.size());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double z = buffer[static_cast<std::size_t>(height - 1 - y) * width + x];
+      metres[static_cast<std::size_t>(y) * width + x] =
+          z >= 1 ? std::numeric_limits<float>::infinity()
+                 : static_cast<float>(near * far / (far - z * (far - near)));
+    }
+  }
+  return metres;
+}
+
+/// MuJoCo's cameras look along -z with y up; optical frames along z with y down.
+Pose opticalFrame(const mjData& data, int camera) {
+  Eigen::Matrix3d turn =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.cam_xmat + 9 * camera);
+  turn.col(1) = -turn.col(1);
+  turn.col(2) = -turn.col(2);
+  const Eigen::Quaterniond q(turn);
+  const double* p = data.cam_xpos + 3 * camera;
+  return {{p[0], p[1], p[2]}, {q.w(), q.x(), q.y(), q.z()}};
 }
 
 }  // namespace
@@ -75,6 +114,23 @@ struct Renderer::Impl {
                                ") gives no buffer to draw pictures into.");
     }
   }
+
+  /// Of the size that the picture has. @param depth null or room for as many pixels
+  void draw(mjvCamera* view, float* depth, Picture* picture) {
+    mjvOption option;
+    mjv_defaultOption(&option);
+    mjv_updateScene(drawn.model(), drawn.data(), &option, nullptr, view, mjCAT_ALL, &scene);
+    const mjrRect area{0, 0, picture->width, picture->height};
+    mjr_render(area, &scene, &context);
+    const std::size_t row = 3u * picture->width;
+    std::vector<std::uint8_t> upside_down(row * picture->height);
+    mjr_readPixels(upside_down.data(), depth, area, &context);
+    picture->rgb.resize(upside_down.size());
+    for (int y = 0; y < picture->height; ++y) {
+      std::copy_n(upside_down.begin() + row * (picture->height - 1 - y), row,
+                  picture->rgb.begin() + row * y);
+    }
+  }
 };
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
@@ -83,12 +139,7 @@ Renderer::~Renderer() = default;
 std::string Renderer::backend() const { return impl_->gl->name(); }
 
 Picture Renderer::render(const Scene& scene, const Camera& camera, int width, int height) {
-  if (width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture) {
-    throw std::runtime_error("A picture of " + std::to_string(width) + " x " +
-                             std::to_string(height) +
-                             " pixels cannot be drawn; each side can have 1 to " +
-                             std::to_string(kLargestPicture) + ".");
-  }
+  checkSize(width, height);
   if (!(camera.field_of_view > 1 && camera.field_of_view < 170)) {
     throw std::runtime_error("The camera's field of view must lie between 1 and 170 degrees.");
   }
@@ -96,20 +147,35 @@ Picture Renderer::render(const Scene& scene, const Camera& camera, int width, in
   impl_->gl->makeCurrent();
   impl_->prepare(scene.mjcf, width, height);
   impl_->drawn.pose(scene);
-  mjModel* model = impl_->drawn.model();
-  model->vis.global.fovy = static_cast<float>(camera.field_of_view);
-  mjvOption option;
-  mjv_defaultOption(&option);
-  mjv_updateScene(model, impl_->drawn.data(), &option, nullptr, &view, mjCAT_ALL, &impl_->scene);
-  const mjrRect area{0, 0, width, height};
-  mjr_render(area, &impl_->scene, &impl_->context);
-  Picture picture{width, height, std::vector<std::uint8_t>(3u * width * height)};
-  std::vector<std::uint8_t> upside_down(picture.rgb.size());
-  mjr_readPixels(upside_down.data(), nullptr, area, &impl_->context);
-  const std::size_t row = 3u * width;
-  for (int y = 0; y < height; ++y) {
-    std::copy_n(upside_down.begin() + row * (height - 1 - y), row, picture.rgb.begin() + row * y);
+  impl_->drawn.model()->vis.global.fovy = static_cast<float>(camera.field_of_view);
+  Picture picture;
+  picture.width = width;
+  picture.height = height;
+  impl_->draw(&view, nullptr, &picture);
+  return picture;
+}
+
+Picture Renderer::render(const Scene& scene, const std::string& camera, int width, int height) {
+  checkSize(width, height);
+  impl_->gl->makeCurrent();
+  impl_->prepare(scene.mjcf, width, height);
+  impl_->drawn.pose(scene);
+  const mjModel& model = *impl_->drawn.model();
+  const int id = mj_name2id(&model, mjOBJ_CAMERA, camera.c_str());
+  if (id < 0) {
+    throw std::runtime_error("There is no camera '" + camera + "' in the simulated world.");
   }
+  mjvCamera view;
+  mjv_defaultCamera(&view);
+  view.type = mjCAMERA_FIXED;
+  view.fixedcamid = id;
+  Picture picture;
+  picture.width = width;
+  picture.height = height;
+  std::vector<float> depth(static_cast<std::size_t>(width) * height);
+  impl_->draw(&view, depth.data(), &picture);
+  picture.depth = toMetres(depth, model, width, height);
+  picture.camera = opticalFrame(*impl_->drawn.data(), id);
   return picture;
 }
 
@@ -120,6 +186,7 @@ Scene captureScene(World& world) {
   }
   Scene scene;
   scene.mjcf = impl.visual_mjcf;
+  scene.contacts = world.contacts();
   const mjModel& model = *impl.model;
   for (int j = 0; j < model.njnt; ++j) {
     const double* qpos = impl.data->qpos + model.jnt_qposadr[j];

@@ -234,6 +234,11 @@ const XMLElement* findFriction(const XMLElement& element) {
 void readFrictions(const XMLElement& root, const std::string& context, UrdfRobot* robot) {
   for (auto* e = root.FirstChildElement("gazebo"); e != nullptr;
        e = e->NextSiblingElement("gazebo")) {
+    const XMLElement* self_collide = e->FirstChildElement("self_collide");
+    if (self_collide != nullptr && e->Attribute("reference") == nullptr &&
+        self_collide->QueryBoolText(&robot->self_collide) != tinyxml2::XML_SUCCESS) {
+      fail(context, "<self_collide> must say true or false.");
+    }
     const int index = robot->link(optional(*e, "reference"));
     const XMLElement* mu = findFriction(*e);
     if (index < 0 || mu == nullptr) {

@@ -54,6 +54,7 @@ struct UrdfRobot {
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
   int root{-1};
+  bool self_collide{true};  ///< <self_collide> of the <gazebo> element without a reference
 
   /// Index of a link or joint, -1 when unknown.
   int link(const std::string& link_name) const noexcept;

@@ -13,6 +13,8 @@ namespace {
 constexpr int kWidth = 1200, kHeight = 900;  ///< [pixel]
 constexpr int kMostGeoms = 4000;
 constexpr double kZoomStep = 0.05;
+constexpr double kContactDot = 0.004;       ///< [m]
+constexpr double kMetresPerNewton = 0.005;  ///< of the arrows of contact forces
 
 void toggle(mjtByte& flag) { flag = flag != 0 ? 0 : 1; }
 
@@ -25,6 +27,7 @@ struct Window::Impl {
   mjrContext context;
   mjvCamera camera;
   mjvOption option;
+  bool shows_contacts{false};
   double x{0}, y{0};
 
   Impl() {
@@ -87,12 +90,39 @@ struct Window::Impl {
 
   void press(int key) {
     if (key == GLFW_KEY_C) {
-      toggle(option.flags[mjVIS_CONTACTPOINT]);
-      toggle(option.flags[mjVIS_CONTACTFORCE]);
+      shows_contacts = !shows_contacts;
     } else if (key == GLFW_KEY_F) {
       option.frame = option.frame == mjFRAME_NONE ? mjFRAME_BODY : mjFRAME_NONE;
     } else if (key == GLFW_KEY_T) {
       toggle(option.flags[mjVIS_TRANSPARENT]);
+    }
+  }
+
+  mjvGeom* nextGeom(int type, const std::array<double, 3>& at, const double* size) {
+    if (scene.ngeom >= scene.maxgeom) {
+      return nullptr;
+    }
+    const float colour[4] = {0.95f, 0.45f, 0.1f, 1};
+    mjvGeom* geom = &scene.geoms[scene.ngeom++];
+    mjv_initGeom(geom, type, size, at.data(), nullptr, colour);
+    geom->category = mjCAT_DECOR;
+    return geom;
+  }
+
+  /// A dot where things touch and an arrow of the force. The drawn model has shapes to look at,
+  /// which touch nothing: contacts come from the simulation.
+  void drawContacts(const std::vector<Contact>& contacts) {
+    for (const Contact& contact : contacts) {
+      const double dot[3] = {kContactDot, kContactDot, kContactDot};
+      nextGeom(mjGEOM_SPHERE, contact.position, dot);
+      mjvGeom* arrow = nextGeom(mjGEOM_ARROW, contact.position, nullptr);
+      if (arrow != nullptr) {
+        const std::array<double, 3>& from = contact.position;
+        const std::array<double, 3>& f = contact.force;
+        mjv_makeConnector(arrow, mjGEOM_ARROW, kContactDot, from[0], from[1], from[2],
+                          from[0] + kMetresPerNewton * f[0], from[1] + kMetresPerNewton * f[1],
+                          from[2] + kMetresPerNewton * f[2]);
+      }
     }
   }
 
@@ -130,10 +160,11 @@ bool Window::draw(const Scene& scene) {
   glfwMakeContextCurrent(impl_->window);
   impl_->load(scene.mjcf);
   impl_->drawn.pose(scene);
-  // Contacts are found anew, for the points and forces that C shows.
-  mj_forward(impl_->drawn.model(), impl_->drawn.data());
   mjv_updateScene(impl_->drawn.model(), impl_->drawn.data(), &impl_->option, nullptr,
                   &impl_->camera, mjCAT_ALL, &impl_->scene);
+  if (impl_->shows_contacts) {
+    impl_->drawContacts(scene.contacts);
+  }
   mjrRect area{0, 0, 0, 0};
   glfwGetFramebufferSize(impl_->window, &area.width, &area.height);
   mjr_setBuffer(mjFB_WINDOW, &impl_->context);

@@ -39,7 +39,8 @@ std::array<std::string, N> jointNames(const physics::RobotModel& robot, const st
 
 }  // namespace
 
-World::World(const std::string& mjcf_file) : impl_(std::make_unique<Impl>(mjcf_file)) {}
+World::World(const std::string& file, ResourceResolver resolve)
+    : impl_(std::make_unique<Impl>(file, std::move(resolve))) {}
 
 World::~World() = default;
 
@@ -64,10 +65,7 @@ void World::addRobot(const RobotDescription& robot) {
                                "the robot another arm_id.");
     }
   }
-  std::vector<std::unique_ptr<physics::RobotModel>> all;
-  for (const auto& old : impl_->robots) {
-    all.push_back(std::make_unique<physics::RobotModel>(*old));
-  }
+  std::vector<std::unique_ptr<physics::RobotModel>> all = impl_->copyRobots();
   all.push_back(std::move(added));
   impl_->rebuild(&all);
 }
@@ -147,9 +145,16 @@ void World::setBodyPose(const std::string& body, const Pose& pose) {
   if (!(std::abs(turn.norm() - 1) < 1e-3)) {
     throw std::runtime_error("The orientation for body '" + body + "' is no unit quaternion.");
   }
+  const Frame frame = impl_->frame(body);
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.translation() = vector(pose.position);
+  place.linear() = turn.normalized().matrix();
+  const bool is_body = frame.pose.matrix().isIdentity(0);
+  place = is_body ? place : place * frame.pose.inverse();
   double* qpos = impl_->data->qpos + impl_->model->jnt_qposadr[joint];
-  std::copy(pose.position.begin(), pose.position.end(), qpos);
-  const Eigen::Quaterniond unit = turn.normalized();
+  Eigen::Vector3d::Map(qpos) = place.translation();
+  const Eigen::Quaterniond unit =
+      is_body ? turn.normalized() : Eigen::Quaterniond(place.linear()).normalized();
   qpos[3] = unit.w();
   qpos[4] = unit.x();
   qpos[5] = unit.y();
@@ -232,7 +237,7 @@ std::string World::mjcf(bool visuals) const {
   for (const auto& robot : impl_->robots) {
     robots.push_back(robot.get());
   }
-  return impl_->world.merge(robots, visuals);
+  return impl_->world->merge(robots, visuals);
 }
 
 }  // namespace franka_sim_mujoco

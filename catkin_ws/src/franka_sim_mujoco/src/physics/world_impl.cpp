@@ -32,7 +32,8 @@ Eigen::Isometry3d poseOf(const mjData& data, int body) {
 
 }  // namespace
 
-World::Impl::Impl(const std::string& mjcf_file) : world(mjcf_file) {
+World::Impl::Impl(const std::string& file, ResourceResolver resolve)
+    : world(std::make_unique<physics::MjcfWorld>(file, std::move(resolve))) {
   pushes.reserve(kExpectedPushes);
   std::vector<std::unique_ptr<RobotModel>> none;
   rebuild(&none);
@@ -50,15 +51,28 @@ void World::Impl::placeInitially(const mjModel& m, mjData* d,
   }
 }
 
-void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates) {
+std::vector<std::unique_ptr<RobotModel>> World::Impl::copyRobots() const {
+  std::vector<std::unique_ptr<RobotModel>> copies;
+  for (const auto& robot : robots) {
+    copies.push_back(std::make_unique<RobotModel>(*robot));
+  }
+  return copies;
+}
+
+void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
+                          std::unique_ptr<physics::MjcfWorld> new_world) {
+  const physics::MjcfWorld& merged = new_world ? *new_world : *world;
   std::vector<const RobotModel*> list;
   for (const auto& robot : *candidates) {
     list.push_back(robot.get());
   }
   const std::string title =
-      list.empty() ? world.title()
-                   : world.title() + " with robot '" + list.back()->description.name + "'";
-  physics::ModelPtr new_model = physics::compile(world.merge(list, false), title);
+      list.empty() ? merged.title()
+                   : merged.title() + " with robot '" + list.back()->description.name + "'";
+  physics::ModelPtr new_model = physics::compile(merged.merge(list, false), title);
+  if (set_gravity) {
+    std::copy(set_gravity->begin(), set_gravity->end(), new_model->opt.gravity);
+  }
   physics::DataPtr new_data = physics::makeData(*new_model);
   mj_resetData(new_model.get(), new_data.get());
   placeInitially(*new_model, new_data.get(), *candidates);
@@ -71,6 +85,10 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates) 
   }
   // Nothing below throws but for lack of memory.
   robots.swap(*candidates);
+  if (new_world) {
+    world = std::move(new_world);
+  }
+  ++generation;
   model.swap(new_model);
   data.swap(new_data);
   index();
@@ -90,6 +108,12 @@ void World::Impl::index() {
   frames.clear();
   for (int b = 0; b < model->nbody; ++b) {
     frames[nameOf(*model, mjOBJ_BODY, b)] = {b, Eigen::Isometry3d::Identity()};
+  }
+  for (const physics::BodyAlias& alias : world->aliases()) {
+    const auto body = frames.find(alias.body);
+    if (body != frames.end()) {
+      frames.insert({alias.name, {body->second.body, body->second.pose * alias.pose}});
+    }
   }
   for (const auto& robot : robots) {
     for (const physics::Segment& segment : robot->segments) {
@@ -189,6 +213,13 @@ const RobotModel& World::Impl::robot(const std::string& name) const {
     }
   }
   throw std::runtime_error("There is no robot '" + name + "' in the simulated world.");
+}
+
+void World::Impl::checkNewBody(const std::string& body, const std::string& of) const {
+  if (frames.count(body) > 0) {
+    throw std::runtime_error(of + " cannot be put into the simulated world: there is a body '" +
+                             body + "' already; choose another name.");
+  }
 }
 
 void World::Impl::updateKinematics() noexcept {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,10 @@ struct Frame {
 };
 
 struct World::Impl {
-  explicit Impl(const std::string& mjcf_file);
+  Impl(const std::string& file, ResourceResolver resolve);
 
-  // World file and robots, in the order they came.
-  physics::MjcfWorld world;
+  // World file with objects, and robots, in the order they came.
+  std::unique_ptr<physics::MjcfWorld> world;
   std::vector<std::unique_ptr<physics::RobotModel>> robots;
   std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms;    ///< "<robot>/<arm_id>"
   std::map<std::string, std::unique_ptr<physics::MujocoHand>> hands;  ///< "<robot>/<arm_id>"
@@ -54,9 +55,18 @@ struct World::Impl {
   std::vector<double> kept_qpos;  ///< room for a copy, so that looking allocates nothing
   std::string visual_mjcf;        ///< for pictures; written when first asked for
 
+  /// The model number: snapshots hold for one.
+  std::uint64_t generation{0};
+  std::optional<std::array<double, 3>> set_gravity;  ///< other than the world file's
+
   /// The merged model of the given robots with the present state carried over by name. Strong
-  /// guarantee.
-  void rebuild(std::vector<std::unique_ptr<physics::RobotModel>>* candidates);
+  /// guarantee. @param new_world takes the place of the present one, unless null
+  void rebuild(std::vector<std::unique_ptr<physics::RobotModel>>* candidates,
+               std::unique_ptr<physics::MjcfWorld> new_world = nullptr);
+  /// Copies of the present robots, to build candidates from.
+  std::vector<std::unique_ptr<physics::RobotModel>> copyRobots() const;
+  /// @throws std::runtime_error when a body of that name is there
+  void checkNewBody(const std::string& body, const std::string& of) const;
   void step() noexcept;
   void reset();
   std::uint64_t hash() const noexcept;

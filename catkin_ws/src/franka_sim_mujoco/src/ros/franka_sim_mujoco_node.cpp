@@ -4,8 +4,10 @@
 /// @file
 /// The simulation as a ROS node. Parameters: ~world, ~real_time_factor, ~paused (see Simulation and
 /// findWorldFile), ~gui (a window, where there is a display); services: see SimServices and
-/// PictureService. It needs use_sim_time.
+/// PictureService; topics: see ContactPublisher and CameraPublisher. It needs use_sim_time.
 
+#include <franka_sim_mujoco/ros/camera_publisher.h>
+#include <franka_sim_mujoco/ros/contact_publisher.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
 #include <franka_sim_mujoco/ros/picture_service.h>
 #include <franka_sim_mujoco/ros/sim_services.h>
@@ -62,6 +64,8 @@ void run(ros::NodeHandle& node) {
   sim::Simulation simulation(readOptions(private_node), node);
   std::optional<sim::SimServices> services(std::in_place, private_node, simulation);
   std::optional<sim::PictureService> pictures(std::in_place, private_node, simulation);
+  std::optional<sim::ContactPublisher> contacts(std::in_place, private_node, simulation);
+  std::optional<sim::CameraPublisher> cameras(std::in_place, private_node, simulation);
   ros::AsyncSpinner spinner(kThreads);
   spinner.start();
   simulation.start();
@@ -79,6 +83,8 @@ void run(ros::NodeHandle& node) {
   window.reset();
   // From the outside in: no new requests, then no more ticks, then no more callbacks.
   simulation.stop();
+  cameras.reset();
+  contacts.reset();
   pictures.reset();
   services.reset();
   spinner.stop();

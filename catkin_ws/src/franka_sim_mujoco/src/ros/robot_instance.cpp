@@ -42,6 +42,9 @@ class Stopwatch {
 RobotInstance::RobotInstance(const RobotPlan& plan, World& world, HardwareLoader& loader,
                              BetweenTicks between_ticks)
     : name_(plan.description.name), control_ticks_(plan.control_ticks) {
+  for (const auto& joint : plan.urdf.joints_) {
+    joints_.insert(joint.first);
+  }
   world.addRobot(plan.description);
   if (plan.hardware_type.empty()) {
     ROS_INFO_NAMED(kLog, "'%s' names no robotSimType: it stands in the world without hardware.",

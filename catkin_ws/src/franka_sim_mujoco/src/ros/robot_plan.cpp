@@ -60,20 +60,6 @@ PluginElement readPluginElement(const std::string& urdf) {
   return result;
 }
 
-std::string resolveUri(const std::string& uri) {
-  static const std::string kPackage = "package://", kFile = "file://";
-  if (uri.compare(0, kFile.size(), kFile) == 0) {
-    return uri.substr(kFile.size());
-  }
-  if (uri.compare(0, kPackage.size(), kPackage) != 0) {
-    return uri;
-  }
-  const std::size_t slash = uri.find('/', kPackage.size());
-  const std::string package = uri.substr(kPackage.size(), slash - kPackage.size());
-  const std::string folder = ros::package::getPath(package);
-  return folder.empty() || slash == std::string::npos ? "" : folder + uri.substr(slash);
-}
-
 JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& urdf_name) {
   const std::string friction = readString(node, "friction").value_or("none");
   const std::string folder = ros::package::getPath("franka_description");
@@ -87,6 +73,20 @@ JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& urdf_
 }
 
 }  // namespace
+
+std::string resolveUri(const std::string& uri) {
+  static const std::string kPackage = "package://", kFile = "file://";
+  if (uri.compare(0, kFile.size(), kFile) == 0) {
+    return uri.substr(kFile.size());
+  }
+  if (uri.compare(0, kPackage.size(), kPackage) != 0) {
+    return uri;
+  }
+  const std::size_t slash = uri.find('/', kPackage.size());
+  const std::string package = uri.substr(kPackage.size(), slash - kPackage.size());
+  const std::string folder = ros::package::getPath(package);
+  return folder.empty() || slash == std::string::npos ? "" : folder + uri.substr(slash);
+}
 
 RobotPlan planRobot(const SpawnOrder& order) {
   RobotPlan plan;

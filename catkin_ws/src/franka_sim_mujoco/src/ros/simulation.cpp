@@ -23,13 +23,17 @@ constexpr std::chrono::milliseconds kSpawnTimeout{60000};
 
 Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
     : loader_("franka_sim_mujoco", "franka_sim_mujoco::RobotHWSim"),
-      world_(options.world_file),
+      world_(options.world_file, resolveUri),
       clock_(node),
       paused_(options.paused) {
   if (!pacer_.setFactor(options.real_time_factor)) {
     throw std::runtime_error("The real time factor " + std::to_string(options.real_time_factor) +
                              " is wrong: it must be 0 (as fast as possible) or at least " +
                              std::to_string(Pacer::kSlowest) + ".");
+  }
+  const std::string unsupported = world_.unsupported();
+  if (!unsupported.empty()) {
+    ROS_WARN_NAMED(kLog, "%s", unsupported.c_str());
   }
 }
 
@@ -202,6 +206,96 @@ void Simulation::remove(const std::string& name) {
   });
   // Its action servers and services may wait for their threads: not in the stepping thread.
   removed.reset();
+}
+
+std::string Simulation::spawnObject(const std::string& name, const std::string& text,
+                                    const Pose& pose) {
+  std::string unsupported;
+  requests_.run(
+      [&] {
+        world_.addObject(name, text, pose);
+        unsupported = world_.unsupported(name);
+        pacer_.restart();
+      },
+      kSpawnTimeout);
+  return unsupported;
+}
+
+void Simulation::removeObject(const std::string& name) {
+  requests_.run([&] {
+    world_.removeObject(name);
+    pacer_.restart();
+  });
+}
+
+SimulationInventory Simulation::inventory() {
+  SimulationInventory result;
+  requests_.run([&] {
+    result.robots = world_.robots();
+    result.objects = world_.objects();
+    result.bodies = world_.bodies();
+    result.joints = world_.joints();
+    for (const WorldCamera& camera : world_.cameras()) {
+      result.cameras.push_back(camera.name);
+    }
+    result.gravity = world_.gravity();
+    result.paused = paused_;
+    result.real_time_factor = pacer_.factor();
+  });
+  return result;
+}
+
+void Simulation::setJoints(const std::vector<std::string>& names,
+                           const std::vector<double>& positions,
+                           const std::vector<double>& velocities) {
+  requests_.run([&] {
+    const Snapshot before = world_.snapshot();
+    try {
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        world_.setJointPosition(names[i], positions[i]);
+        world_.setJointVelocity(names[i], velocities[i]);
+      }
+    } catch (...) {
+      world_.restore(before);
+      throw;
+    }
+    for (const auto& robot : robots_) {
+      if (std::any_of(names.begin(), names.end(),
+                      [&](const std::string& name) { return robot->hasJoint(name); })) {
+        robot->worldWasReset();
+      }
+    }
+  });
+}
+
+std::uint64_t Simulation::takeSnapshot(const std::string& name) {
+  std::uint64_t hash = 0;
+  requests_.run([&] {
+    if (snapshots_.count(name) == 0 && snapshots_.size() >= kMostSnapshots) {
+      throw std::runtime_error("There are " + std::to_string(kMostSnapshots) +
+                               " snapshots already: take this one under the name of an older one.");
+    }
+    snapshots_[name] = world_.snapshot();
+    hash = world_.stateHash();
+    pacer_.restart();
+  });
+  return hash;
+}
+
+std::uint64_t Simulation::restoreSnapshot(const std::string& name) {
+  std::uint64_t hash = 0;
+  requests_.run([&] {
+    const auto found = snapshots_.find(name);
+    if (found == snapshots_.end()) {
+      throw std::runtime_error("There is no snapshot named '" + name + "'.");
+    }
+    world_.restore(found->second);
+    for (const auto& robot : robots_) {
+      robot->worldWasReset();
+    }
+    hash = world_.stateHash();
+  });
+  return hash;
 }
 
 void Simulation::withWorld(const std::function<void(World&)>& work) {

@@ -23,7 +23,7 @@ std::string findWorldFile(const std::string& name, const std::vector<std::string
     return "";
   }
   const fs::path given(name);
-  if (given.extension() == ".xml" && isFile(given)) {
+  if (isFile(given)) {
     return given.string();
   }
   fs::path mjcf = given;
@@ -40,9 +40,9 @@ std::string findWorldFile(const std::string& name, const std::vector<std::string
     searched += (searched.empty() ? "" : ", ") + folder;
   }
   throw std::runtime_error(
-      "The world '" + name + "' was not found: there is no such MJCF file, and no " +
+      "The world '" + name + "' was not found: there is no such file, and no " +
       mjcf.filename().string() + " in " + searched +
-      ". Give the path of an .xml (MJCF) file or the name of a world that is there.");
+      ". Give the path of an MJCF or SDF file or the name of a world that is there.");
 }
 
 }  // namespace franka_sim_mujoco

@@ -45,7 +45,7 @@ TEST_F(MjcfWorldTest, saysWhatIsWrong) {
   expectSentence([] { World world("/tmp"); }, {"/tmp"});
   refuses("", {"not well-formed"});
   refuses("<mujoco><worldbody>", {"not well-formed"});
-  refuses("<sdf version='1.6'/>", {"<sdf>", "<mujoco>"});
+  refuses("<robot name='r'/>", {"<robot>", "<mujoco>", "<sdf>"});
   refuses("<mujoco><worldbody><geom type='cube'/></worldbody></mujoco>",
           {"MuJoCo refuses", "cube"});
   refuses("<mujoco><compiler settotalmass='3'/></mujoco>", {"settotalmass", "robots"});

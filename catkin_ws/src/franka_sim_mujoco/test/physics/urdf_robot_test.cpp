@@ -40,6 +40,7 @@ TEST(UrdfRobotTest, readsThePanda) {
   EXPECT_EQ("panda_finger_joint1", finger.mimic);
   EXPECT_EQ(-1.0, finger.axis.y());
   EXPECT_EQ(1.13, robot.links[robot.link("panda_leftfinger")].friction.value());
+  EXPECT_TRUE(robot.self_collide);
   EXPECT_FALSE(robot.links[robot.link("panda_link3")].friction.has_value());
   EXPECT_EQ(4u, robot.links[robot.link("panda_leftfinger")].collisions.size());
   EXPECT_TRUE(robot.links[robot.link("panda_link3_sc")].collisions.empty());

@@ -25,11 +25,14 @@ struct Scene {
   std::string mjcf;                      ///< World::mjcf(true)
   std::map<std::string, Pose> bodies;    ///< free bodies
   std::map<std::string, double> joints;  ///< joints with one degree of freedom [rad] or [m]
+  std::vector<Contact> contacts;         ///< for the window's arrows
 };
 
 struct Picture {
   int width{0}, height{0};
   std::vector<std::uint8_t> rgb;  ///< rows from top to bottom, 3 bytes a pixel
+  std::vector<float> depth;       ///< along the line of sight's axis [m], as rgb; infinity: nothing
+  Pose camera;                    ///< of a named camera: optical frame (z ahead, y down)
 };
 
 /// Takes what `Renderer` needs from a world (the stepping thread calls it, between ticks; it
@@ -48,6 +51,9 @@ class Renderer {
   /// @throws std::runtime_error with a sentence when the size, the camera or the scene cannot be
   /// drawn.
   Picture render(const Scene& scene, const Camera& camera, int width, int height);
+  /// The view of a camera that stands in the world, with depth. @throws as the other one, and when
+  /// the scene has no such camera.
+  Picture render(const Scene& scene, const std::string& camera, int width, int height);
   /// "EGL" or "OSMesa".
   std::string backend() const;
 

@@ -48,15 +48,41 @@ struct JointMeasurement {
   double position{0}, velocity{0}, effort{0};  ///< [rad|m, rad/s|m/s, Nm|N]
 };
 
-/// The scene: an MJCF world file with robots from URDFs, stepped in ticks of 1 ms.
+/// How a body moves: linear velocity of its origin [m/s] and angular velocity [rad/s], world axes.
+struct Twist {
+  std::array<double, 3> linear{}, angular{};
+};
+
+/// A camera that stands in the world or on a body: MJCF's <camera> or SDF's camera sensor.
+struct WorldCamera {
+  std::string name;
+  double field_of_view{45};     ///< vertical [deg]
+  int width{640}, height{480};  ///< [pixel]; MJCF: attribute user="width height rate"
+  double rate{30};              ///< wanted pictures a simulated second [Hz]
+};
+
+/// The dynamic state of a world at a tick. Copies share it.
+class Snapshot {
+ public:
+  struct Content;
+  explicit Snapshot(std::shared_ptr<const Content> content = nullptr)
+      : content_(std::move(content)) {}
+  const Content* content() const noexcept { return content_.get(); }
+
+ private:
+  std::shared_ptr<const Content> content_;
+};
+
+/// The scene: an MJCF or SDF world file with robots from URDFs, stepped in ticks of 1 ms.
 ///
 /// One thread at a time may call it. Everything that changes the set of robots allocates and throws
 /// std::runtime_error with a sentence; `step` and the plants neither allocate nor throw.
 class World {
  public:
-  /// @param mjcf_file the world; empty means an empty one: ground, light and sky.
-  /// @throws std::runtime_error naming the file and what MuJoCo says about it.
-  explicit World(const std::string& mjcf_file = "");
+  /// @param file the world, MJCF or SDF; empty means an empty one: ground, light and sky.
+  /// @param resolve finds what SDF texts name by package:// and model://
+  /// @throws std::runtime_error naming the file and what MuJoCo or sdformat says about it.
+  explicit World(const std::string& file = "", ResourceResolver resolve = {});
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -68,6 +94,21 @@ class World {
   void addRobot(const RobotDescription& robot);
   void removeRobot(const std::string& name);
   std::vector<std::string> robots() const;
+
+  /// Puts an object in: SDF with one model, MJCF with bodies, or a lone MJCF <body>. Everything
+  /// already there keeps its state; nothing changes when it throws.
+  /// @param pose where the text's origin comes to stand
+  void addObject(const std::string& name, const std::string& text, const Pose& pose);
+  void removeObject(const std::string& name);
+  std::vector<std::string> objects() const;
+  /// One sentence that names what the SDF of the world file (or of an object) asks for and nobody
+  /// simulates; empty when there is nothing.
+  std::string unsupported(const std::string& object = "") const;
+
+  /// Names of all bodies (links included) and of all joints with one degree of freedom.
+  std::vector<std::string> bodies() const;
+  std::vector<std::string> joints() const;
+  std::vector<WorldCamera> cameras() const;
 
   /// Plants stay valid until their robot is removed, over additions of other robots too.
   /// @throws std::runtime_error when the robot has no joints `<arm_id>_joint1..7` (arm) or no
@@ -84,13 +125,22 @@ class World {
   /// Everything to where it was first put, warm starts included.
   void reset();
 
+  /// Everything as it is now, and back to it: what follows is the same to the last bit. A snapshot
+  /// holds until a robot or object comes or goes (then restore throws); it counts ticks too.
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
+
   std::array<double, 3> gravity() const;
+  void setGravity(const std::array<double, 3>& gravity);  ///< [m/s^2]; a reset does not change it
   Pose bodyPose(const std::string& body) const;
   void setBodyPose(const std::string& body,
                    const Pose& pose);  ///< free bodies only; velocity becomes 0
+  Twist bodyTwist(const std::string& body) const;
+  void setBodyTwist(const std::string& body, const Twist& twist);  ///< free bodies only
   JointMeasurement joint(const std::string& joint) const;
   void setJointPosition(const std::string& joint,
                         double position);  ///< teleport; velocity becomes 0
+  void setJointVelocity(const std::string& joint, double velocity);  ///< [rad/s] or [m/s]
   /// A force and torque on a body at its origin or at `point` (world), for `ticks` ticks from now.
   void push(const std::string& body, const std::array<double, 3>& force,
             const std::array<double, 3>& torque, std::uint64_t ticks);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <pluginlib/class_loader.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct RobotPlan {
 /// Any thread. @throws std::runtime_error with a sentence
 RobotPlan planRobot(const SpawnOrder& order);
 
+/// The file that a package:// or file:// URI (or a plain path) names; empty when unknown.
+std::string resolveUri(const std::string& uri);
+
 using HardwareLoader = pluginlib::ClassLoader<RobotHWSim>;
 
 /// Durations of the parts of a tick, summed up while a benchmark runs [ns].
@@ -63,6 +67,7 @@ class RobotInstance {
   RobotInstance& operator=(const RobotInstance&) = delete;
 
   const std::string& name() const noexcept { return name_; }
+  bool hasJoint(const std::string& joint) const { return joints_.count(joint) > 0; }
 
   /// Read, controllers, write. 1 kHz loop. @param times when not null, durations are added to it
   void tick(const ros::Time& time, TickTimes* times);
@@ -75,6 +80,7 @@ class RobotInstance {
                      BetweenTicks between_ticks);
 
   std::string name_;
+  std::set<std::string> joints_;
   int control_ticks_;
   int ticks_to_control_{0};
   bool restart_controllers_{false};

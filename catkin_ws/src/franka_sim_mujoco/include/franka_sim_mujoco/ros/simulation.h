@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,9 +21,17 @@
 namespace franka_sim_mujoco {
 
 struct SimulationOptions {
-  std::string world_file;        ///< MJCF; empty: the empty world
+  std::string world_file;        ///< MJCF or SDF; empty: the empty world
   double real_time_factor{1.0};  ///< see Pacer
   bool paused{false};
+};
+
+/// What is in the world, and how it runs.
+struct SimulationInventory {
+  std::vector<std::string> robots, objects, bodies, joints, cameras;
+  std::array<double, 3> gravity{};
+  bool paused{false};
+  double real_time_factor{1};
 };
 
 /// Where the simulation stands.
@@ -62,6 +71,21 @@ class Simulation {
 
   void spawn(const SpawnOrder& order);
   void remove(const std::string& robot);
+  /// @returns what the text asks for and nobody simulates, as World::unsupported
+  std::string spawnObject(const std::string& name, const std::string& text, const Pose& pose);
+  void removeObject(const std::string& name);
+  SimulationInventory inventory();
+
+  /// Puts joints elsewhere; robots that have one of them start their controllers anew.
+  /// @param velocities as many as names
+  void setJoints(const std::vector<std::string>& names, const std::vector<double>& positions,
+                 const std::vector<double>& velocities);
+
+  /// Keeps the world's state under a name (at most kMostSnapshots). @returns its hash
+  std::uint64_t takeSnapshot(const std::string& name);
+  /// Puts the world back; control units and controllers start anew. @returns its hash
+  std::uint64_t restoreSnapshot(const std::string& name);
+  static constexpr std::size_t kMostSnapshots = 32;
 
   /// Runs work on the world in the stepping thread, between ticks.
   void withWorld(const std::function<void(World&)>& work);
@@ -86,6 +110,7 @@ class Simulation {
   HardwareLoader loader_;
   World world_;
   std::vector<std::unique_ptr<RobotInstance>> robots_;
+  std::map<std::string, Snapshot> snapshots_;
   ClockPublisher clock_;
   Pacer pacer_;
   bool paused_;
