@@ -6,6 +6,8 @@ sim_test(fci_test
   SOURCES
     test/fci/command_link_test.cpp
     test/fci/host_test.cpp
+    test/fci/own_client_test.cpp
     test/fci/robot_server_test.cpp
     test/fci/served_models_test.cpp
-  LIBRARIES franka_sim_fci franka_sim_physics PkgConfig::TINYXML2)
+    test/fci/vacuum_gripper_test.cpp
+  LIBRARIES franka_sim_fci franka_sim_physics Franka::Franka PkgConfig::TINYXML2)

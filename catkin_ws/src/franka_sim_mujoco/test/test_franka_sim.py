@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+ROBOTS = Path(__file__).resolve().parents[1] / "robots"
+
 WORLD = """<mujoco><worldbody>
   <light pos="0 0 3"/>
   <body name="stone" pos="0.6 0.4 0.05"><freejoint/><geom type="box" size="0.03 0.03 0.03" mass="0.1"/></body>
@@ -63,7 +65,16 @@ def simulated(address, *arguments):
 def test_help_names_every_option():
     result = run("--help")
     assert result.returncode == 0
-    for option in ("--robot", "--ip", "--protocol", "--pace", "--world", "--viewer", "--control-port"):
+    for option in (
+        "--robot",
+        "--ip",
+        "--protocol",
+        "--pace",
+        "--world",
+        "--hand",
+        "--viewer",
+        "--control-port",
+    ):
         assert option in result.stdout
 
 
@@ -78,6 +89,15 @@ def test_help_names_every_option():
         (["--pace", "nan"], "a factor from"),
         (["--control-port", "70000"], "0 to 65535"),
         (["--base", "1,2"], "three numbers"),
+        (["--base", "1,2,3,4,5"], "three numbers"),
+        (["--base", "1,2,x"], "three numbers"),
+        (["--hand", "claw"], "there are gripper, vacuum and none"),
+        (["--robot", "panda", "--robot", "fr3"], "--ip 127.0.0.1: two robots have it"),
+        (["--robot", "panda", "--robot", "fr3", "--ip", "127.0.0.2"], "stand within each other"),
+        (
+            "--arm-id a --robot fr3 --ip 127.0.22.9 --robot fr3 --base 0,1,0 --arm-id a".split(),
+            "--arm-id a: two robots have it",
+        ),
         (["--nonsense"], "no option"),
         (["--ip"], "needs a value"),
     ],
@@ -95,7 +115,7 @@ def test_a_wrong_command_line_is_refused_with_a_sentence(arguments, sentence):
         (["--ip", "192.0.2.1"], "does not have that address"),
         (["--world", "nowhere.xml"], "There is no world 'nowhere.xml'"),
         (["--urdf", "/nowhere.urdf"], "Cannot read the file '/nowhere.urdf'"),
-        (["--arm-id", "nobody"], "nobody"),
+        (["--urdf", str(ROBOTS / "panda.urdf"), "--arm-id", "nobody"], "nobody"),
     ],
 )
 def test_what_cannot_be_is_said(arguments, sentence):
@@ -172,6 +192,53 @@ def test_a_push_moves_the_held_arm_and_lets_it_come_back(tmp_path):
         until(lambda: displacement() < 1e-4)
         # It was let go in the air and lies on the ground.
         until(lambda: float(say("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
+
+
+def ask(address, line):
+    with socket.create_connection((address, 1340), timeout=20) as connection:
+        stream = connection.makefile("rw", newline="\n")
+        stream.write(line + "\n")
+        stream.flush()
+        return stream.readline().rstrip("\n")
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
+def test_robots_of_one_world_have_addresses_and_names_of_their_own(pace):
+    arms = "--robot panda"
+    arms += " --robot panda --ip 127.0.22.8 --base 0.5,1,0,1.5708"
+    arms += " --robot fr3 --ip 127.0.22.9 --base 0,-1,0"
+    with simulated("127.0.22.7", "--pace", pace, *arms.split()) as (say, process):
+        heads = {}
+        for name in ("panda", "panda_2", "fr3"):
+            heads[name] = [float(word) for word in say(f"where {name}_link0").split()[1:]]
+        assert heads["panda_2"] == pytest.approx([0.5, 1, 0])
+        assert heads["fr3"] == pytest.approx([0, -1, 0])
+        # The second one looks along y.
+        hand = [float(word) for word in say("where panda_2_link7").split()[1:]]
+        first = [float(word) for word in say("where panda_link7").split()[1:]]
+        assert hand == pytest.approx([0.5 - first[1], 1 + first[0], first[2]], abs=2e-3)
+        # A switch is one robot's, the world is everyone's.
+        assert ask("127.0.22.8", "user_stop on") == "ok"
+        assert ask("127.0.22.8", "state").startswith("ok User stopped")
+        assert say("state").startswith("ok Idle")
+        assert ask("127.0.22.9", "state").startswith("ok Idle")
+        assert ask("127.0.22.9", "reset") == "ok"
+        assert ask("127.0.22.9", "quit") == "ok"
+        assert process.wait(10) == 0
+
+
+def test_a_vacuum_gripper_takes_the_gripper_s_place():
+    with simulated("127.0.22.10", "--hand", "vacuum") as (say, _):
+        for port, served in ((1337, True), (1338, False), (1339, True)):
+            with socket.socket() as probe:
+                probe.settimeout(10)
+                assert (probe.connect_ex(("127.0.22.10", port)) == 0) == served
+        assert say("part on") == "ok"
+        assert say("part perhaps") == "error: 'perhaps' is neither on nor off."
+        assert say("pump red") == "ok"
+        assert say("pump blue") == "error: 'blue' is none of green, yellow, orange and red."
+    with simulated("127.0.22.10") as (say, _):
+        assert say("part on").startswith("error: There is no command 'part'")
 
 
 def test_quit_ends_it():

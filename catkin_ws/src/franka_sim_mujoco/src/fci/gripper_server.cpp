@@ -3,6 +3,8 @@
 #include <arpa/inet.h>
 #include <franka_sim_mujoco/fci/gripper_server.h>
 
+#include <cmath>
+
 namespace franka_sim_mujoco::fci {
 
 namespace codec = franka_core::fci::gripper;
@@ -13,7 +15,6 @@ using franka_core::fci::CodecError;
 namespace {
 
 constexpr std::chrono::milliseconds kStatePeriod{33};
-constexpr std::uint16_t kRoomTemperature = 30;  // [deg C]; nothing heats up here
 
 Status toStatus(GripperOutcome outcome) noexcept {
   switch (outcome) {
@@ -139,7 +140,7 @@ void GripperServer::publish(std::uint64_t milliseconds) {
     state.width = unit_.width();
     state.max_width = unit_.maxWidth();
     state.is_grasped = unit_.isGrasped();
-    state.temperature = kRoomTemperature;
+    state.temperature = static_cast<std::uint16_t>(std::lround(unit_.temperature()));
     codec::StateBuffer buffer{};
     codec::encodeState(state, buffer);
     datagrams_.send({buffer.data(), buffer.size()});

@@ -23,10 +23,13 @@ std::string addressOf(const RobotServerParameters& parameters) { return paramete
 }  // namespace
 
 SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
-                   const std::optional<Hand>& hand)
+                   const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum)
     : unit_(unit), arm_(arm), desk_(unit_), server_(server, desk_), hash_(kHashStart) {
   if (hand) {
     hand_ = std::make_unique<ServedHand>(addressOf(server), *hand);
+  }
+  if (vacuum) {
+    vacuum_ = std::make_unique<ServedVacuum>(addressOf(server), *vacuum);
   }
 }
 
@@ -36,6 +39,9 @@ void SimRobot::restart() noexcept {
   unit_.observe(arm_.measure());
   if (hand_) {
     hand_->unit.restart();
+  }
+  if (vacuum_) {
+    vacuum_->unit.restart();
   }
   hashing_ = false;
   hash_ = kHashStart;
@@ -54,6 +60,9 @@ void SimRobot::actuate() {
   arm_.applyTorques(torque);
   if (hand_) {
     hand_->plant.applyForces(hand_->unit.step(hand_->plant.measure(), kTick));
+  }
+  if (vacuum_) {
+    vacuum_->unit.step(kTick);
   }
 }
 
@@ -82,12 +91,18 @@ void SimRobot::serve(bool stops_only) {
   if (hand_) {
     hand_->server.serve(stops_only);
   }
+  if (vacuum_) {
+    vacuum_->server.serve(stops_only);
+  }
 }
 
 void SimRobot::publish(std::uint64_t ticks, bool same_moment) {
   server_.publish(ticks, same_moment);
   if (hand_) {
     hand_->server.publish(ticks);
+  }
+  if (vacuum_) {
+    vacuum_->server.publish(ticks);
   }
 }
 
@@ -97,12 +112,17 @@ bool SimRobot::settling() const {
          std::any_of(dq.begin(), dq.end(), [](double v) { return std::abs(v) > kRest; });
 }
 
-bool SimRobot::handBusy() const { return hand_ && hand_->server.busy(); }
+bool SimRobot::handBusy() const {
+  return (hand_ && hand_->server.busy()) || (vacuum_ && vacuum_->server.busy());
+}
 
 void SimRobot::addDescriptors(std::vector<pollfd>& fds) const {
   server_.addDescriptors(fds);
   if (hand_) {
     hand_->server.addDescriptors(fds);
+  }
+  if (vacuum_) {
+    vacuum_->server.addDescriptors(fds);
   }
 }
 

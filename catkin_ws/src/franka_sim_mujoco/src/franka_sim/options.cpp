@@ -6,30 +6,38 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace franka_sim_mujoco {
 
 const char* const kUsage =
     "Usage: franka_sim [options]\n"
-    "A simulated robot that genuine libfranka programs can connect to.\n"
-    "  --robot panda|fr3   which robot (panda)\n"
+    "Simulated robots that genuine libfranka programs can connect to.\n"
+    "Of each robot:\n"
+    "  --robot panda|fr3   which robot (panda). Each further --robot puts one more into the "
+    "world;\n"
+    "                      the options of this group that follow it are its own\n"
     "  --ip ADDRESS        where it is found (127.0.0.1); each robot needs an address of its own,\n"
     "                      for example 127.0.0.2\n"
     "  --protocol N        speak this protocol version only: 3 to 5 for a panda, 6 to 10 for an "
     "fr3\n"
     "                      (all of them)\n"
+    "  --base X,Y,Z[,YAW]  where the robot stands in the world [m] and how far it is turned there\n"
+    "                      [rad] (0,0,0,0)\n"
+    "  --urdf FILE         another robot description; its chain is found by --arm-id\n"
+    "  --arm-id PREFIX     prefix of the joints' names (the robot's name; panda_2 and so on where\n"
+    "                      that is taken)\n"
+    "  --friction SET      none or fr3 (none)\n"
+    "  --hand HAND         gripper, vacuum or none: what is served (gripper)\n"
+    "  --no-hand           short for --hand none\n"
+    "  --control-port N    where lines of text press the user stop, push the arm and so on (1340;\n"
+    "                      0: nowhere); send the line help for all of them\n"
+    "Of all:\n"
     "  --pace PACE         realtime, lockstep, or a factor such as 0.5 (realtime)\n"
     "  --world FILE        the scene, MJCF: a file or the name of one that comes along, such as\n"
     "                      stone.xml (an empty world)\n"
-    "  --base X,Y,Z        where the robot stands in it [m] (0,0,0)\n"
-    "  --urdf FILE         another robot description; its chain is found by --arm-id\n"
-    "  --arm-id PREFIX     prefix of the joints' names (the robot's name)\n"
-    "  --friction SET      none or fr3 (none)\n"
-    "  --no-hand           no gripper server\n"
     "  --viewer            open a window\n"
-    "  --control-port N    where lines of text press the user stop, push the arm and so on (1340;\n"
-    "                      0: nowhere); send the line help for all of them\n"
     "  --help              this text\n";
 
 namespace {
@@ -43,18 +51,34 @@ std::uint16_t toProtocol(const std::string& text) {
   return static_cast<std::uint16_t>(number);
 }
 
-std::array<double, 3> toPosition(const std::string& text) {
-  std::array<double, 3> position{};
+void readBase(const std::string& text, ArmOptions& arm) {
+  std::vector<double> numbers;
   const char* next = text.c_str();
-  for (std::size_t i = 0; i < 3; i++) {
-    char* end = nullptr;
-    position[i] = std::strtod(next, &end);
-    if (end == next || *end != (i == 2 ? '\0' : ',') || !std::isfinite(position[i])) {
-      throw std::invalid_argument("--base " + text + ": give three numbers such as -0.5,0,0.");
+  char* end = nullptr;
+  do {
+    numbers.push_back(std::strtod(next, &end));
+    if (end == next || (*end != ',' && *end != '\0') || !std::isfinite(numbers.back())) {
+      numbers.clear();
+      break;
     }
     next = end + 1;
+  } while (*end == ',');
+  if (numbers.size() != 3 && numbers.size() != 4) {
+    throw std::invalid_argument("--base " + text +
+                                ": give three numbers such as -0.5,0,0, or four with the angle.");
   }
-  return position;
+  arm.base = {numbers[0], numbers[1], numbers[2]};
+  arm.yaw = numbers.size() == 4 ? numbers[3] : 0.0;
+}
+
+Tool toTool(const std::string& text) {
+  const std::map<std::string, Tool> tools{
+      {"gripper", Tool::kGripper}, {"vacuum", Tool::kVacuum}, {"none", Tool::kNone}};
+  const auto tool = tools.find(text);
+  if (tool == tools.end()) {
+    throw std::invalid_argument("--hand " + text + ": there are gripper, vacuum and none.");
+  }
+  return tool->second;
 }
 
 std::uint16_t toPort(const std::string& text) {
@@ -84,36 +108,94 @@ fci::Pace toPace(const std::string& text) {
   return pace;
 }
 
-void checkTogether(const Options& options) {
-  if (options.robot != "panda" && options.robot != "fr3") {
-    throw std::invalid_argument("--robot " + options.robot + ": there are panda and fr3.");
+void checkArm(const ArmOptions& arm) {
+  if (arm.robot != "panda" && arm.robot != "fr3") {
+    throw std::invalid_argument("--robot " + arm.robot + ": there are panda and fr3.");
   }
-  const bool panda = options.robot == "panda";
-  if (options.protocol != 0 && panda != (options.protocol <= 5)) {
+  const bool panda = arm.robot == "panda";
+  if (arm.protocol != 0 && panda != (arm.protocol <= 5)) {
     throw std::invalid_argument(
-        "--protocol " + std::to_string(options.protocol) + ": a " + options.robot + " speaks " +
+        "--protocol " + std::to_string(arm.protocol) + ": a " + arm.robot + " speaks " +
         (panda ? "3 to 5; 6 to 10 are an fr3's." : "6 to 10; 3 to 5 are a panda's."));
   }
+}
+
+void nameArms(std::vector<ArmOptions>& arms) {
+  std::set<std::string> names;
+  for (const ArmOptions& arm : arms) {
+    if (!arm.arm_id.empty() && !names.insert(arm.arm_id).second) {
+      throw std::invalid_argument("--arm-id " + arm.arm_id +
+                                  ": two robots have it; each needs one of its own.");
+    }
+  }
+  for (ArmOptions& arm : arms) {
+    std::string name = arm.robot;
+    for (int number = 2; arm.arm_id.empty(); number++) {
+      if (names.insert(name).second) {
+        arm.arm_id = name;
+      }
+      name = arm.robot + "_" + std::to_string(number);
+    }
+  }
+}
+
+// The foot of an arm is that wide: closer together they would stand within each other.
+constexpr double kLeastDistance = 0.2;  // [m]
+
+void checkPlaces(const std::vector<ArmOptions>& arms) {
+  for (std::size_t i = 0; i < arms.size(); i++) {
+    for (std::size_t k = 0; k < i; k++) {
+      const auto& a = arms[i].base;
+      const auto& b = arms[k].base;
+      if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kLeastDistance) {
+        throw std::invalid_argument("The robots at " + arms[k].ip + " and " + arms[i].ip +
+                                    " stand within each other; give them places with --base.");
+      }
+    }
+  }
+}
+
+void checkTogether(std::vector<ArmOptions>& arms) {
+  std::set<std::string> addresses;
+  for (const ArmOptions& arm : arms) {
+    checkArm(arm);
+    if (!addresses.insert(arm.ip).second) {
+      throw std::invalid_argument("--ip " + arm.ip +
+                                  ": two robots have it; each needs an address of its own.");
+    }
+  }
+  checkPlaces(arms);
+  nameArms(arms);
 }
 
 }  // namespace
 
 Options readOptions(int argc, const char* const* argv) {
   Options options;
+  bool robot_named = false;
+  const auto arm = [&options]() -> ArmOptions& { return options.arms.back(); };
   const std::map<std::string, std::function<void(const std::string&)>> with_value{
-      {"--robot", [&](const std::string& value) { options.robot = value; }},
-      {"--ip", [&](const std::string& value) { options.ip = value; }},
-      {"--protocol", [&](const std::string& value) { options.protocol = toProtocol(value); }},
+      {"--robot",
+       [&](const std::string& value) {
+         if (robot_named) {
+           options.arms.emplace_back();
+         }
+         robot_named = true;
+         arm().robot = value;
+       }},
+      {"--ip", [&](const std::string& value) { arm().ip = value; }},
+      {"--protocol", [&](const std::string& value) { arm().protocol = toProtocol(value); }},
+      {"--base", [&](const std::string& value) { readBase(value, arm()); }},
+      {"--urdf", [&](const std::string& value) { arm().urdf = value; }},
+      {"--arm-id", [&](const std::string& value) { arm().arm_id = value; }},
+      {"--friction", [&](const std::string& value) { arm().friction = value; }},
+      {"--hand", [&](const std::string& value) { arm().tool = toTool(value); }},
+      {"--control-port", [&](const std::string& value) { arm().control_port = toPort(value); }},
       {"--pace", [&](const std::string& value) { options.pace = toPace(value); }},
       {"--world", [&](const std::string& value) { options.world = value; }},
-      {"--base", [&](const std::string& value) { options.base = toPosition(value); }},
-      {"--urdf", [&](const std::string& value) { options.urdf = value; }},
-      {"--arm-id", [&](const std::string& value) { options.arm_id = value; }},
-      {"--control-port", [&](const std::string& value) { options.control_port = toPort(value); }},
-      {"--friction", [&](const std::string& value) { options.friction = value; }},
   };
   const std::map<std::string, std::function<void()>> flags{
-      {"--no-hand", [&] { options.hand = false; }},
+      {"--no-hand", [&] { arm().tool = Tool::kNone; }},
       {"--viewer", [&] { options.viewer = true; }},
       {"--help", [&] { options.help = true; }},
       {"-h", [&] { options.help = true; }},
@@ -133,10 +215,7 @@ Options readOptions(int argc, const char* const* argv) {
       option->second(argv[++i]);
     }
   }
-  checkTogether(options);
-  if (options.arm_id.empty()) {
-    options.arm_id = options.robot;
-  }
+  checkTogether(options.arms);
   return options;
 }
 

@@ -141,36 +141,71 @@ void addWorld(LineServer& lines, fci::Host& host, World& world) {
   });
 }
 
-}  // namespace
+PumpHealth toHealth(const std::string& word) {
+  constexpr std::array<const char*, 4> kNames{"green", "yellow", "orange", "red"};
+  for (std::size_t i = 0; i < kNames.size(); i++) {
+    if (word == kNames[i]) {
+      return static_cast<PumpHealth>(i);
+    }
+  }
+  throw std::invalid_argument("'" + word + "' is none of green, yellow, orange and red.");
+}
 
-void addPersonCommands(fci::LineServer& lines, fci::SimRobot& robot, fci::Host& host, World& world,
-                       std::atomic<bool>& stop) {
-  addSwitches(lines, robot, host);
-  addLink(lines, robot);
-  addWorld(lines, host, world);
-  lines.add("load MASS X Y Z", [&](const Words& words) {
+void addVacuum(LineServer& lines, VacuumGripperUnit& unit) {
+  lines.add("part on|off", [&unit](const Words& words) {
+    unit.setPart(toSwitch(words.at(0)));
+    return "";
+  });
+  lines.add("pump green|yellow|orange|red", [&unit](const Words& words) {
+    unit.setHealth(toHealth(words.at(0)));
+    return "";
+  });
+}
+
+void reset(const Scene& scene) {
+  for (const fci::SimRobot* robot : scene.robots) {
+    if (robot->expectsCommand()) {
+      throw std::invalid_argument("A motion runs; the world is reset between motions only.");
+    }
+  }
+  scene.world.reset();
+  for (fci::SimRobot* robot : scene.robots) {
+    robot->restart();
+  }
+  scene.host.letRun(1);
+}
+
+void addRobot(LineServer& lines, fci::SimRobot& robot) {
+  lines.add("load MASS X Y Z", [&robot](const Words& words) {
     const franka_core::Payload load{toNumber(words.at(0)), toVector(words, 1), {}};
     require(robot.unit().setLoad(load),
             "The load was refused: it has a negative mass, or the robot moves.");
     return "";
   });
-  lines.add("state", [&](const Words&) { return describe(robot, robot.unit().state()); });
-  lines.add("hash", [&](const Words&) {
+  lines.add("state", [&robot](const Words&) { return describe(robot, robot.unit().state()); });
+  lines.add("hash", [&robot](const Words&) {
     char text[24];
     std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(robot.hash()));
     return std::string(text);
   });
-  lines.add("reset", [&](const Words&) {
-    if (robot.expectsCommand()) {
-      throw std::invalid_argument("A motion runs; the world is reset between motions only.");
-    }
-    world.reset();
-    robot.restart();
-    host.letRun(1);
+}
+
+}  // namespace
+
+void addPersonCommands(fci::LineServer& lines, const Scene& scene) {
+  addSwitches(lines, scene.robot, scene.host);
+  addLink(lines, scene.robot);
+  addWorld(lines, scene.host, scene.world);
+  addRobot(lines, scene.robot);
+  if (VacuumGripperUnit* vacuum = scene.robot.vacuum()) {
+    addVacuum(lines, *vacuum);
+  }
+  lines.add("reset", [scene](const Words&) {
+    reset(scene);
     return "";
   });
-  lines.add("quit", [&](const Words&) {
-    stop = true;
+  lines.add("quit", [scene](const Words&) {
+    scene.stop = true;
     return "";
   });
 }

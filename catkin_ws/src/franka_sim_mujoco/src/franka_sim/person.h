@@ -7,13 +7,21 @@
 #include <franka_sim_mujoco/physics/world.h>
 
 #include <atomic>
+#include <vector>
 
 namespace franka_sim_mujoco {
 
-/// Enters the commands of the control interface (see docs of franka_sim): buttons and switches of
-/// the robot, the quality of its link, and what hands do to the world. All references outlive the
-/// server.
-void addPersonCommands(fci::LineServer& lines, fci::SimRobot& robot, fci::Host& host, World& world,
-                       std::atomic<bool>& stop);
+/// What the commands act on; all of it outlives the server.
+struct Scene {
+  fci::SimRobot& robot;                       ///< whose control interface it is
+  const std::vector<fci::SimRobot*>& robots;  ///< all, that one among them
+  fci::Host& host;
+  World& world;
+  std::atomic<bool>& stop;
+};
+
+/// Enters the commands of the control interface (docs/franka_sim.md): buttons and switches of the
+/// robot, the quality of its link, and what hands do to the world.
+void addPersonCommands(fci::LineServer& lines, const Scene& scene);
 
 }  // namespace franka_sim_mujoco

@@ -51,6 +51,12 @@ const GripperParameters& checked(const GripperParameters& parameters) {
           "a positive speed in metres per second");
   require(isPositive(parameters.max_speed), "max_speed", "a positive speed in metres per second");
   require(isPositive(parameters.max_force), "max_force", "a positive force in newtons");
+  require(std::isfinite(parameters.room_temperature), "room_temperature",
+          "a finite temperature in degrees Celsius");
+  require(isNotNegative(parameters.temperature_rise), "temperature_rise",
+          "a number of kelvins that is not negative");
+  require(isPositive(parameters.temperature_time), "temperature_time",
+          "a positive time in seconds");
   return parameters;
 }
 
@@ -58,6 +64,7 @@ const GripperParameters& checked(const GripperParameters& parameters) {
 
 GripperUnit::GripperUnit(const GripperParameters& parameters)
     : parameters_(checked(parameters)),
+      temperature_(parameters.room_temperature),
       standstill_(parameters.consecutive_samples),
       fingers_{FingerForce(parameters.gains[0]), FingerForce(parameters.gains[1])} {}
 
@@ -108,7 +115,10 @@ GripperUnit::Ticket GripperUnit::stop() noexcept {
   return ticket;
 }
 
-void GripperUnit::restart() noexcept { idle(GripperOutcome::kInterrupted); }
+void GripperUnit::restart() noexcept {
+  idle(GripperOutcome::kInterrupted);
+  temperature_ = parameters_.room_temperature;
+}
 
 bool GripperUnit::isGrasped() const noexcept {
   return state_ == GripperState::kHolding && withinGrasp();
@@ -164,7 +174,16 @@ std::array<double, 2> GripperUnit::step(const HandMeasurement& measurement,
   } else if (state_ == GripperState::kGrasping) {
     advanceGrasp(resting(period), period);
   }
-  return pressing_ ? press() : follow(period);
+  const std::array<double, 2> force = pressing_ ? press() : follow(period);
+  warm(force, period);
+  return force;
+}
+
+void GripperUnit::warm(const std::array<double, 2>& force, double period) noexcept {
+  const double load =
+      std::min((std::abs(force[0]) + std::abs(force[1])) / parameters_.max_force, 1.0);
+  const double end = parameters_.room_temperature + parameters_.temperature_rise * load * load;
+  temperature_ = end + (temperature_ - end) * std::exp(-period / parameters_.temperature_time);
 }
 
 bool GripperUnit::resting(double period) noexcept {

@@ -58,6 +58,30 @@ class GripperTest : public ::testing::Test {
   GripperUnit gripper{GripperParameters{}};
 };
 
+TEST_F(GripperTest, WarmsUpWithTheSquareOfItsForceAndCoolsDownAgain) {
+  const GripperParameters parameters;
+  putStone();
+  run(1000);
+  EXPECT_NEAR(parameters.room_temperature, gripper.temperature(), 1e-3);
+  const double force = 70.0;
+  finish(gripper.grasp(0.025, 0.005, 0.005, 0.1, force));
+  ASSERT_TRUE(gripper.isGrasped());
+  const double begin = gripper.temperature();
+  run(100000);
+  const double share = force / parameters.max_force;
+  const double end = parameters.room_temperature + parameters.temperature_rise * share * share;
+  EXPECT_NEAR(end + (begin - end) * std::exp(-100.0 / parameters.temperature_time),
+              gripper.temperature(), 0.01);
+  const double warm = gripper.temperature();
+  gripper.stop();
+  run(100000);
+  EXPECT_NEAR(parameters.room_temperature + (warm - parameters.room_temperature) *
+                                                std::exp(-100.0 / parameters.temperature_time),
+              gripper.temperature(), 0.01);
+  gripper.restart();
+  EXPECT_EQ(parameters.room_temperature, gripper.temperature());
+}
+
 TEST_F(GripperTest, StandsWhereItIs) {
   run(1000);
   EXPECT_NEAR(0.04, gripper.width(), 1e-9);

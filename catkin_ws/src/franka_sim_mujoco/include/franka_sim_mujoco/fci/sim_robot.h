@@ -7,16 +7,19 @@
 #include <franka_sim_mujoco/fci/host.h>
 #include <franka_sim_mujoco/fci/robot_server.h>
 #include <franka_sim_mujoco/fci/unit_desk.h>
+#include <franka_sim_mujoco/fci/vacuum_server.h>
 #include <franka_sim_mujoco/robot/control_unit.h>
 #include <franka_sim_mujoco/robot/gripper_unit.h>
 #include <franka_sim_mujoco/robot/plant.h>
+#include <franka_sim_mujoco/robot/vacuum_gripper_unit.h>
 
 #include <memory>
 #include <optional>
 
 namespace franka_sim_mujoco::fci {
 
-/// One robot on the network: control unit and hand on their plants, and their servers.
+/// One robot on the network: control unit, hand and vacuum gripper on their plants, and their
+/// servers.
 /// One thread.
 class SimRobot final : public HostedRobot {
  public:
@@ -25,17 +28,24 @@ class SimRobot final : public HostedRobot {
     GripperParameters parameters;
     std::uint16_t port{franka_core::fci::kGripperPort};  ///< 0: the system chooses
   };
+  struct Vacuum {
+    VacuumGripperParameters parameters;
+    std::uint16_t port{franka_core::fci::kVacuumGripperPort};  ///< 0: the system chooses
+  };
 
   /// @param arm outlives the robot, as does the hand's plant.
   /// @throws std::runtime_error with a sentence when a port cannot be opened,
   /// std::invalid_argument when a parameter makes no sense.
   SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
-           const std::optional<Hand>& hand);
+           const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {});
 
   ControlUnit& unit() noexcept { return unit_; }
   CommandLink& link() noexcept { return link_; }
   const RobotServer& server() const noexcept { return server_; }
   std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->server.port() : 0; }
+  std::uint16_t vacuumPort() const noexcept { return vacuum_ ? vacuum_->server.port() : 0; }
+  /// Null where the robot has none.
+  VacuumGripperUnit* vacuum() noexcept { return vacuum_ ? &vacuum_->unit : nullptr; }
 
   /// Of all states that were answered and those after them up to rest, without their ids: equal
   /// hash, equal run (decision 21).
@@ -66,6 +76,12 @@ class SimRobot final : public HostedRobot {
     GripperUnit unit;
     GripperServer server;
   };
+  struct ServedVacuum {
+    ServedVacuum(const std::string& address, const Vacuum& vacuum)
+        : unit(vacuum.parameters), server(address, vacuum.port, unit) {}
+    VacuumGripperUnit unit;
+    VacuumServer server;
+  };
 
   void updateHash() noexcept;
 
@@ -75,6 +91,7 @@ class SimRobot final : public HostedRobot {
   RobotServer server_;
   CommandLink link_;
   std::unique_ptr<ServedHand> hand_;
+  std::unique_ptr<ServedVacuum> vacuum_;
   bool hashing_{false};
   std::uint64_t hash_{0};
 };

@@ -22,6 +22,10 @@ struct GripperParameters {
   double homing_speed{0.02};        ///< [m/s], franka_ros.md 9.5
   double max_speed{0.1};    ///< faster commands are carried out at this speed [m/s], data sheet
   double max_force{140.0};  ///< stronger grasps are carried out with this force [N], data sheet
+  /// Warming of the motor (our choice; Franka publishes no figures).
+  double room_temperature{30.0};   ///< of a hand at rest [deg C]
+  double temperature_rise{25.0};   ///< in the end, under max_force [K]
+  double temperature_time{600.0};  ///< time constant [s]
 };
 
 enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
@@ -68,6 +72,10 @@ class GripperUnit {
   double maxWidth() const noexcept { return parameters_.max_width; }  ///< [m]
   bool isGrasped() const noexcept;  ///< holds an object within the epsilons of the last grasp
 
+  /// Of the motor [deg C]: follows, first-order, the square of the force, as the loss in a motor's
+  /// windings does.
+  double temperature() const noexcept { return temperature_; }
+
   /// One tick. @param period [s] @returns force on each finger, positive opens [N]; zero for a
   /// measurement that is not finite.
   std::array<double, 2> step(const HandMeasurement& measurement, double period) noexcept;
@@ -92,6 +100,7 @@ class GripperUnit {
   bool withinGrasp() const noexcept;
   std::array<double, 2> follow(double period) noexcept;
   std::array<double, 2> press() const noexcept;
+  void warm(const std::array<double, 2>& force, double period) noexcept;
 
   GripperParameters parameters_;
   GripperState state_{GripperState::kIdle};
@@ -101,6 +110,7 @@ class GripperUnit {
   double pressed_{0.0};   // for how long it has pressed [s]
   double target_{0.0};    // of the command [m]
   double speed_{0.0};     // of the command [m/s]
+  double temperature_;    // [deg C]
   HandMeasurement measured_;
   Grasp grasp_;
   TicketLog tickets_;

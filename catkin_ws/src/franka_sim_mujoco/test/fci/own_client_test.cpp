@@ -1,0 +1,328 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Our own libfranka against the simulated robot in lock-step, in every version of the protocol.
+#include <franka/exception.h>
+#include <franka/model.h>
+#include <franka/robot.h>
+#include <franka_core/limits.h>
+#include <franka_sim_mujoco/fci/host.h>
+#include <franka_sim_mujoco/fci/served_models.h>
+#include <franka_sim_mujoco/fci/sim_robot.h>
+#include <franka_sim_mujoco/physics/world.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <future>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace franka_sim_mujoco::fci {
+namespace {
+
+constexpr std::array<double, 7> kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
+constexpr std::array<double, 16> kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+std::array<double, 7> sevenTimes(double value) {
+  std::array<double, 7> values;
+  values.fill(value);
+  return values;
+}
+
+std::array<double, 6> sixTimes(double value) {
+  std::array<double, 6> values;
+  values.fill(value);
+  return values;
+}
+
+struct Place {
+  std::uint16_t version;  // 3 to 5: a Panda, else an FR3
+  double x{0.0};          // [m]
+  double yaw{0.0};        // [rad]
+};
+
+/// Robots in one world that speak one version each, in a thread of its own.
+class SimulatedRobots {
+ public:
+  explicit SimulatedRobots(const std::vector<Place>& places, bool lockstep = true)
+      : host_([this] { world_.step(); }, pace(lockstep)) {
+    for (const Place& place : places) {
+      add(place);
+    }
+    thread_ = std::thread([this] { host_.run(stop_); });
+  }
+  ~SimulatedRobots() {
+    stop_ = true;
+    thread_.join();
+  }
+
+  std::string address(std::size_t robot = 0) const {
+    return "127.0.0.1:" + std::to_string(robots_[robot]->server().port());
+  }
+
+ private:
+  static Pace pace(bool lockstep) {
+    Pace pace;
+    pace.lockstep = lockstep;
+    return pace;
+  }
+
+  void add(const Place& place) {
+    const std::string name = place.version <= 5 ? "panda" : "fr3";
+    std::ifstream file(std::string(FRANKA_SIM_WORLDS) + "/../robots/" + name + ".urdf");
+    std::ostringstream text;
+    text << file.rdbuf();
+    ControlUnitParameters unit{franka_core::ArmModel::fromUrdf(text.str(), name)};
+    RobotDescription description;
+    description.name = name;
+    description.urdf = text.str();
+    description.resolve = [](const std::string&) { return std::string(); };
+    description.base.position = {place.x, 0, 0};
+    description.base.orientation = {std::cos(0.5 * place.yaw), 0, 0, std::sin(0.5 * place.yaw)};
+    for (std::size_t i = 0; i < 7; i++) {
+      const std::string joint = name + "_joint" + std::to_string(i + 1);
+      description.initial_positions[joint] = kReady[i];
+      description.rotor_inertia[joint] = unit.rotor_inertia[i];
+    }
+    unit.end_effector = franka_core::endEffectorFromUrdf(text.str(), name);
+    behaveAsOverFci(unit, place.version);
+    world_.addRobot(description);
+    RobotServerParameters server;
+    server.port = 0;
+    server.oldest_version = server.newest_version = place.version;
+    server.model_library = servedLibrary(unit.model);
+    server.urdf = servedUrdf(unit.model, place.version);
+    SimRobot::Hand hand{&world_.hand(name, name), {}, 0};
+    hand.parameters.gains = {FingerGains{100, 0, 1}, FingerGains{100, 0, 1}};
+    robots_.push_back(std::make_unique<SimRobot>(unit, world_.arm(name, name), server, hand));
+    host_.add(*robots_.back());
+  }
+
+  World world_;
+  std::vector<std::unique_ptr<SimRobot>> robots_;
+  Host host_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+class OwnClient : public ::testing::TestWithParam<int> {
+ protected:
+  OwnClient()
+      : simulated_(std::vector<Place>{{static_cast<std::uint16_t>(GetParam())}}),
+        robot(simulated_.address(), franka::RealtimeConfig::kIgnore) {}
+
+ private:
+  SimulatedRobots simulated_;
+
+ protected:
+  franka::Robot robot;
+};
+
+// From rest to rest within a second: position along a way of length one, and its speed.
+constexpr double kDuration = 1.0;  // [s]
+double way(double t) {
+  const double s = std::min(t / kDuration, 1.0);
+  return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+}
+double speed(double t) {
+  const double s = std::min(t / kDuration, 1.0);
+  return 30.0 * s * s * (1.0 - s) * (1.0 - s) / kDuration;
+}
+
+constexpr double kAngle = 0.1;    // [rad]
+constexpr double kLength = 0.05;  // [m]
+
+void swing(franka::Robot& robot, double angle) {
+  double time = 0.0;
+  std::array<double, 7> begin{};
+  robot.control([&](const franka::RobotState& state, franka::Duration period) {
+    if (time == 0.0) {
+      begin = state.q_d;
+    }
+    time += period.toSec();
+    franka::JointPositions positions(begin);
+    positions.q[3] += angle * way(time);
+    return time >= kDuration + 0.2 ? franka::MotionFinished(positions) : positions;
+  });
+}
+
+TEST_P(OwnClient, AgreesOnTheVersionAndReadsStates) {
+  EXPECT_EQ(robot.serverVersion(), GetParam());
+  const franka::RobotState first = robot.readOnce();
+  EXPECT_EQ(first.robot_mode, franka::RobotMode::kIdle);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(first.q[i], kReady[i], 1e-4);
+  }
+  int count = 0;
+  robot.read([&count](const franka::RobotState&) { return ++count < 10; });
+  EXPECT_EQ(count, 10);
+}
+
+TEST_P(OwnClient, TakesEverySetterAndRefusesNonsense) {
+  robot.setCollisionBehavior(sevenTimes(20), sevenTimes(30), sixTimes(20), sixTimes(30));
+  robot.setCollisionBehavior(sevenTimes(20), sevenTimes(30), sevenTimes(20), sevenTimes(30),
+                             sixTimes(20), sixTimes(30), sixTimes(20), sixTimes(30));
+  robot.setJointImpedance({3000, 3000, 3000, 2500, 2500, 2000, 2000});
+  robot.setCartesianImpedance({2000, 2000, 2000, 100, 100, 100});
+  robot.setGuidingMode({true, true, true, false, false, false}, true);
+  std::array<double, 16> frame = kIdentity;
+  frame[14] = 0.05;
+  robot.setK(frame);
+  robot.setEE(frame);
+  robot.setLoad(0.5, {0, 0, 0.1}, {0.001, 0, 0, 0, 0.001, 0, 0, 0, 0.001});
+  const franka::RobotState state = robot.readOnce();
+  EXPECT_DOUBLE_EQ(state.m_load, 0.5);
+  // States of version 10 carry float32.
+  EXPECT_EQ(state.EE_T_K[14], GetParam() == 10 ? static_cast<double>(0.05F) : 0.05);
+  frame[0] = 2.0;
+  EXPECT_THROW(robot.setK(frame), franka::CommandException);
+  EXPECT_THROW(robot.setLoad(-1.0, {}, {}), franka::CommandException);
+}
+
+TEST_P(OwnClient, MovesJointsByPositionAndByVelocity) {
+  const double begin = robot.readOnce().q[3];
+  swing(robot, kAngle);
+  EXPECT_NEAR(robot.readOnce().q[3], begin + kAngle, 2e-3);
+  double time = 0.0;
+  robot.control([&](const franka::RobotState&, franka::Duration period) {
+    time += period.toSec();
+    franka::JointVelocities velocities({0, 0, 0, -kAngle * speed(time), 0, 0, 0});
+    return time >= kDuration + 0.2 ? franka::MotionFinished(velocities) : velocities;
+  });
+  EXPECT_NEAR(robot.readOnce().q[3], begin, 3e-3);
+}
+
+TEST_P(OwnClient, MovesTheHandByPoseAndByVelocity) {
+  const double begin = robot.readOnce().O_T_EE[14];
+  double time = 0.0;
+  std::array<double, 16> pose{};
+  robot.control([&](const franka::RobotState& state, franka::Duration period) {
+    if (time == 0.0) {
+      pose = state.O_T_EE_c;
+    }
+    time += period.toSec();
+    franka::CartesianPose command(pose);
+    command.O_T_EE[14] += kLength * way(time);
+    return time >= kDuration + 0.2 ? franka::MotionFinished(command) : command;
+  });
+  EXPECT_NEAR(robot.readOnce().O_T_EE[14], begin + kLength, 2e-3);
+  time = 0.0;
+  robot.control([&](const franka::RobotState&, franka::Duration period) {
+    time += period.toSec();
+    franka::CartesianVelocities command({0, 0, -kLength * speed(time), 0, 0, 0});
+    return time >= kDuration + 0.2 ? franka::MotionFinished(command) : command;
+  });
+  EXPECT_NEAR(robot.readOnce().O_T_EE[14], begin, 3e-3);
+}
+
+TEST_P(OwnClient, HoldsByTorques) {
+  const std::array<double, 7> begin = robot.readOnce().q;
+  double time = 0.0;
+  robot.control([&](const franka::RobotState& state, franka::Duration period) {
+    time += period.toSec();
+    franka::Torques torques(sevenTimes(0));
+    for (std::size_t i = 0; i < 7; i++) {
+      torques.tau_J[i] = 200.0 * (begin[i] - state.q[i]) - 20.0 * state.dq[i];
+    }
+    return time >= 0.5 ? franka::MotionFinished(torques) : torques;
+  });
+  const franka::RobotState state = robot.readOnce();
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(state.q[i], begin[i], 2e-3);
+  }
+}
+
+TEST_P(OwnClient, LoadsAModelThatKnowsWhereTheHandIs) {
+  const franka::Model model = robot.loadModel();
+  const franka::RobotState state = robot.readOnce();
+  const std::array<double, 16> pose = model.pose(franka::Frame::kEndEffector, state);
+  for (std::size_t i = 0; i < 16; i++) {
+    EXPECT_NEAR(pose[i], state.O_T_EE[i], 1e-5);
+  }
+}
+
+TEST_P(OwnClient, IsStoppedByAReflexRecoversAndMovesAgain) {
+  double time = 0.0;
+  std::array<double, 7> begin{};
+  try {
+    robot.control(
+        [&](const franka::RobotState& state, franka::Duration period) {
+          if (time == 0.0) {
+            begin = state.q_d;
+          }
+          time += period.toSec();
+          franka::JointPositions positions(begin);
+          positions.q[3] += time > 0.1 ? 0.05 : 0.0;  // a jump
+          return positions;
+        },
+        franka::ControllerMode::kJointImpedance, false);
+    FAIL() << "A jump of 0.05 rad within a tick went unnoticed.";
+  } catch (const franka::ControlException& error) {
+    EXPECT_NE(std::string(error.what()).find("joint_motion_generator_velocity"), std::string::npos)
+        << error.what();
+    EXPECT_FALSE(error.log.empty());
+  }
+  EXPECT_EQ(robot.readOnce().robot_mode, franka::RobotMode::kReflex);
+  robot.automaticErrorRecovery();
+  EXPECT_EQ(robot.readOnce().robot_mode, franka::RobotMode::kIdle);
+  const double joint = robot.readOnce().q_d[3];
+  swing(robot, kAngle);
+  EXPECT_NEAR(robot.readOnce().q[3], joint + kAngle, 2e-3);
+}
+
+class TwoArms : public ::testing::TestWithParam<bool> {};  // in lock-step or by the clock
+
+TEST_P(TwoArms, MoveAtOnceForAClientEach) {
+  SimulatedRobots simulated({{5, 0.0}, {10, 1.0}}, GetParam());
+  franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
+  franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
+  auto other = std::async(std::launch::async, [&fr3] { swing(fr3, -kAngle); });
+  swing(panda, kAngle);
+  other.get();
+  EXPECT_NEAR(panda.readOnce().q[3], kReady[3] + kAngle, 2e-3);
+  EXPECT_NEAR(fr3.readOnce().q[3], kReady[3] - kAngle, 2e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pace, TwoArms, ::testing::Bool());
+
+TEST(TwoArmsInOneWorld, CanRunIntoEachOther) {
+  SimulatedRobots simulated({{5, 0.0}, {10, 0.75, M_PI}});
+  franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
+  franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
+  const double begin = panda.readOnce().O_T_EE[12];
+  double time = 0.0;
+  std::array<double, 16> pose{};
+  try {
+    panda.control([&](const franka::RobotState& state, franka::Duration period) {
+      if (time == 0.0) {
+        pose = state.O_T_EE_c;
+      }
+      time += period.toSec();
+      franka::CartesianPose command(pose);
+      command.O_T_EE[12] += 0.2 * way(time / 2.0);
+      return time >= 2.2 ? franka::MotionFinished(command) : command;
+    });
+    FAIL() << "The panda went through the other robot.";
+  } catch (const franka::ControlException& error) {
+    EXPECT_NE(std::string(error.what()).find("_reflex"), std::string::npos) << error.what();
+  }
+  EXPECT_GT(panda.readOnce().O_T_EE[12], begin + 0.02);
+  // The other one was pushed.
+  const franka::RobotState pushed = fr3.readOnce();
+  double displaced = 0.0;
+  for (std::size_t i = 0; i < 7; i++) {
+    displaced = std::max(displaced, std::abs(pushed.q[i] - kReady[i]));
+  }
+  EXPECT_TRUE(displaced > 1e-4 || pushed.robot_mode == franka::RobotMode::kReflex);
+}
+
+INSTANTIATE_TEST_SUITE_P(Version, OwnClient, ::testing::Range(3, 11));
+
+}  // namespace
+}  // namespace franka_sim_mujoco::fci
