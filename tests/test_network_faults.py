@@ -202,7 +202,7 @@ def test_twenty_commands_in_a_row_are_too_many(slow, count):
         survive(slow, commands=lambda: losing_from(200, count))
         assert all(min(station.proxy.rates[101:]) <= 0.81 + 1e-6 for station in slow)
     else:
-        results = run(slow, commands=lambda: losing_from(200, count))
+        results = run(slow, commands=lambda: losing_from(200, count), amplitude=0.0)
         check_lost(slow, results, slowest(230))
         assert all(result["cycles"] <= 225 for result in results)
 
@@ -258,7 +258,7 @@ def test_a_short_stall_with_its_backlog_is_survived(slow, ticks):
 
 
 def test_a_long_stall_of_commands_ends_the_motion(slow):
-    check_lost(slow, run(slow, commands=lambda: stalling(150, 30 * TICK)), slowest(200))
+    check_lost(slow, run(slow, commands=lambda: stalling(150, 30 * TICK), amplitude=0.0), slowest(200))
 
 
 # ---- 3: damage ---------------------------------------------------------------------------------------------
@@ -532,7 +532,7 @@ def test_a_program_may_compute_for_most_of_a_cycle(slow, share):
 
 def test_a_program_slower_than_a_cycle_is_stopped(slow):
     """Each answer comes when its state is no longer the newest."""
-    results = run(slow, compute=1.5 * TICK)
+    results = run(slow, compute=1.5 * TICK, amplitude=0.0)
     check_lost(slow, results, slowest(100))
     assert all(result["cycles"] <= 75 for result in results)
 
@@ -616,7 +616,7 @@ def freeze(group, seconds):
     """SIGSTOP to each client in its motion, and SIGCONT after that time."""
     for station in group:
         station.proxy.set()
-        station.client.give("move", seconds=SECONDS, amplitude=AMPLITUDE, announce=True)
+        station.client.give("move", seconds=SECONDS, amplitude=0.0, announce=True)
     for station in group:
         assert station.client.line() == "moving"
     for station in group:
