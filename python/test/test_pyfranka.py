@@ -421,8 +421,8 @@ def test_the_hand_and_threads_that_run_while_it_moves(robots, name):
     counter.start()
     before = counted[0]
     assert hand.move(0.05, 0.05)
-    # Were the interpreter held, nothing would be counted in these 0.4 s.
-    assert counted[0] - before > 20
+    # Were the interpreter held, nothing would be counted meanwhile; a busy machine counts less than 400.
+    assert counted[0] - before > 5
     moving.set()
     counter.join()
     assert not hand.grasp(0.02, 0.1, 20.0)  # nothing there

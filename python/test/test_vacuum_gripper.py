@@ -37,10 +37,12 @@ class FakeGripper:
                 client, peer = self._listener.accept()
             except OSError:
                 return
+            ended = threading.Event()
             with client:
-                self._talk(client, peer)
+                self._talk(client, peer, ended)
+            ended.set()
 
-    def _talk(self, client, peer):
+    def _talk(self, client, peer, ended):
         stream = client.makefile("rb")
         client.settimeout(30)
         pending = []
@@ -53,7 +55,10 @@ class FakeGripper:
             if command == CONNECT:
                 version, port = struct.unpack("<HH", body)
                 client.sendall(HEADER.pack(command, number, 14) + struct.pack("<HH", SUCCESS, version))
-                self._send_states((peer[0], port))
+                states = threading.Thread(
+                    target=self._send_states, args=((peer[0], port), ended), daemon=True
+                )
+                states.start()
                 continue
             self.requests.append((command, body))
             if command == STOP:
@@ -72,9 +77,10 @@ class FakeGripper:
         client.sendall(HEADER.pack(command, number, 12) + struct.pack("<H", status))
 
     @staticmethod
-    def _send_states(peer):
+    def _send_states(peer, ended):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-            sender.sendto(struct.pack("<I???Bii", 2500, True, False, True, 2, 80, 600), peer)
+            while not ended.wait(0.02):
+                sender.sendto(struct.pack("<I???Bii", 2500, True, False, True, 2, 80, 600), peer)
 
 
 @pytest.fixture
