@@ -1,0 +1,125 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A package as somebody writes it on top of ours builds against the devel and the install space, and runs."""
+
+import os
+import re
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from franka_sim_mujoco.session import free_port
+
+TOP = Path(__file__).resolve().parent.parent
+PACKAGE = TOP / "tests" / "out_of_tree" / "my_arm"
+AWAY = 0.1  # [rad], as in the launch file
+BEGIN = -2.356194490192345  # of the fourth joint [rad]
+
+
+class Overlay:
+    """A workspace of the package alone, on top of a space of ours."""
+
+    def __init__(self, underlay: Path, folder: Path):
+        self.underlay = underlay
+        self.folder = folder
+        self.environment = {
+            "HOME": str(folder),
+            "PATH": "/usr/bin:/bin",
+            "LANG": "C.UTF-8",
+            "ROS_HOSTNAME": "localhost",
+            "ROS_MASTER_URI": f"http://localhost:{free_port()}",
+            "ROS_HOME": str(folder),
+        }
+        if "CCACHE_DIR" in os.environ:
+            self.environment["CCACHE_DIR"] = os.environ["CCACHE_DIR"]
+
+    def shell(self, command: str, setup: Path, timeout: float) -> subprocess.CompletedProcess:
+        return subprocess.run(
+            ["bash", "-c", f"source {setup}/setup.bash && {command}"],
+            env=self.environment,
+            text=True,
+            capture_output=True,
+            timeout=timeout,
+            stdin=subprocess.DEVNULL,
+        )
+
+    def build(self) -> None:
+        command = (
+            f"cmake -S {PACKAGE} -B {self.folder}/build -DCATKIN_DEVEL_PREFIX={self.folder}/devel "
+            "-DCMAKE_CXX_FLAGS='-O0 -Wall -Wextra -Werror' -DPYTHON_EXECUTABLE=/usr/bin/python3 "
+            f"&& make -C {self.folder}/build -j2"
+        )
+        result = self.shell(command, self.underlay, timeout=600)
+        assert result.returncode == 0, (result.stdout + result.stderr)[-4000:]
+
+    def run(self, command: str, timeout: float = 60) -> str:
+        result = self.shell(command, self.folder / "devel", timeout)
+        assert result.returncode == 0, result.stdout + result.stderr
+        return result.stdout
+
+    def start(self, command: str, log: Path) -> subprocess.Popen:
+        with log.open("w") as out:
+            return subprocess.Popen(
+                ["bash", "-c", f"source {self.folder}/devel/setup.bash && exec {command}"],
+                env=self.environment,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                stdin=subprocess.DEVNULL,
+                start_new_session=True,
+            )
+
+
+def end(process: subprocess.Popen) -> None:
+    """Interrupts a process as Ctrl-C would."""
+    process.send_signal(signal.SIGINT)
+    try:
+        process.wait(30)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
+def where(overlay: Overlay, launch: subprocess.Popen, log: Path) -> tuple[str, int, float]:
+    """What the node's own service says, once it has brought the arm to its place, or after two minutes."""
+    deadline = time.monotonic() + 120
+    answer = None
+    while time.monotonic() < deadline:
+        assert launch.poll() is None, log.read_text()
+        result = overlay.shell("rosservice call /my_arm/where", overlay.folder / "devel", 60)
+        said = re.search(r'message: "(\w+) (\d+) (\S+)"', result.stdout)
+        if said:
+            answer = said[1], int(said[2]), float(said[3])
+            if abs(answer[2] - (BEGIN + AWAY)) < 0.01:
+                return answer
+        time.sleep(0.3)
+    raise AssertionError(f"{answer}\n{log.read_text()[-4000:]}")
+
+
+@pytest.mark.parametrize("space", ["devel", "install"])
+def test_package_builds_and_runs(space, tmp_path, request):
+    underlay = TOP / "catkin_ws" / "devel" if space == "devel" else request.getfixturevalue("installed")
+    overlay = Overlay(underlay, tmp_path)
+    overlay.build()
+    address = "127.0.41.1" if space == "devel" else "127.0.41.2"
+    simulator = f"$(catkin_find --first-only --libexec franka_sim_mujoco franka_sim) --ip {address}"
+    log = tmp_path / "launch.log"
+    robot = overlay.start(f"{simulator} --pace lockstep --control-port 0", tmp_path / "robot.log")
+    try:
+        deadline = time.monotonic() + 60
+        joints = ""
+        while time.monotonic() < deadline and len(joints.split()) != 7:
+            result = overlay.shell(f"rosrun my_arm where_is_it {address}", tmp_path / "devel", 60)
+            joints = result.stdout if result.returncode == 0 else ""
+        assert float(joints.split()[3]) == pytest.approx(BEGIN, abs=0.01), result
+        master = overlay.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
+        launch = overlay.start(f"roslaunch -p {master} my_arm my_arm.launch robot_ip:={address}", log)
+        try:
+            arm_id, commands, _ = where(overlay, launch, log)
+        finally:
+            end(launch)
+        assert arm_id == "panda"
+        assert commands > 500
+    finally:
+        end(robot)
