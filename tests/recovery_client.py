@@ -29,12 +29,14 @@ class Person:
     """Whoever stands beside the robot: pushes it, presses the user stop."""
 
     def __init__(self, address):
-        self._stream = socket.create_connection((address, CONTROL_PORT), 5.0).makefile("rw")
+        self._address = (address, CONTROL_PORT)
 
     def does(self, line):
-        self._stream.write(line + "\n")
-        self._stream.flush()
-        answer = self._stream.readline().strip()
+        """One line a connection: the robot closes those that say nothing for a while."""
+        with socket.create_connection(self._address, 5.0) as connection, connection.makefile("rw") as stream:
+            stream.write(line + "\n")
+            stream.flush()
+            answer = stream.readline().strip()
         if not answer.startswith("ok"):
             raise RuntimeError(f"{line}: {answer}")
 

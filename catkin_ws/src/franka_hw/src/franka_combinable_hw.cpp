@@ -112,7 +112,19 @@ void FrankaCombinableHW::resetError() {
 
 void FrankaCombinableHW::triggerError() { setError(true); }
 
-bool FrankaCombinableHW::hasError() const noexcept { return has_error_; }
+bool FrankaCombinableHW::hasError() const noexcept { return has_error_ || waits_for_others_; }
+
+bool FrankaCombinableHW::hasOwnError() const noexcept { return has_error_; }
+
+void FrankaCombinableHW::waitForOthers(bool waits) {
+  if (waits_for_others_.exchange(waits) == waits) {
+    return;
+  }
+  error_changed_ = true;
+  if (!waits) {
+    error_recovered_ = true;
+  }
+}
 
 bool FrankaCombinableHW::controllerNeedsReset() const noexcept { return controller_needs_reset_; }
 
@@ -127,7 +139,7 @@ void FrankaCombinableHW::setError(bool has_error) {
 
 void FrankaCombinableHW::publishErrorState() {
   std_msgs::Bool message;
-  message.data = has_error_;
+  message.data = hasError();
   has_error_publisher_.publish(message);
 }
 

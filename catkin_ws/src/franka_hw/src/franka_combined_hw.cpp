@@ -81,13 +81,14 @@ void FrankaCombinedHW::read(const ros::Time& time, const ros::Duration& period) 
 }
 
 void FrankaCombinedHW::handleError() {
-  if (!hasError() || is_recovering_) {
+  if (is_recovering_) {
     return;
   }
+  // One controller moves all arms: when one stops, the others must. They go on with it.
+  const bool any =
+      std::any_of(arms_.begin(), arms_.end(), [](const auto* arm) { return arm->hasOwnError(); });
   for (FrankaCombinableHW* const arm : arms_) {
-    if (!arm->hasError()) {
-      arm->triggerError();
-    }
+    arm->waitForOthers(any && !arm->hasOwnError());
   }
 }
 

@@ -52,7 +52,13 @@ class FrankaCombinableHW : public FrankaHW {
   std::string getArmID() const noexcept;
   /// Ends the motion as if the robot had an error.
   void triggerError();
+  /// Whether the robot stopped: by an error of its own, or because another arm has one.
   bool hasError() const noexcept;
+  /// Whether it is this robot that has to recover.
+  bool hasOwnError() const noexcept;
+  /// Ends the motion while another arm has an error, and lets it go on, with the controllers
+  /// started anew, when that has recovered. Real-time safe.
+  void waitForOthers(bool waits);
   /// Clears the robot's errors and the one noted here. @throws franka::Exception when it refuses
   void resetError();
   /// Whether the controllers have to start anew, because an error was cleared.
@@ -87,6 +93,7 @@ class FrankaCombinableHW : public FrankaHW {
   Latest<franka::Torques> torques_{franka::Torques(std::array<double, 7>{})};
 
   std::atomic_bool has_error_{false};
+  std::atomic_bool waits_for_others_{false};
   std::atomic_bool error_changed_{false};  // and not yet published
   std::atomic_bool error_recovered_{false};
   std::atomic_bool controller_needs_reset_{false};
