@@ -28,18 +28,25 @@ void answer(double* out, double number, double first = 0.0, double second = 0.0,
 
 extern "C" {
 
-#define FRANKA_TEST_FRAME(prefix, frame, number) \
-  void prefix##frame(const double* q, double* out) { answer(out, number + frame, sum(q, 7)); }
-#define FRANKA_TEST_TIP(prefix, number)                                \
-  void prefix##9(const double* q, const double* F_T_EE, double* out) { \
-    answer(out, number + 9, sum(q, 7), sum(F_T_EE, 16));               \
+// clang-format off
+#define FRANKA_TEST_FRAME(prefix, frame, number)                         \
+  void prefix##frame(const double* q, double* out) {                     \
+    answer(out, number + frame, sum(q, 7));                              \
   }
-#define FRANKA_TEST_MIDDLE(prefix, number)                                          \
-  FRANKA_TEST_FRAME(prefix, 2, number)                                              \
-  FRANKA_TEST_FRAME(prefix, 3, number) FRANKA_TEST_FRAME(prefix, 4, number)         \
-      FRANKA_TEST_FRAME(prefix, 5, number) FRANKA_TEST_FRAME(prefix, 6, number)     \
-          FRANKA_TEST_FRAME(prefix, 7, number) FRANKA_TEST_FRAME(prefix, 8, number) \
-              FRANKA_TEST_TIP(prefix, number)
+#define FRANKA_TEST_TIP(prefix, number)                                  \
+  void prefix##9(const double* q, const double* F_T_EE, double* out) {   \
+    answer(out, number + 9, sum(q, 7), sum(F_T_EE, 16));                 \
+  }
+#define FRANKA_TEST_MIDDLE(prefix, number)                               \
+  FRANKA_TEST_FRAME(prefix, 2, number)                                   \
+  FRANKA_TEST_FRAME(prefix, 3, number)                                   \
+  FRANKA_TEST_FRAME(prefix, 4, number)                                   \
+  FRANKA_TEST_FRAME(prefix, 5, number)                                   \
+  FRANKA_TEST_FRAME(prefix, 6, number)                                   \
+  FRANKA_TEST_FRAME(prefix, 7, number)                                   \
+  FRANKA_TEST_FRAME(prefix, 8, number)                                   \
+  FRANKA_TEST_TIP(prefix, number)
+// clang-format on
 
 FRANKA_TEST_FRAME(O_T_J, 1, 100)
 FRANKA_TEST_MIDDLE(O_T_J, 100)
