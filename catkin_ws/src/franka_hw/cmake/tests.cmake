@@ -19,3 +19,28 @@ target_compile_definitions(model_kdl_test PRIVATE
   FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
 target_include_directories(model_kdl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 target_link_libraries(model_kdl_test franka_hw Franka::Core ${CMAKE_DL_LIBS})
+
+# FrankaHW with everything around it, against the robot that the tests of libfranka use.
+find_package(rostest REQUIRED)
+find_package(controller_manager REQUIRED)
+add_rostest_gtest(franka_hw_robot_test test/franka_hw_robot.test
+  ${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test/fake_robot.cpp
+  test/robot/combined_test.cpp
+  test/robot/connection_test.cpp
+  test/robot/cycle_test.cpp
+  test/robot/interfaces_test.cpp
+  test/robot/main.cpp
+  test/robot/modes_test.cpp
+  test/robot/parameters_test.cpp
+  test/robot/support.cpp
+  test/robot/switching_test.cpp
+)
+# Unoptimised, for compiling it is most of what these tests cost.
+target_compile_options(franka_hw_robot_test PRIVATE -Wall -Wextra -O0)
+target_compile_definitions(franka_hw_robot_test PRIVATE
+  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
+target_include_directories(franka_hw_robot_test PRIVATE
+  ${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
+target_include_directories(franka_hw_robot_test SYSTEM PRIVATE ${controller_manager_INCLUDE_DIRS})
+target_link_libraries(franka_hw_robot_test
+  franka_hw Franka::Core ${controller_manager_LIBRARIES} ${CMAKE_DL_LIBS})

@@ -1,0 +1,76 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// One millisecond's work of FrankaHW against the same without controllers and limits; and how long
+// a switch takes until the robot has its first command. Needs a master, for the parameters.
+#include <benchmark/benchmark.h>
+#include <rt_guard/rt_guard.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "bare_cycle.h"
+
+namespace {
+
+franka_hw_test::BareCycle& robot() {
+  static franka_hw_test::BareCycle robot;
+  return robot;
+}
+
+void frankaHwCycle(benchmark::State& state) {
+  robot().cycle();
+  const rt_guard::Scope scope;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(robot().cycle());
+  }
+  state.counters["allocations"] = static_cast<double>(scope.allocations());
+  state.counters["locks"] = static_cast<double>(scope.locks());
+}
+
+void emptyCycle(benchmark::State& state) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(robot().emptyCycle());
+  }
+}
+
+BENCHMARK(emptyCycle);
+BENCHMARK(frankaHwCycle);
+
+/// From the request of a switch to the command of the new controller at the robot.
+void switchToFirstCommand(benchmark::State& state) {
+  using Clock = std::chrono::steady_clock;
+  franka_hw_test::FakeArm arm("fr3");
+  franka_hw::FrankaHW robot;
+  if (!robot.init(arm.nh, arm.robot_nh)) {
+    state.SkipWithError("no robot");
+    return;
+  }
+  franka_hw_test::Loop loop(robot, arm);
+  loop.controller("JV").speed = 0.001;
+  loop.controller("JP");
+  loop.switchTo({"JP"}, {});
+  std::vector<double> milliseconds;
+  for (auto _ : state) {
+    const auto begin = Clock::now();
+    loop.switchTo({"JV"}, {"JP"});
+    franka_hw_test::waitUntil([&] { return arm.robot.state().dq_d[0] == 0.001; });
+    milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+    state.SetIterationTime(milliseconds.back() * 1e-3);
+    loop.switchTo({"JP"}, {"JV"});
+  }
+  std::sort(milliseconds.begin(), milliseconds.end());
+  state.counters["p50_ms"] = milliseconds[milliseconds.size() / 2];
+  state.counters["max_ms"] = milliseconds.back();
+}
+
+BENCHMARK(switchToFirstCommand)->UseManualTime()->Iterations(200)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  ros::init(argc, argv, "franka_hw_bench");
+  ros::NodeHandle keeps_ros_alive;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,129 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The connection, and the services of a robot that rests or moves.
+#include <franka/extensions.h>
+#include <franka_hw/services.h>
+#include <franka_msgs/SetJointImpedance.h>
+#include <franka_msgs/SetLoad.h>
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+namespace franka_hw_test {
+namespace {
+
+class Connection : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(robot_.init(arm_.nh, arm_.robot_nh)); }
+
+  FakeArm arm_{"fr3"};
+  franka_hw::FrankaHW robot_;
+};
+
+TEST_F(Connection, CanBeGivenUpAndTakenAgain) {
+  EXPECT_TRUE(robot_.connected());
+  EXPECT_TRUE(robot_.disconnect());
+  EXPECT_FALSE(robot_.connected());
+  EXPECT_THROW(robot_.robot(), std::logic_error);
+  EXPECT_TRUE(robot_.disconnect()) << "twice does no harm";
+  robot_.connect();
+  EXPECT_TRUE(robot_.connected());
+  const int connections = arm_.robot.connections();
+  robot_.connect();
+  EXPECT_EQ(connections, arm_.robot.connections()) << "who is connected connects no second time";
+  EXPECT_NO_THROW(robot_.robot().readOnce());
+}
+
+TEST_F(Connection, IsKeptWhileAControllerRuns) {
+  Loop loop(robot_, arm_);
+  ASSERT_TRUE(loop.switchTo({"JT"}, {}));
+  const LogCatcher log;
+  EXPECT_FALSE(robot_.disconnect());
+  EXPECT_NE(std::string::npos, log.text().find("while a controller is active"));
+  EXPECT_TRUE(robot_.connected());
+  EXPECT_TRUE(waitUntil([&] { return loop.controller("JT").updates_since_start > 10; }));
+  EXPECT_TRUE(loop.switchTo({}, {"JT"}));
+  EXPECT_FALSE(robot_.controllerActive());
+}
+
+TEST_F(Connection, OfARobotThatGoesAwayEndsTheMotionWithASentence) {
+  const franka::Timeouts patient = franka::timeouts();
+  franka::Timeouts timeouts = patient;
+  timeouts.state = std::chrono::seconds(3);
+  franka::setTimeouts(timeouts);
+  robot_.disconnect();
+  robot_.connect();
+  franka::setTimeouts(patient);
+  Loop loop(robot_, arm_);
+  arm_.robot.script([](auto& script) { script.close_after = 50; });
+  ASSERT_TRUE(loop.switchTo({"JT"}, {}));
+  ASSERT_TRUE(waitUntil([&] { return !loop.errors().empty(); }));
+  EXPECT_NE(std::string::npos, loop.errors()[0].find("libfranka")) << loop.errors()[0];
+  // As the node does: the connection is let go, and the controllers can still be stopped.
+  robot_.dropConnection();
+  EXPECT_FALSE(robot_.connected());
+  EXPECT_TRUE(loop.switchTo({}, {"JT"}));
+}
+
+TEST_F(Connection, RunsTheServicesOfARestingRobot) {
+  franka_hw::ServiceContainer services;
+  franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
+  franka_msgs::SetLoad load;
+  load.request.mass = 0.75;
+  load.request.F_x_center_load = {0.01, 0.02, 0.03};
+  ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_load"), load));
+  EXPECT_TRUE(load.response.success) << load.response.error;
+  const auto requests = arm_.robot.requests();
+  const auto* sent = std::get_if<franka_core::fci::SetLoadRequest>(&requests.back());
+  ASSERT_NE(nullptr, sent);
+  EXPECT_EQ(0.75, sent->mass);
+
+  arm_.robot.script([](auto& script) {
+    script.replies[Command::kSetLoad] = franka_core::fci::Status::kInvalidArgumentRejected;
+  });
+  ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_load"), load));
+  EXPECT_FALSE(load.response.success);
+  EXPECT_FALSE(load.response.error.empty());
+}
+
+TEST_F(Connection, ALoopThatOnlyReadsKeepsNobodyOut) {
+  franka_hw::ServiceContainer services;
+  franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
+  // As loops of users do, and the original's: the robot is taken again microseconds after it is
+  // left.
+  Loop loop(robot_, arm_, false);
+  for (int i = 0; i < 10; i++) {
+    ASSERT_TRUE(loop.switchTo({"JP"}, {})) << i;
+    ASSERT_TRUE(waitUntil([&] { return loop.controller("JP").updates_since_start > 3; }));
+    ASSERT_TRUE(loop.switchTo({}, {"JP"})) << i;
+    franka_msgs::SetLoad load;
+    ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_load"), load));
+    EXPECT_TRUE(load.response.success) << i << ": " << load.response.error;
+  }
+}
+
+TEST_F(Connection, SettersOfAMovingRobotAnswerAtOnce) {
+  franka_hw::ServiceContainer services;
+  franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
+  Loop loop(robot_, arm_);
+  ASSERT_TRUE(loop.switchTo({"JP"}, {}));
+  ASSERT_TRUE(waitUntil([&] { return loop.controller("JP").updates_since_start > 10; }));
+  franka_msgs::SetJointImpedance impedance;
+  impedance.request.joint_stiffness.fill(1000.0);
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_joint_impedance"), impedance));
+  // Fifty milliseconds of patience; the rest is what a machine busy with other work may take.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  EXPECT_FALSE(impedance.response.success);
+  EXPECT_NE(std::string::npos, impedance.response.error.find("Stop that controller"));
+  EXPECT_EQ(0, arm_.robot.count(Command::kSetJointImpedance));
+  EXPECT_TRUE(loop.controller("JP").isRunning()) << "the motion goes on";
+  EXPECT_TRUE(loop.errors().empty());
+
+  ASSERT_TRUE(loop.switchTo({}, {"JP"}));
+  ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_joint_impedance"), impedance));
+  EXPECT_TRUE(impedance.response.success) << impedance.response.error;
+}
+
+}  // namespace
+}  // namespace franka_hw_test

@@ -1,0 +1,242 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The nine control modes: what claims are accepted, and what then reaches the robot.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "support.h"
+
+namespace franka_hw_test {
+namespace {
+
+using franka_core::ControllerMode;
+using franka_core::MotionGeneratorMode;
+using hardware_interface::ControllerInfo;
+
+const std::vector<std::string> kKinds{"JT", "JP", "JV", "CP", "CV"};
+const std::set<std::string> kModes{"JT",    "JP",    "JV",    "CP",   "CV",
+                                   "JT+JP", "JT+JV", "JT+CP", "JT+CV"};
+
+/// All sets of kinds but the empty one, as "JT+JP".
+std::vector<std::string> subsets() {
+  std::vector<std::string> all;
+  for (unsigned bits = 1; bits < 1u << kKinds.size(); bits++) {
+    std::string set;
+    for (size_t i = 0; i < kKinds.size(); i++) {
+      if ((bits >> i & 1u) != 0) {
+        set += (set.empty() ? "" : "+") + kKinds[i];
+      }
+    }
+    all.push_back(set);
+  }
+  return all;
+}
+
+class Modes : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(robot_.init(arm_.nh, arm_.robot_nh));
+    loop_.emplace(robot_, arm_);
+  }
+
+  /// Runs a controller until the robot has answered `count` commands of it, and stops it.
+  std::vector<franka_test::FakeRobot::Exchange> run(const std::string& claims, size_t count = 20) {
+    ToldController& controller = loop_->controller(claims);
+    EXPECT_TRUE(loop_->switchTo({claims}, {})) << claims;
+    EXPECT_TRUE(waitUntil([&] {
+      return controller.updates_since_start > 3 && arm_.robot.exchanges().size() >= count;
+    })) << claims;
+    auto exchanges = arm_.robot.exchanges();
+    EXPECT_TRUE(loop_->switchTo({}, {claims})) << claims;
+    for (const std::string& error : loop_->errors()) {
+      ADD_FAILURE() << claims << ": " << error;
+    }
+    return exchanges;
+  }
+
+  franka_core::fci::MoveRequest lastMove() const {
+    franka_core::fci::MoveRequest move;
+    for (const auto& request : arm_.robot.requests()) {
+      if (const auto* of = std::get_if<franka_core::fci::MoveRequest>(&request)) {
+        move = *of;
+      }
+    }
+    return move;
+  }
+
+  FakeArm arm_{"fr3"};
+  franka_hw::FrankaHW robot_;
+  std::optional<Loop> loop_;
+};
+
+TEST_F(Modes, NineOfAllSetsOfClaimsAreAcceptedAndTheOthersRefused) {
+  for (const std::string& claims : subsets()) {
+    const bool legal = kModes.count(claims) != 0;
+    EXPECT_EQ(legal, loop_->switchTo({claims}, {})) << claims;
+    EXPECT_EQ(legal, loop_->controller(claims).isRunning()) << claims;
+    EXPECT_EQ(legal, robot_.controllerActive()) << claims;
+    if (legal) {
+      EXPECT_TRUE(loop_->switchTo({}, {claims})) << claims;
+    }
+    EXPECT_FALSE(robot_.controllerActive()) << claims;
+  }
+  EXPECT_TRUE(loop_->errors().empty());
+}
+
+TEST_F(Modes, TwoControllersMayShareTheArmAsOneMay) {
+  for (const std::string& one : kKinds) {
+    for (const std::string& other : kKinds) {
+      const bool legal = one != other && (one == "JT" || other == "JT");
+      const std::string second = other + ":2";
+      // The second is started beside the first, which must run on when that is refused.
+      ASSERT_TRUE(loop_->switchTo({one}, {}));
+      EXPECT_EQ(legal, loop_->switchTo({second}, {})) << one << " and " << other;
+      EXPECT_TRUE(loop_->controller(one).isRunning()) << one << " and " << other;
+      EXPECT_EQ(legal, loop_->controller(second).isRunning()) << one << " and " << other;
+      const int before = loop_->controller(one).updates;
+      EXPECT_TRUE(waitUntil([&] { return loop_->controller(one).updates > before + 3; }));
+      std::vector<std::string> running{one};
+      if (legal) {
+        running.push_back(second);
+      }
+      ASSERT_TRUE(loop_->switchTo({}, running));
+    }
+  }
+  EXPECT_TRUE(loop_->errors().empty());
+}
+
+TEST_F(Modes, APartOfTheJointsIsRefused) {
+  for (const std::string kind : {"JT", "JP", "JV"}) {
+    for (int joints : {1, 6}) {
+      const std::string claims = kind + ":" + std::to_string(joints);
+      arm_.nh.setParam(nameOf(claims) + "/joints", joints);
+      EXPECT_FALSE(loop_->switchTo({claims}, {})) << claims;
+      EXPECT_FALSE(loop_->controller(claims).isRunning()) << claims;
+    }
+  }
+}
+
+TEST_F(Modes, EachAsksTheRobotForItsMotion) {
+  struct Expected {
+    const char* claims;
+    MotionGeneratorMode generator;
+    ControllerMode controller;
+  };
+  const MotionGeneratorMode none = MotionGeneratorMode::kNone;
+  const ControllerMode torque = ControllerMode::kExternalController;
+  const ControllerMode inner = ControllerMode::kJointImpedance;
+  const std::vector<Expected> table{
+      {"JT", none, torque},
+      {"JP", MotionGeneratorMode::kJointPosition, inner},
+      {"JV", MotionGeneratorMode::kJointVelocity, inner},
+      {"CP", MotionGeneratorMode::kCartesianPosition, inner},
+      {"CV", MotionGeneratorMode::kCartesianVelocity, inner},
+      {"JT+JP", MotionGeneratorMode::kJointPosition, torque},
+      {"JT+JV", MotionGeneratorMode::kJointVelocity, torque},
+      {"JT+CP", MotionGeneratorMode::kCartesianPosition, torque},
+      {"JT+CV", MotionGeneratorMode::kCartesianVelocity, torque},
+  };
+  for (const Expected& expected : table) {
+    run(expected.claims, 5);
+    EXPECT_EQ(expected.generator, lastMove().motion_generator_mode) << expected.claims;
+    EXPECT_EQ(expected.controller, lastMove().controller_mode) << expected.claims;
+  }
+}
+
+TEST_F(Modes, WhatTheControllerCommandsReachesTheRobot) {
+  for (const std::string& claims : kModes) {
+    ToldController& controller = loop_->controller(claims);
+    controller.torque = 1.5;
+    controller.speed = 0.001;  // slow enough for a motion to be ended without an interruption
+    const auto exchanges = run(claims);
+    ASSERT_FALSE(exchanges.empty()) << claims;
+    const auto& [state, command] = exchanges.back();
+    if (claims.find("JT") != std::string::npos) {
+      EXPECT_EQ(1.5, command.tau_J_d[0]) << claims;
+      EXPECT_EQ(1.5, command.tau_J_d[6]) << claims;
+    }
+    if (claims.find("JP") != std::string::npos) {
+      EXPECT_NEAR(state.q_d[3] + 1e-6, command.q_c[3], 1e-12) << claims;
+    }
+    if (claims.find("JV") != std::string::npos) {
+      EXPECT_EQ(0.001, command.dq_c[6]) << claims;
+    }
+    if (claims.find("CP") != std::string::npos) {
+      EXPECT_NEAR(state.O_T_EE_c[14] + 1e-6, command.O_T_EE_c[14], 1e-12) << claims;
+      EXPECT_FALSE(command.valid_elbow) << claims;
+    }
+    if (claims.find("CV") != std::string::npos) {
+      EXPECT_EQ(0.001, command.O_dP_EE_c[2]) << claims;
+    }
+  }
+}
+
+TEST_F(Modes, ControllersRunOnceAMillisecondAlsoBesideAGenerator) {
+  for (const std::string claims : {"JT", "JT+JP"}) {
+    ToldController& controller = loop_->controller(claims);
+    ASSERT_TRUE(loop_->switchTo({claims}, {}));
+    ASSERT_TRUE(waitUntil([&] { return controller.updates_since_start > 200; }));
+    const double exchanges = static_cast<double>(arm_.robot.exchanges().size());
+    const double updates = controller.updates_since_start;
+    EXPECT_NEAR(exchanges, updates, 60.0) << claims;  // and not twice as many
+    ASSERT_TRUE(loop_->switchTo({}, {claims}));
+  }
+}
+
+// --- what is read anew at a switch ---------------------------------------------------------------
+
+TEST_F(Modes, RateLimitingIsReadAnewAtASwitch) {
+  for (const bool limited : {true, false, true}) {
+    arm_.robot_nh.setParam("rate_limiting", limited);
+    loop_->controller("JT").torque = 5.0;
+    double largest = 0.0;
+    // The parameter is cached: the node learns of a change a little later.
+    ASSERT_TRUE(waitUntil([&] {
+      largest = 0.0;
+      for (const auto& exchange : run("JT")) {
+        largest = std::max(largest, exchange.command.tau_J_d[0] - exchange.state.tau_J_d[0]);
+      }
+      return limited == (largest < 4.0);
+    }));
+    // 1000 Nm/s over a millisecond, or the whole step at once.
+    EXPECT_NEAR(limited ? 1.0 : 5.0, largest, 1e-3);
+  }
+}
+
+TEST_F(Modes, TheFilterIsReadAnewAtASwitch) {
+  constexpr double kCutoff = 100.0;
+  const double gain = 0.001 / (0.001 + 1.0 / (2.0 * M_PI * kCutoff));
+  arm_.robot_nh.setParam("cutoff_frequency", kCutoff);
+  loop_->controller("JT").torque = 5.0;
+  std::vector<franka_test::FakeRobot::Exchange> exchanges;
+  ASSERT_TRUE(waitUntil([&] {
+    exchanges = run("JT");
+    return exchanges.size() > 1 && exchanges[1].command.tau_J_d[0] < 4.9;
+  }));
+  for (size_t i = 1; i < exchanges.size(); i++) {
+    // The client filters against the torque it was told, a float since version 10.
+    const double last = static_cast<float>(exchanges[i].state.tau_J_d[0]);
+    EXPECT_NEAR(last + gain * (5.0 - last), exchanges[i].command.tau_J_d[0], 1e-9) << i;
+  }
+}
+
+TEST_F(Modes, TheInternalControllerIsReadAnewAtASwitch) {
+  arm_.robot_nh.setParam("internal_controller", "cartesian_impedance");
+  ASSERT_TRUE(waitUntil([&] {
+    run("JV", 3);
+    return lastMove().controller_mode == ControllerMode::kCartesianImpedance;
+  }));
+  const LogCatcher log;
+  arm_.robot_nh.setParam("internal_controller", "telepathy");
+  ASSERT_TRUE(waitUntil([&] {
+    run("JV", 3);
+    return lastMove().controller_mode == ControllerMode::kJointImpedance;
+  }));
+  EXPECT_NE(std::string::npos, log.text().find("'telepathy'"));
+}
+
+}  // namespace
+}  // namespace franka_hw_test

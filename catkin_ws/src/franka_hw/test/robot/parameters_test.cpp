@@ -1,0 +1,158 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// What FrankaHW says about parameters that are missing or wrong.
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+namespace franka_hw_test {
+namespace {
+
+using franka_hw::FrankaHW;
+
+struct Case {
+  std::string name;
+  std::function<void(FakeArm&)> spoil;
+  std::vector<std::string> words;  ///< of the sentence
+};
+
+/// Deletes a parameter of the robot.
+std::function<void(FakeArm&)> without(const std::string& name) {
+  return [name](FakeArm& arm) { arm.robot_nh.deleteParam(name); };
+}
+
+template <typename T>
+std::function<void(FakeArm&)> with(const std::string& name, const T& value) {
+  return [name, value](FakeArm& arm) { arm.robot_nh.setParam(name, value); };
+}
+
+std::vector<Case> refusals() {
+  const std::vector<std::string> six(6, "fr3_joint1");
+  return {
+      {"no joint_names", without("joint_names"), {"joint_names' is missing", "seven names"}},
+      {"joint_names a string", with("joint_names", std::string("j")), {"joint_names", "is not"}},
+      {"joint_names numbers", with("joint_names", std::vector<int>(7, 1)), {"joint_names"}},
+      {"six joint_names", with("joint_names", six), {"joint_names", "6 names instead of seven"}},
+      {"no rate_limiting", without("rate_limiting"), {"rate_limiting' is missing"}},
+      {"rate_limiting a string", with("rate_limiting", std::string("x")), {"true or false"}},
+      {"no cutoff", without("cutoff_frequency"), {"cutoff_frequency' is missing"}},
+      {"cutoff a string", with("cutoff_frequency", std::string("x")), {"is not a number [Hz]"}},
+      {"no internal_controller", without("internal_controller"), {"internal_controller' is miss"}},
+      {"internal_controller a number", with("internal_controller", 3), {"internal_controller"}},
+      {"no arm_id", without("arm_id"), {"arm_id' is missing"}},
+      {"arm_id a number", with("arm_id", 3), {"arm_id", "is not a string"}},
+      {"no robot_ip", without("robot_ip"), {"robot_ip' is missing", "address"}},
+      {"robot_ip a number", with("robot_ip", 1.5), {"robot_ip", "is not a string"}},
+      {"realtime_config", with("realtime_config", std::string("often")), {"'often'", "enforce"}},
+      {"no description",
+       [](FakeArm& arm) { arm.nh.deleteParam("robot_description"); },
+       {"robot_description", "launch file"}},
+      {"description no XML",
+       [](FakeArm& arm) { arm.nh.setParam("robot_description", "<robot"); },
+       {"robot_description"}},
+      {"nobody at the address",
+       with("robot_ip", std::string("127.0.0.1:9")),
+       {"127.0.0.1:9", "could not be initialised"}},
+  };
+}
+
+TEST(Parameters, EveryMistakeEndsInASentenceThatNamesIt) {
+  for (const Case& mistake : refusals()) {
+    SCOPED_TRACE(mistake.name);
+    FakeArm arm;
+    mistake.spoil(arm);
+    FrankaHW robot;
+    const LogCatcher log;
+    EXPECT_FALSE(robot.init(arm.nh, arm.robot_nh));
+    const std::string said = log.text(ros::console::levels::Error);
+    for (const std::string& word : mistake.words) {
+      EXPECT_NE(std::string::npos, said.find(word)) << "'" << word << "' is not in:\n" << said;
+    }
+    EXPECT_FALSE(robot.connected());
+    EXPECT_THROW(robot.robot(), std::logic_error);
+  }
+}
+
+TEST(Parameters, TwoInitsAreOneTooMany) {
+  FakeArm arm;
+  FrankaHW robot;
+  ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh));
+  const LogCatcher log;
+  EXPECT_FALSE(robot.init(arm.nh, arm.robot_nh));
+  EXPECT_NE(std::string::npos, log.text().find("a second time"));
+}
+
+TEST(Parameters, AnArmThatTheDescriptionDoesNotHoldIsNamedJointByJoint) {
+  FakeArm arm;
+  arm.robot_nh.setParam("arm_id", "left");
+  arm.robot_nh.setParam("joint_names", FakeArm::joints("left"));
+  FrankaHW robot;
+  const LogCatcher log;
+  ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh)) << "as the original: only the soft limits are lost";
+  for (const std::string& joint : FakeArm::joints("left")) {
+    EXPECT_NE(std::string::npos, log.text(ros::console::levels::Warn).find("'" + joint + "'"));
+  }
+}
+
+TEST(Parameters, CollisionThresholdsGoToTheRobot) {
+  FakeArm arm;
+  const std::vector<double> torques{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+  const std::vector<double> forces{11.0, 12.0, 13.0, 14.0, 15.0, 16.0};
+  arm.robot_nh.setParam("collision_config/lower_torque_thresholds_nominal", torques);
+  arm.robot_nh.setParam("collision_config/upper_force_thresholds_acceleration", forces);
+  // Of wrong length, and of wrong type: the defaults take their place, and a line says so.
+  arm.robot_nh.setParam("collision_config/upper_torque_thresholds_nominal", forces);
+  arm.robot_nh.setParam("collision_config/lower_force_thresholds_nominal", "much");
+  FrankaHW robot;
+  const LogCatcher log;
+  ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh));
+
+  franka_core::fci::SetCollisionBehaviorRequest sent;
+  int count = 0;
+  for (const auto& request : arm.robot.requests()) {
+    if (const auto* of = std::get_if<franka_core::fci::SetCollisionBehaviorRequest>(&request)) {
+      sent = *of;
+      count++;
+    }
+  }
+  ASSERT_EQ(1, count);
+  const std::array<double, 7> default_torques{20, 20, 18, 18, 16, 14, 12};
+  const std::array<double, 6> default_forces{20, 20, 20, 25, 25, 25};
+  EXPECT_TRUE(std::equal(torques.begin(), torques.end(), sent.lower_torques_nominal.begin()));
+  EXPECT_TRUE(std::equal(forces.begin(), forces.end(), sent.upper_forces_acceleration.begin()));
+  EXPECT_EQ(default_torques, sent.upper_torques_nominal);
+  EXPECT_EQ(default_torques, sent.lower_torques_acceleration);
+  EXPECT_EQ(default_torques, sent.upper_torques_acceleration);
+  EXPECT_EQ(default_forces, sent.lower_forces_nominal);
+  EXPECT_EQ(default_forces, sent.lower_forces_acceleration);
+  EXPECT_EQ(default_forces, sent.upper_forces_nominal);
+  for (const char* name : {"upper_torque_thresholds_nominal", "lower_force_thresholds_nominal"}) {
+    EXPECT_NE(std::string::npos, log.text().find(name)) << name;
+  }
+}
+
+TEST(Parameters, ARobotThatRefusesItsThresholdsIsNotConnected) {
+  FakeArm arm;
+  arm.robot.script([](auto& script) {
+    script.replies[Command::kSetCollisionBehavior] =
+        franka_core::fci::Status::kInvalidArgumentRejected;
+  });
+  FrankaHW robot;
+  const LogCatcher log;
+  EXPECT_FALSE(robot.init(arm.nh, arm.robot_nh));
+  EXPECT_FALSE(robot.connected());
+  EXPECT_NE(std::string::npos, log.text().find("could not be initialised"));
+}
+
+TEST(Parameters, ARobotThatIsStillStartingIsWaitedFor) {
+  FakeArm arm;
+  arm.robot_nh.setParam("robot_ip", "127.0.0.1:9");
+  arm.robot_nh.setParam("connect_timeout", 0.5);
+  FrankaHW robot;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(robot.init(arm.nh, arm.robot_nh));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(500));
+}
+
+}  // namespace
+}  // namespace franka_hw_test
