@@ -51,6 +51,7 @@ class Ratio:
 
 RATIOS = [
     Ratio("libfranka_arm_model_bench", "armModel", "kdlSolvers", goal_ns=3000),
+    Ratio("franka_hw_bench", "frankaHwCycle", "emptyCycle", goal_ns=5000),
     Ratio("model_kdl_bench", "ModelKDL", "bare KDL solvers", goal=1.3),
     Ratio("control_unit_bench", "torqueControlTick", "modelAlone", goal_ns=15000),
     Ratio("control_unit_bench", "idleTick", "modelAlone", goal_ns=15000),
@@ -80,6 +81,8 @@ class Counter:
 
 
 COUNTERS = [
+    Counter("franka_hw_bench", "frankaHwCycle", "allocations", "", 0),
+    Counter("franka_hw_bench", "switchToFirstCommand", "p50_ms", "ms"),
     Counter("libfranka_client_bench", "roundTrip/5", "p50_ratio", "x", 1.5),
     Counter("libfranka_client_bench", "roundTrip/5", "p999_us", "us", 300),
     Counter("libfranka_client_bench", "roundTrip/10", "p50_ratio", "x", 1.5),
