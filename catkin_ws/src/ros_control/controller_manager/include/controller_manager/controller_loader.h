@@ -5,11 +5,23 @@
 #include <controller_manager/controller_loader_interface.h>
 
 #include <memory>
+#include <mutex>
 #include <pluginlib/class_loader.hpp>
 #include <string>
 #include <vector>
 
 namespace controller_manager {
+
+namespace internal {
+
+/// Held while plugin libraries are loaded: a process may have several managers, one for each robot,
+/// and what a library registers while it is opened belongs to whoever opens it.
+inline std::mutex& pluginMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace internal
 
 /// Loads controllers from plugin libraries.
 /// @tparam T base class of the plugins, derived from controller_interface::ControllerBase
@@ -24,6 +36,7 @@ class ControllerLoader : public ControllerLoaderInterface {
 
   controller_interface::ControllerBaseSharedPtr createInstance(
       const std::string& lookup_name) override {
+    const std::lock_guard<std::mutex> lock(internal::pluginMutex());
     return controller_loader_->createUniqueInstance(lookup_name);
   }
 
@@ -32,6 +45,7 @@ class ControllerLoader : public ControllerLoaderInterface {
   }
 
   void reload() override {
+    const std::lock_guard<std::mutex> lock(internal::pluginMutex());
     controller_loader_ = std::make_shared<pluginlib::ClassLoader<T>>(package_, base_class_);
   }
 
