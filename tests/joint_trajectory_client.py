@@ -12,10 +12,11 @@ import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryGoal, JointTolerance
+from controller_manager_msgs.srv import SwitchController
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectoryPoint
 
-ACTION = "/effort_joint_trajectory_controller/follow_joint_trajectory"
+CONTROLLER = "{}_joint_trajectory_controller"
 JOINTS = [f"panda_joint{i}" for i in range(1, 8)]
 TARGET = [0.4, -0.5, 0.3, -2.0, 0.2, 1.8, 1.0]
 WAIT = 60  # wall seconds
@@ -67,10 +68,34 @@ def outcome(handle, target):
     }
 
 
+def action_of(interface):
+    name = f"/{CONTROLLER.format(interface)}/follow_joint_trajectory"
+    client = actionlib.ActionClient(name, FollowJointTrajectoryAction)
+    if not client.wait_for_server(rospy.Duration(WAIT)):
+        sys.exit(f"In vain: waited for {name}.")
+    return client
+
+
+def other_interfaces(home):
+    """The same way there and back, by positions and by velocities."""
+    switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
+    report, running = {}, "effort"
+    for interface, target in (("position", TARGET), ("velocity", home)):
+        started = switch(
+            start_controllers=[CONTROLLER.format(interface)],
+            stop_controllers=[CONTROLLER.format(running)],
+            strictness=2,
+            timeout=10.0,
+        )
+        report[interface] = {"started": started.ok}
+        report[interface].update(outcome(action_of(interface).send_goal(goal_to(target, 4.0)), target))
+        running = interface
+    return report
+
+
 def main():
     rospy.init_node("joint_trajectory_client")
-    client = actionlib.ActionClient(ACTION, FollowJointTrajectoryAction)
-    client.wait_for_server()
+    client = action_of("effort")
     report = {}
     report["reached"] = outcome(client.send_goal(goal_to(TARGET, 4.0)), TARGET)
 
@@ -87,6 +112,7 @@ def main():
     unknown = goal_to(back, 4.0)
     unknown.trajectory.joint_names = ["other"] + JOINTS[1:]
     report["unknown"] = outcome(client.send_goal(unknown), back)
+    report.update(other_interfaces(back))
     print(json.dumps(report))
 
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Trajectories on the simulated Panda with torques, as MoveIt would send them."""
+"""Trajectories on the simulated Panda with torques, positions and velocities, as MoveIt would send them."""
 
 import json
 import sys
@@ -14,6 +14,7 @@ sys.path.insert(0, str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"))
 from franka_sim_mujoco.session import Session  # noqa: E402
 
 CONTROLLER = "effort_joint_trajectory_controller"
+OTHERS = ["position_joint_trajectory_controller", "velocity_joint_trajectory_controller"]
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +27,9 @@ def report(tmp_path_factory):
             "rosrun", "controller_manager", "controller_manager", "spawn", CONTROLLER, check=False, timeout=60
         )
         assert started.returncode == 0, f"{started}\n{session.tail(60)}"
+        load = ["rosrun", "controller_manager", "controller_manager", "load", *OTHERS]
+        loaded = session.run(*load, check=False, timeout=60)
+        assert loaded.stdout.count("Loaded") == len(OTHERS), f"{loaded}\n{session.tail(60)}"
         client = session.run(
             "/usr/bin/python3", str(HERE / "joint_trajectory_client.py"), check=False, timeout=120
         )
@@ -39,6 +43,14 @@ def test_goal_of_hundred_points_is_reached(report):
     assert report["reached"]["status"] == "SUCCEEDED", report
     assert report["reached"]["code"] == 0
     assert report["reached"]["error"] < 0.05
+
+
+@pytest.mark.parametrize("interface", ["position", "velocity"])
+def test_so_it_is_by_other_interfaces(report, interface):
+    assert report[interface]["started"], report
+    assert report[interface]["status"] == "SUCCEEDED", report[interface]
+    assert report[interface]["code"] == 0
+    assert report[interface]["error"] < 0.05
 
 
 def test_violated_path_tolerance_is_told(report):

@@ -225,6 +225,11 @@ void FrankaHWSim::registerLimits(const urdf::Model& model) {
 }
 
 void FrankaHWSim::holdJointLimits(const ros::Duration& period) {
+  if (arm_->switchResult() == SimArm::Switch::kOngoing) {
+    // Nobody commands yet: the limits must not remember where the last motion was wanted.
+    position_limits_.reset();
+    return;
+  }
   if ((arm_->mode() & franka_hw::ControlMode::JointPosition) != franka_hw::ControlMode::None) {
     position_limits_.enforceLimits(period);
   }

@@ -15,10 +15,10 @@ using franka_core::RobotMode;
 using franka_hw::ControlMode;
 
 template <std::size_t N>
-void smooth(double alpha, std::array<double, N>& filtered, std::array<double, N>& signal) noexcept {
+void smooth(double alpha, const std::array<double, N>& signal,
+            std::array<double, N>& filtered) noexcept {
   for (std::size_t i = 0; i < N; ++i) {
     filtered[i] += alpha * (signal[i] - filtered[i]);
-    signal[i] = filtered[i];
   }
 }
 
@@ -71,24 +71,31 @@ void SimArm::read(const ros::Time& time) noexcept {
   if (switch_ == Switch::kOngoing) {
     tryToStart();
   }
-  franka_core::toFranka(unit_.state(), state_);
-  state_.time = franka::Duration(time.toNSec() / 1000000);
+  time_ = franka::Duration(time.toNSec() / 1000000);
   if (options_.filter_alpha < 1.0) {
     filter();
   }
+  show();
   watch();
 }
 
-void SimArm::filter() noexcept {
-  if (filter_is_fresh_) {
-    tau_ext_filtered_ = state_.tau_ext_hat_filtered;
-    O_F_ext_filtered_ = state_.O_F_ext_hat_K;
-    K_F_ext_filtered_ = state_.K_F_ext_hat_K;
-    filter_is_fresh_ = false;
+void SimArm::show() noexcept {
+  franka_core::toFranka(unit_.state(), state_);
+  state_.time = time_;
+  if (options_.filter_alpha < 1.0) {
+    state_.tau_ext_hat_filtered = tau_ext_filtered_;
+    state_.O_F_ext_hat_K = O_F_ext_filtered_;
+    state_.K_F_ext_hat_K = K_F_ext_filtered_;
   }
-  smooth(options_.filter_alpha, tau_ext_filtered_, state_.tau_ext_hat_filtered);
-  smooth(options_.filter_alpha, O_F_ext_filtered_, state_.O_F_ext_hat_K);
-  smooth(options_.filter_alpha, K_F_ext_filtered_, state_.K_F_ext_hat_K);
+}
+
+void SimArm::filter() noexcept {
+  const franka_core::RobotState& state = unit_.state();
+  const double alpha = filter_is_fresh_ ? 1.0 : options_.filter_alpha;
+  smooth(alpha, state.tau_ext_hat_filtered, tau_ext_filtered_);
+  smooth(alpha, state.O_F_ext_hat_K, O_F_ext_filtered_);
+  smooth(alpha, state.K_F_ext_hat_K, K_F_ext_filtered_);
+  filter_is_fresh_ = false;
 }
 
 void SimArm::write() noexcept {
@@ -181,6 +188,9 @@ void SimArm::tryToStart() noexcept {
   }
   switch_ = Switch::kDone;
   resetCommands();
+  // Controllers that start in this very tick read where the new motion begins, not the old one's
+  // end: positions that begin with a step make every rate limiter oscillate.
+  show();
 }
 
 void SimArm::refuse(Refusal why) noexcept {

@@ -111,6 +111,8 @@ class SimArm {
   void watch() noexcept;
   const franka_core::RobotCommand* command() noexcept;
   void filter() noexcept;
+  /// Brings what controllers see up to date.
+  void show() noexcept;
 
   ControlUnit unit_;
   ArmPlant& plant_;
@@ -119,6 +121,7 @@ class SimArm {
   std::array<double, 7> tau_ext_filtered_{};
   std::array<double, 6> O_F_ext_filtered_{}, K_F_ext_filtered_{};
   franka::RobotState state_{};
+  franka::Duration time_{};
   ArmCommands commands_;
   franka_core::RobotCommand command_{};
   franka_hw::ControlMode mode_{franka_hw::ControlMode::None};
