@@ -16,7 +16,7 @@ import time
 import rospy
 from controller_manager_msgs.srv import ListControllers, SwitchController
 from franka_msgs.msg import FrankaState
-from recovery_client import CONTROLLER, Robot
+from recovery_client import CONTROLLER, PUSH, Person, Robot
 from std_srvs.srv import Trigger
 
 GONE = 10.0  # how long the robot keeps silent, at least once [s]
@@ -51,6 +51,16 @@ def comes_back(robot, reconnects):
     return report
 
 
+def refusal():
+    """What connect says while there is no robot, once the node knows."""
+    deadline = time.monotonic() + 20.0
+    answer = call("connect")
+    while "Already connected" in answer[1] and time.monotonic() < deadline:
+        time.sleep(0.2)
+        answer = call("connect")
+    return answer
+
+
 def connect_patiently():
     """Connects as soon as the robot listens."""
     deadline = time.monotonic() + 20.0
@@ -64,6 +74,7 @@ def connect_patiently():
 def main():
     rospy.init_node("robot_gone_client", anonymous=True)
     pid, reconnects, command = int(sys.argv[2]), sys.argv[3] == "true", sys.argv[4:]
+    address = command[command.index("--ip") + 1]
     robot = Robot()
     switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
     report = {"started": switch(start_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok}
@@ -76,10 +87,16 @@ def main():
     os.kill(pid, signal.SIGCONT)
     report["after_silence"] = comes_back(robot, reconnects)
 
+    Person(address).does(f"push panda_link7 {PUSH}")
+    robot.shows(FrankaState.ROBOT_MODE_REFLEX)
+    os.kill(pid, signal.SIGSTOP)
+    robot.ask_recovery()
+    time.sleep(0.5)
     os.kill(pid, signal.SIGKILL)
     report["death_noticed"] = robot.waits(lambda: robot.has_error) is not None
+    report["alive_after_death"] = node_answers()
     if not reconnects:
-        report["refused"] = call("connect")
+        report["refused"] = refusal()
     other = subprocess.Popen(command)
     try:
         report["after_restart"] = comes_back(robot, reconnects)

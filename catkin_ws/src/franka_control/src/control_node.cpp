@@ -68,6 +68,10 @@ void ControlNode::offerRobot() {
 }
 
 void ControlNode::withdrawRobot() {
+  if (recovery_server_) {
+    // A recovery under way still answers through this pointer: it ends before reset() clears it.
+    recovery_server_->shutdown();
+  }
   recovery_server_.reset();
   robot_services_.reset();
 }

@@ -62,6 +62,10 @@ bool FrankaCombinableHW::disconnect() {
 void FrankaCombinableHW::withdraw() {
   connected_ = false;
   const std::lock_guard<std::mutex> lock(service_mutex_);
+  if (recovery_server_) {
+    // A recovery under way still answers through this pointer: it ends before reset() clears it.
+    recovery_server_->shutdown();
+  }
   recovery_server_.reset();
   services_.reset();
 }
