@@ -48,7 +48,7 @@ def test_every_seed_is_placed(robot, tmp_path, long_run):
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
 def test_carried_stone_stays_between_the_fingers(robot, tmp_path):
     code, results, _ = pick_and_place(
-        tmp_path, f"robot:={robot}", "--speed", "4", "--no-pictures", "--hold", "60"
+        tmp_path, f"robot:={robot}", "--speed", "8", "--no-pictures", "--hold", "60"
     )
     assert code == 0
     assert results[0]["slip"] < 2e-3

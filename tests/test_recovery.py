@@ -32,7 +32,7 @@ def report(request, tmp_path_factory, long_run):
         load = ["rosrun", "controller_manager", "controller_manager", "load"]
         loaded = session.run(*load, "cartesian_impedance_example_controller", check=False, timeout=90)
         assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
-        count = "100" if long_run else "10"
+        count = "100" if long_run else {"panda": "10", "fr3": "3"}[robot]
         client = ["/usr/bin/python3", str(HERE / "recovery_client.py"), robot, ADDRESS, count]
         result = session.run(*client, check=False, timeout=1800 if long_run else 300)
         print(result.stdout, session.tail(80), sep="\n")

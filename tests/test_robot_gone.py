@@ -20,8 +20,10 @@ ADDRESS = "127.0.7.4"
 
 
 @pytest.fixture(scope="module", params=["false", "true"], ids=["told_to_connect", "connects_by_itself"])
-def report(request, tmp_path_factory):
+def report(request, tmp_path_factory, long_run):
     reconnect, folder = request.param, tmp_path_factory.mktemp("gone")
+    if reconnect == "true" and not long_run:
+        pytest.skip("the same once more, without being told: ./franka test --long")
     parameters = folder / "controllers.yaml"
     config = SOURCE / "franka_example_controllers/config/franka_example_controllers.yaml"
     parameters.write_text(config.read_text().replace("$(arg arm_id)", "panda"))
