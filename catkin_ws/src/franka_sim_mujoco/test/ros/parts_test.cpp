@@ -136,8 +136,10 @@ TEST(WorldFile, FindsWorldsByTheirNames) {
   EXPECT_EQ(stone, findWorldFile("stone", folders));
   EXPECT_EQ(stone, findWorldFile("worlds/stone.world", folders));
   EXPECT_EQ(stone, findWorldFile("/nowhere/world/stone.sdf", folders));
+  const std::string sdf = (folder / "elsewhere/beside.sdf").string();
+  EXPECT_EQ(sdf, findWorldFile(sdf, folders));
   EXPECT_EQ((folder / "elsewhere/beside.xml").string(),
-            findWorldFile((folder / "elsewhere/beside.sdf").string(), folders));
+            findWorldFile((folder / "elsewhere/beside.world").string(), folders));
   const std::string text = sentence([&] { findWorldFile("/nowhere/moon.sdf", folders); });
   EXPECT_TRUE(contains(text, "/nowhere/moon.sdf") && contains(text, folder.string())) << text;
   fs::remove_all(folder);
