@@ -433,11 +433,21 @@ def test_the_hand_and_threads_that_run_while_it_moves(robots, name):
 def test_a_hand_is_stopped_from_another_thread(robots, name):
     hand = pyfranka.Gripper(ADDRESSES[name])
     hand.move(0.08, 0.1)
-    stopper = threading.Timer(0.3, hand.stop)
+    ended = threading.Event()
+
+    # In lock-step a homing may be over in a tenth of a second, or not yet have begun after that.
+    def stop_until_it_ended():
+        while not ended.wait(0.005):
+            hand.stop()
+
+    stopper = threading.Thread(target=stop_until_it_ended)
     stopper.start()
-    with pytest.raises(pyfranka.CommandException):
-        hand.homing()
-    stopper.join(20)
+    try:
+        with pytest.raises(pyfranka.CommandException):
+            hand.homing()
+    finally:
+        ended.set()
+        stopper.join(20)
 
 
 # --- models -----------------------------------------------------------------------------------------------
