@@ -62,7 +62,7 @@ sim_test(ros_parts_test SOURCES test/ros/parts_test.cpp
   LIBRARIES franka_sim_ros)
 
 find_package(rostest REQUIRED)
-foreach(name simulation parameters)
+foreach(name simulation parameters worlds)
   add_rostest(test/ros/${name}.test DEPENDENCIES
     franka_sim_mujoco_node franka_hw_sim franka_gripper_sim)
 endforeach()
