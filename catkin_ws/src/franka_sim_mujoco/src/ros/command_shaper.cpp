@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/lowpass_filter.h>
 #include <franka/rate_limiting.h>
+#include <franka_core/joint_limiter.h>
 #include <franka_sim_mujoco/robot/tick.h>
 #include <franka_sim_mujoco/robot/transforms.h>
 #include <franka_sim_mujoco/ros/command_shaper.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 
 namespace franka_sim_mujoco {
 
@@ -18,7 +20,14 @@ using franka_hw::ControlMode;
 using Joints = std::array<double, 7>;
 
 // Kept free of every limit, as by libfranka's limiter, so that rounding never exceeds one.
-constexpr double kMargin = 1e-3;
+constexpr double kMargin = franka::kLimitEps;
+
+Joints withMargin(Joints limits) noexcept {
+  for (double& limit : limits) {
+    limit -= kMargin;
+  }
+  return limits;
+}
 
 template <std::size_t N>
 bool allFinite(const std::array<double, N>& values) noexcept {
@@ -39,32 +48,29 @@ void filter(const ShapingOptions& options, const std::array<double, N>& last,
   if (!isFiltered(options)) {
     return;
   }
-  const double gain = kTick / (kTick + 1.0 / (2.0 * M_PI * options.cutoff_frequency));
   for (std::size_t i = 0; i < N; ++i) {
-    values[i] = gain * values[i] + (1.0 - gain) * last[i];
+    values[i] = franka::lowpassFilter(kTick, values[i], last[i], options.cutoff_frequency);
   }
 }
 
-/// The velocity that comes closest to the wanted one: within jerk, acceleration, and an
-/// acceleration that goes to zero where the velocity limit is near.
-double limitVelocity(double lowest, double highest, double max_ddq, double max_dddq, double dq,
-                     double last_dq, double last_ddq) noexcept {
-  const double change =
-      std::clamp((dq - last_dq) / kTick - last_ddq, -max_dddq * kTick, max_dddq * kTick);
-  const double slope = max_dddq / max_ddq;
-  const double most = std::min(max_ddq, slope * (highest - last_dq));
-  const double least = std::max(-max_ddq, slope * (lowest - last_dq));
-  return last_dq + kTick * std::max(least, std::min(most, last_ddq + change));
+franka_core::JointVelocityRange rangeOf(const MotionLimits& limits, const Joints& q) noexcept {
+  if (limits.position_velocity) {
+    return franka_core::rangeAt(
+        franka_core::followable(limits.velocity_near_ends, withMargin(limits.arm.ddq),
+                                withMargin(limits.arm.dddq), kMargin),
+        q);
+  }
+  franka_core::JointVelocityRange range{};
+  range.highest = withMargin(limits.arm.dq);
+  std::transform(range.highest.begin(), range.highest.end(), range.lowest.begin(), std::negate<>());
+  return range;
 }
 
 void limitVelocities(const franka_core::RobotState& state, const MotionLimits& limits,
                      Joints& dq) noexcept {
-  for (std::size_t i = 0; i < dq.size(); ++i) {
-    dq[i] = limitVelocity(limits.lowestVelocity(i, state.q_d[i]) + kMargin,
-                          limits.highestVelocity(i, state.q_d[i]) - kMargin,
-                          limits.arm.ddq[i] - kMargin, limits.arm.dddq[i] - kMargin, dq[i],
-                          state.dq_d[i], state.ddq_d[i]);
-  }
+  dq =
+      franka_core::limitVelocities(rangeOf(limits, state.q_d), withMargin(limits.arm.ddq),
+                                   withMargin(limits.arm.dddq), dq, state.dq_d, state.ddq_d, kTick);
 }
 
 Joints shapePositions(const ShapingOptions& options, Joints q, const franka_core::RobotState& state,
@@ -128,26 +134,22 @@ void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbo
     return;
   }
   double& q3 = command.elbow_c[0];
-  std::array<double, 1> filtered{{q3}};
-  filter(options, std::array<double, 1>{{state.elbow_c[0]}}, filtered);
-  q3 = filtered[0];
+  if (isFiltered(options)) {
+    q3 = franka::lowpassFilter(kTick, q3, state.elbow_c[0], options.cutoff_frequency);
+  }
   if (options.rate_limiting) {
     const auto& [v, a, j] = limits.arm.elbow;
-    const double dq3 =
-        limitVelocity(-v + kMargin, v - kMargin, a - kMargin, j - kMargin,
-                      (q3 - state.elbow_c[0]) / kTick, state.delbow_c[0], state.ddelbow_c[0]);
-    q3 = state.elbow_c[0] + dq3 * kTick;
+    q3 = franka::limitRate(v - kMargin, a - kMargin, j - kMargin, q3, state.elbow_c[0],
+                           state.delbow_c[0], state.ddelbow_c[0]);
   }
 }
 
 Joints shapeTorques(const ShapingOptions& options, Joints torque,
                     const franka_core::RobotState& state, const MotionLimits& limits) noexcept {
   filter(options, state.tau_J_d, torque);
-  for (std::size_t i = 0; options.rate_limiting && i < torque.size(); ++i) {
-    const double step = (limits.arm.dtau[i] - kMargin) * kTick;
-    torque[i] = std::clamp(torque[i], state.tau_J_d[i] - step, state.tau_J_d[i] + step);
-  }
-  return torque;
+  return options.rate_limiting
+             ? franka::limitRate(withMargin(limits.arm.dtau), torque, state.tau_J_d)
+             : torque;
 }
 
 }  // namespace

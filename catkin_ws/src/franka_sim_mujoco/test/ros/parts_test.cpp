@@ -379,5 +379,44 @@ TEST_P(ShapedMotion, IsNeverRefused) {
 
 INSTANTIATE_TEST_SUITE_P(PandaAndFr3, ShapedMotion, testing::Values(5u, 10u));
 
+/// An FR3's velocity limits fall towards the joints' ends faster than joints 5 and 7 may brake.
+class ShapedMotionToTheEnds : public testing::TestWithParam<unsigned> {};
+
+TEST_P(ShapedMotionToTheEnds, ComesToRestUnrefused) {
+  const MotionLimits limits = limitsOf(GetParam());
+  for (const double towards : {-20.0, 20.0}) {
+    ShapingOptions options;
+    options.cutoff_frequency = 1000.0;
+    JointMotion motion;
+    franka_core::RobotState state{};
+    state.q_d = {{0.0, -0.8, 0.0, -2.0, 0.0, 1.6, 0.0}};
+    motion.start(state.q_d);
+    ArmCommands wanted;
+    wanted.velocity.fill(towards);
+    std::array<double, 7> fastest{};
+    for (int tick = 0; tick < 10000; ++tick) {
+      const auto command =
+          shapeCommand(options, franka_hw::ControlMode::JointVelocity, wanted, state, limits);
+      ASSERT_FALSE(motion.takeVelocities(command.dq_c, limits)) << tick << " " << towards;
+      state.q_d = motion.last().q;
+      state.dq_d = motion.last().dq;
+      state.ddq_d = motion.last().ddq;
+      for (std::size_t i = 0; i < 7; ++i) {
+        fastest[i] = std::max(fastest[i], std::abs(state.dq_d[i]));
+      }
+    }
+    for (std::size_t i = 0; i < 7; ++i) {
+      EXPECT_GT(fastest[i], 1.0) << i;
+      EXPECT_NEAR(0.0, state.dq_d[i], 1e-2) << i;
+      EXPECT_LT(
+          towards > 0 ? limits.arm.q_max[i] - state.q_d[i] : state.q_d[i] - limits.arm.q_min[i],
+          0.25)
+          << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fr3, ShapedMotionToTheEnds, testing::Values(6u, 9u, 10u));
+
 }  // namespace
 }  // namespace franka_sim_mujoco

@@ -4,9 +4,8 @@
 
 #include <franka/rate_limiting.h>
 #include <franka_core/fci/protocol.h>
+#include <franka_core/joint_limiter.h>
 #include <tinyxml2.h>
-
-#include <algorithm>
 
 namespace franka {
 
@@ -45,41 +44,6 @@ ArmRateLimits fr3Limits(const franka_core::PositionVelocityLimits& velocities) {
           withMargin(arm.translation),
           withMargin(arm.rotation),
           withMargin(arm.elbow)};
-}
-
-// The limiter of franka/rate_limiting.h with two different ends.
-double limitVelocity(double lowest, double highest, double max_acceleration, double max_jerk,
-                     double velocity, double last_velocity, double last_acceleration) {
-  const double jerk = ((velocity - last_velocity) / kDeltaT - last_acceleration) / kDeltaT;
-  const double acceleration = last_acceleration + std::clamp(jerk, -max_jerk, max_jerk) * kDeltaT;
-  const double stiffness = max_jerk / max_acceleration;
-  const double up = std::min(stiffness * (highest - last_velocity), max_acceleration);
-  const double down = std::max(stiffness * (lowest - last_velocity), -max_acceleration);
-  const double wanted =
-      std::clamp(std::max(std::min(acceleration, up), down), -max_acceleration, max_acceleration);
-  // Ends that come nearer must not turn the acceleration faster than a wish may.
-  const double change =
-      std::clamp(wanted - last_acceleration, -max_jerk * kDeltaT, max_jerk * kDeltaT);
-  return last_velocity + (last_acceleration + change) * kDeltaT;
-}
-
-// Of the joint's acceleration limit, how much braking before a joint's end may need.
-constexpr double kBrakingShare = 0.9;
-
-// The robot's velocity limit falls towards a joint's end, for joints 5 and 7 of an FR3 faster than
-// the joint may brake. What the limiter keeps within falls only as fast as can be followed, and
-// lies below the robot's by what the limiter lags behind it.
-franka_core::PositionVelocityLimits followable(franka_core::PositionVelocityLimits limits,
-                                               const Joints& max_acceleration,
-                                               const Joints& max_jerk) {
-  for (std::size_t i = 0; i < 7; i++) {
-    const double braking =
-        std::min(limits.deceleration[i] / 2.0, kBrakingShare * max_acceleration[i]);
-    limits.deceleration[i] = 2.0 * braking;
-    const double turn = max_acceleration[i] + braking;
-    limits.offset[i] += (braking * max_acceleration[i] + turn * turn / 2.0) / max_jerk[i];
-  }
-  return limits;
 }
 
 const tinyxml2::XMLElement* findJoint(const tinyxml2::XMLElement& robot, const std::string& name) {
@@ -125,21 +89,14 @@ Joints ArmRateLimits::lowerJointVelocity(const Joints& q) const noexcept {
 Joints ArmRateLimits::limitVelocities(const Joints& q, const Joints& velocities,
                                       const Joints& last_velocities,
                                       const Joints& last_accelerations) const noexcept {
-  Joints lowest = lowerJointVelocity(q);
-  Joints highest = upperJointVelocity(q);
+  franka_core::JointVelocityRange range = {lowerJointVelocity(q), upperJointVelocity(q)};
   if (position_velocity) {
-    const auto near_ends = followable(*position_velocity, joint_acceleration, joint_jerk);
-    for (std::size_t i = 0; i < 7; i++) {
-      lowest[i] = std::max(lowest[i], franka_core::lowerVelocityLimit(near_ends, i, q[i]));
-      highest[i] = std::min(highest[i], franka_core::upperVelocityLimit(near_ends, i, q[i]));
-    }
+    range = franka_core::rangeAt(franka_core::followable(*position_velocity, joint_acceleration,
+                                                         joint_jerk, velocity_margin),
+                                 q);
   }
-  Joints limited{};
-  for (std::size_t i = 0; i < 7; i++) {
-    limited[i] = limitVelocity(lowest[i], highest[i], joint_acceleration[i], joint_jerk[i],
-                               velocities[i], last_velocities[i], last_accelerations[i]);
-  }
-  return limited;
+  return franka_core::limitVelocities(range, joint_acceleration, joint_jerk, velocities,
+                                      last_velocities, last_accelerations, kDeltaT);
 }
 
 Joints ArmRateLimits::limitPositions(const Joints& positions, const Joints& last_positions,
