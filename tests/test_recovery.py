@@ -14,7 +14,7 @@ sys.path.insert(0, str(SOURCE / "franka_sim_mujoco/src"))
 
 from franka_sim_mujoco.session import Session  # noqa: E402
 
-SUCCEEDED, ABORTED = 3, 4
+PREEMPTED, SUCCEEDED, ABORTED, RECALLED = 2, 3, 4, 8
 ADDRESS = "127.0.7.3"
 
 
@@ -63,9 +63,11 @@ def test_a_recovery_too_early_disturbs_nothing(report):
 
 
 def test_two_recoveries_at_once_both_get_an_answer(report):
-    assert [status for status, _ in report["twice"]] == [SUCCEEDED, SUCCEEDED] or [
-        status for status, _ in report["twice"]
-    ] == [2, SUCCEEDED], report["twice"]
+    # actionlib's simple server gives way to a later goal: by preempting one that runs, by recalling
+    # one that it has not taken up yet.
+    (first, _), (second, _) = report["twice"]
+    assert first in (SUCCEEDED, PREEMPTED, RECALLED), report["twice"]
+    assert second == SUCCEEDED, report["twice"]
     assert report["follows_after_both"]
 
 
