@@ -34,7 +34,8 @@ class DatagramSocket {
 
   /// The oldest datagram that waits, without waiting for one.
   Received tryReceive(std::uint8_t* buffer, std::size_t capacity) noexcept;
-  /// The same, waiting up to the timeout.
+  /// The same, waiting up to the timeout. Where the robot's answers come faster than a thread is
+  /// woken up (a simulated one in lock-step), it waits for them without going to sleep.
   Received receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
   /// Says that the datagram received last came from the robot.
   void accept() noexcept;
@@ -43,6 +44,7 @@ class DatagramSocket {
   int answer(franka_core::fci::Bytes datagram) noexcept;
 
  private:
+  Received awaitSwiftly(std::uint8_t* buffer, std::size_t capacity) noexcept;
   Received receiveFromRobot(std::uint8_t* buffer, std::size_t capacity, int flags) noexcept;
 
   std::chrono::milliseconds timeout_;
@@ -51,6 +53,8 @@ class DatagramSocket {
   sockaddr_in last_sender_{};
   sockaddr_in robot_{};
   bool has_robot_{false};
+  bool may_spin_;      ///< the robot can work on another processor meanwhile
+  bool swift_{false};  ///< the last wait was shorter than kSwift
 };
 
 }  // namespace franka::network
