@@ -1,0 +1,77 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The simulated robot on the network, with our client and with genuine ones."""
+
+import json
+import subprocess
+import sys
+
+from report import TOP, executables, figure
+
+ZERO_TORQUES = """
+import sys, time
+if sys.argv[1] == "panda":
+    from panda_py import libfranka
+    robot, count, begin = libfranka.Robot(sys.argv[2]), 0, 0.0
+    def callback(state, period):
+        global count, begin
+        count += 1
+        begin = begin or time.monotonic()
+        torques = libfranka.Torques([0.0] * 7)
+        torques.motion_finished = count >= 10000
+        return torques
+    robot.control(callback, False)
+else:
+    import pylibfranka
+    robot = pylibfranka.Robot(sys.argv[2], pylibfranka.RealtimeConfig.kIgnore)
+    control, torques, begin = robot.start_torque_control(), pylibfranka.Torques([0.0] * 7), time.monotonic()
+    for i in range(10000):
+        control.readOnce()
+        torques.motion_finished = i == 9999
+        control.writeOnce(torques)
+print(10.0 / (time.monotonic() - begin))
+"""
+
+
+def bench_client(address: str, seconds: float) -> dict[str, float]:
+    """This project's C++ client, for so many seconds of the robot's time."""
+    program = executables()["client_of_franka_sim_bench"]
+    result = subprocess.run(
+        [str(program), address, str(seconds)], capture_output=True, text=True, timeout=600, check=True
+    )
+    return json.loads(result.stdout)
+
+
+def genuine_client(library: str, address: str) -> float | None:
+    """Times real time of a genuine Python client; nothing where it is not installed."""
+    python = TOP / "out" / "genuine" / library / "bin" / "python"
+    if not python.exists():
+        return None
+    command = [str(python), "-c", ZERO_TORQUES, library, address]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    return float(result.stdout.split()[-1])
+
+
+def fci() -> None:
+    sys.path.insert(0, str(TOP / "tests" / "support"))
+    from fci_session import simulated
+
+    print("The simulated robot on the network (franka_sim)")
+    for robot, library in (("panda", "panda"), ("fr3", "pylibfranka")):
+        with simulated(robot, "127.0.27.1", "lockstep") as sim:
+            runs = [bench_client(sim.address, 20) for _ in range(3)]
+            best = max(runs, key=lambda run: run["times_real_time"])
+            title = f"{robot} in lock-step"
+            figure(
+                f"{title}: times real time, own C++ client", best["times_real_time"], "x", 20, at_least=True
+            )
+            figure(f"{title}: answer to next state, p50", best["p50_us"], "us")
+            figure(f"{title}: answer to next state, p99.9", best["p999_us"], "us", 100)
+            speeds = [genuine_client(library, sim.address) for _ in range(3)]
+            if None in speeds:
+                print(f"  {library} is not installed; ./franka test tests installs it")
+            else:
+                figure(f"{title}: times real time, {library}", max(speeds), "x", 10, at_least=True)
+            figure(f"{robot}: resident memory", sim.memory(), "MB", 80)
+    with simulated("panda", "127.0.27.2", "realtime") as sim:
+        figure("commands lost in 60 s at 1 kHz", bench_client(sim.address, 60)["lost"], "", 0)

@@ -1,0 +1,179 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The in-process simulation as a whole: a tick, several arms, cameras, memory, start."""
+
+import tempfile
+import time
+from pathlib import Path
+
+from franka_sim_mujoco.session import Session
+from processes import resident, wait_running
+from report import figure
+
+CONTROLLER = "cartesian_impedance_example_controller"
+SIMULATION = b"franka_sim_mujoco_node"
+
+
+def simulation(folder: Path, world: str, *arguments: str) -> Session:
+    return Session(
+        "franka_sim_mujoco",
+        "panda.launch",
+        f"world:={world}",
+        f"controller:={CONTROLLER}",
+        "interactive_marker:=false",
+        *arguments,
+        log=folder / "launch.log",
+    )
+
+
+def call(session: Session, service: str, request: str) -> dict[str, float]:
+    """Calls a service and reads the numbers of its answer."""
+    text = session.run("rosservice", "call", service, request, timeout=300).stdout
+    values = {}
+    for line in text.splitlines():
+        key, _, value = line.partition(":")
+        try:
+            values[key.strip()] = float(value)
+        except ValueError:
+            continue
+    return values
+
+
+def tick() -> None:
+    print("One tick of 1 ms: physics, control unit, hardware, controller manager, impedance controller")
+    for title, world, goal in (
+        ("arm, hand and controller", "empty.xml", 25),
+        ("pick-and-place scene", "stone.xml", 12),
+    ):
+        with (
+            tempfile.TemporaryDirectory() as folder,
+            simulation(Path(folder), world, "x:=-0.5", "real_time_factor:=0") as session,
+        ):
+            wait_running(session, CONTROLLER)
+            best = min(
+                (call(session, "/gazebo/benchmark", "ticks: 20000") for _ in range(3)),
+                key=lambda answer: answer["tick_us"] / answer["bare_us"],
+            )
+            for part in ("physics_us", "read_us", "update_us", "write_us"):
+                figure(f"{title}: {part}", best[part], "us")
+            figure(f"{title}: tick", best["tick_us"], "us")
+            figure(f"{title}: tick / bare mj_step", best["tick_us"] / best["bare_us"], "x", 2.0)
+            figure(
+                f"{title}: times real time, flat out",
+                1000 / best["tick_us"],
+                "x",
+                goal,
+                at_least=True,
+            )
+
+
+def arms() -> None:
+    """Several arms with impedance controllers in one simulation, launched as the manual launches two."""
+    print("Several arms in one simulation, each with an impedance controller")
+    for count in (1, 2, 4, 8):
+        with tempfile.TemporaryDirectory() as folder:
+            launch = Path(folder) / "arms.launch"
+            launch.write_text("<launch>" + "".join(one_of_many(i) for i in range(count)) + "</launch>")
+            with Session(str(launch), log=Path(folder) / "launch.log") as session:
+                for i in range(count):
+                    wait_running(session, CONTROLLER, namespace=f"/arm_{i}")
+                best = min(
+                    (call(session, "/gazebo/benchmark", "ticks: 5000") for _ in range(3)),
+                    key=lambda answer: answer["tick_us"],
+                )
+                title = f"{count} arm{'s' if count > 1 else ''}"
+                figure(f"{title}: times real time, flat out", 1000 / best["tick_us"], "x")
+                figure(f"{title}: tick / bare mj_step", best["tick_us"] / best["bare_us"], "x")
+
+
+def one_of_many(index: int) -> str:
+    """The launch element of one arm; the first one brings the simulation."""
+    arguments = {
+        "arm_id": f"arm_{index}",
+        "gazebo": "true" if index == 0 else "false",
+        "use_gripper": "false",
+        "controller": CONTROLLER,
+        "interactive_marker": "false",
+        "real_time_factor": "0",
+        "x": str(1.5 * index),
+    }
+    inner = "".join(f'<arg name="{name}" value="{value}"/>' for name, value in arguments.items())
+    file = "$(find franka_sim_mujoco)/launch/panda.launch"
+    return f'<group ns="arm_{index}"><include file="{file}">{inner}</include></group>'
+
+
+# A camera that looks at the robot as often as it can; then its pictures of so many wall seconds are counted.
+COUNT_PICTURES = """
+import sys, time
+import rospy
+from franka_sim_mujoco.srv import SpawnObject
+from geometry_msgs.msg import Point, Pose, Quaternion
+from sensor_msgs.msg import Image
+rospy.init_node("viewer")
+size, seconds = sys.argv[1].split("x"), float(sys.argv[2])
+eye = f'''<sdf version='1.6'><model name='eye'><static>true</static><link name='link'>
+<sensor name='cam' type='camera'><update_rate>1000</update_rate><camera><horizontal_fov>1.0</horizontal_fov>
+<image><width>{size[0]}</width><height>{size[1]}</height></image></camera></sensor></link></model></sdf>'''
+spawn = rospy.ServiceProxy("/gazebo/spawn_object", SpawnObject)
+answer = spawn("eye", eye, Pose(Point(-2.5, 0, 0.6), Quaternion(0, 0, 0, 1)))
+assert answer.success, answer.error
+times = []
+rospy.Subscriber("/gazebo/eye/link/cam/image_raw", Image, lambda image: times.append(time.monotonic()),
+                 buff_size=2**24)
+begin = time.monotonic()
+while len(times) < 3 and time.monotonic() < begin + 60:
+    time.sleep(0.1)
+time.sleep(seconds)
+print((len(times) - 1) / (times[-1] - times[0]))
+"""
+
+
+def cameras() -> None:
+    print("Cameras (rendered without a GPU where there is none)")
+    for size in ("320x240", "640x480"):
+        with (
+            tempfile.TemporaryDirectory() as folder,
+            simulation(Path(folder), "stone.xml", "x:=-0.5") as session,
+        ):
+            wait_running(session, CONTROLLER)
+            counted = session.run("/usr/bin/python3", "-c", COUNT_PICTURES, size, "10", timeout=120)
+            figure(f"{size}: pictures a second beside the running robot", float(counted.stdout), "Hz")
+
+
+def memory() -> None:
+    print("Memory of the simulation's process")
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        simulation(Path(folder), "stone.xml", "x:=-0.5", "real_time_factor:=0") as session,
+    ):
+        wait_running(session, CONTROLLER)
+        before = resident(session, SIMULATION)
+        figure("resident before the first picture", before, "MB", 150)
+        begin = simulated_seconds(session)
+        wait_simulated(session, begin + 30)  # threads, publishers and buffers have come up
+        settled = resident(session, SIMULATION)
+        wait_simulated(session, begin + 630)
+        figure("growth over 10 simulated minutes", resident(session, SIMULATION) - settled, "MB", 1)
+
+
+def simulated_seconds(session: Session) -> float:
+    text = session.run("rostopic", "echo", "-n1", "-p", "/clock/clock", timeout=30).stdout
+    return float(text.split()[-1].split(",")[-1]) / 1e9
+
+
+def wait_simulated(session: Session, until: float, timeout: float = 200.0) -> None:
+    """Lets the simulation run flat out until its clock has passed a time [s]."""
+    deadline = time.monotonic() + timeout
+    while simulated_seconds(session) < until:
+        if time.monotonic() > deadline:
+            raise RuntimeError(f"the simulation did not reach {until:.0f} s within {timeout:.0f} s")
+        time.sleep(0.5)
+
+
+def start() -> None:
+    print("Start")
+    with tempfile.TemporaryDirectory() as folder:
+        begin = time.monotonic()
+        with simulation(Path(folder), "empty.xml") as session:
+            wait_running(session, CONTROLLER)
+            figure("roslaunch to the first controller running", time.monotonic() - begin, "s", 5)
