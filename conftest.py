@@ -8,7 +8,9 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent / "tests"))
+TOP = Path(__file__).parent
+SHARED = ("tests", "tests/support", "catkin_ws/src/franka_sim_mujoco/src")
+sys.path[:0] = [str(TOP / folder) for folder in SHARED]
 
 
 def pytest_addoption(parser):

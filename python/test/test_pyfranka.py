@@ -4,70 +4,26 @@
 
 import copy
 import math
-import os
 import re
-import select
-import socket
-import subprocess
 import threading
 import time
-from contextlib import ExitStack, contextmanager
-from pathlib import Path
+from contextlib import ExitStack
 
 import numpy as np
 import pyfranka
 import pytest
+from fci_session import simulated
 
 ADDRESSES = {"panda": "127.0.32.1", "fr3": "127.0.32.2"}
 Frame, Mode = pyfranka.Frame, pyfranka.ControllerMode
 EYE = np.eye(4)
 
 
-def program() -> str:
-    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
-        found = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
-        if found.exists():
-            return str(found)
-    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
-
-
-@contextmanager
-def simulated(robot):
-    process = subprocess.Popen(
-        [program(), "--robot", robot, "--ip", ADDRESSES[robot], "--pace", "lockstep"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    try:
-        ready, _, _ = select.select([process.stdout], [], [], 60)
-        line = process.stdout.readline() if ready else ""
-        assert "waits for clients" in line, line or "franka_sim says nothing."
-        yield
-    finally:
-        process.terminate()
-        try:
-            process.wait(20)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-
-
-def say(robot, line):
-    """One command of the control interface."""
-    with socket.create_connection((ADDRESSES[robot], 1340), timeout=20) as connection:
-        stream = connection.makefile("rw", newline="\n")
-        stream.write(line + "\n")
-        stream.flush()
-        answer = stream.readline().strip()
-    assert answer.startswith("ok"), answer
-
-
 @pytest.fixture(scope="module")
 def robots():
     with ExitStack() as stack:
         for robot in ADDRESSES:
-            stack.enter_context(simulated(robot))
+            stack.enter_context(simulated(robot, ADDRESSES[robot], "lockstep"))
         yield {
             name: pyfranka.Robot(address, pyfranka.RealtimeConfig.Ignore)
             for name, address in ADDRESSES.items()

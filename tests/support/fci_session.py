@@ -23,6 +23,42 @@ def program() -> str:
     raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
 
 
+def start(*arguments: str) -> subprocess.Popen:
+    """franka_sim, when it has opened its ports."""
+    process = subprocess.Popen(
+        [program(), *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    ready, _, _ = select.select([process.stdout], [], [], 60)
+    line = process.stdout.readline() if ready else ""
+    if "waits for clients" not in line:
+        process.kill()
+        process.wait()
+        raise AssertionError(line or "franka_sim says nothing.")
+    return process
+
+
+def stop(process: subprocess.Popen) -> None:
+    """Ends a program as Ctrl-C would; fails when it will not end."""
+    process.terminate()
+    try:
+        process.wait(20)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+        raise
+
+
+def ask(address: str, line: str) -> str:
+    """One command of the control interface; what follows `ok`."""
+    with socket.create_connection((address, 1340), timeout=60) as connection:
+        stream = connection.makefile("rw", newline="\n")
+        stream.write(line + "\n")
+        stream.flush()
+        answer = stream.readline().strip()
+    assert answer.startswith("ok"), f"{line}: {answer}"
+    return answer[3:]
+
+
 class Simulation:
     """A running franka_sim."""
 
@@ -32,13 +68,7 @@ class Simulation:
 
     def ask(self, line: str) -> str:
         """One command of the control interface; what follows `ok`."""
-        with socket.create_connection((self.address, 1340), timeout=60) as connection:
-            stream = connection.makefile("rw", newline="\n")
-            stream.write(line + "\n")
-            stream.flush()
-            answer = stream.readline().strip()
-        assert answer.startswith("ok"), f"{line}: {answer}"
-        return answer[3:]
+        return ask(self.address, line)
 
     def memory(self) -> float:
         """Resident [MB]."""
@@ -52,22 +82,12 @@ class Simulation:
 @contextmanager
 def simulated(robot: str, address: str, pace: str, *arguments: str):
     """Yields a robot that has opened its ports; fails when it ends by itself or will not end."""
-    command = [program(), "--robot", robot, "--ip", address, "--pace", pace, *arguments]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    process = start("--robot", robot, "--ip", address, "--pace", pace, *arguments)
     try:
-        ready, _, _ = select.select([process.stdout], [], [], 60)
-        line = process.stdout.readline() if ready else ""
-        assert "waits for clients" in line, line or "franka_sim says nothing."
         yield Simulation(process, robot, address)
         assert process.poll() is None, "The simulation has ended by itself: " + process.stdout.read()
     finally:
-        process.terminate()
-        try:
-            process.wait(20)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-            raise
+        stop(process)
 
 
 def go_first(pid: int = 0) -> None:

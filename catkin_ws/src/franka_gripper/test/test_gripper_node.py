@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+from fci_session import start
 from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
@@ -40,28 +41,8 @@ WORLD = f"""<mujoco><worldbody>
 </worldbody></mujoco>"""
 
 
-def program() -> str:
-    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
-        found = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
-        if found.exists():
-            return str(found)
-    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
-
-
 def start_hand(world) -> subprocess.Popen:
-    process = subprocess.Popen(
-        [program(), "--ip", ADDRESS, "--world", str(world)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    ready, _, _ = select.select([process.stdout], [], [], 60)
-    line = process.stdout.readline() if ready else ""
-    if "waits for clients" not in line:
-        process.kill()
-        process.wait()
-        pytest.fail(line or "franka_sim says nothing.")
-    return process
+    return start("--ip", ADDRESS, "--world", str(world))
 
 
 def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:

@@ -4,7 +4,6 @@
 
 import os
 import re
-import select
 import subprocess
 import time
 from contextlib import contextmanager
@@ -12,6 +11,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from fci_session import simulated, stop
 from franka_sim_mujoco.session import Session
 from PIL import Image
 
@@ -20,36 +20,13 @@ ADDRESS = "127.0.33.1"
 READY = [0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398]
 
 
-def program() -> str:
-    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
-        found = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
-        if found.exists():
-            return str(found)
-    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
-
-
 @contextmanager
 def process(*command, **options):
     running = subprocess.Popen(command, **options)
     try:
         yield running
     finally:
-        running.terminate()
-        try:
-            running.wait(20)
-        except subprocess.TimeoutExpired:
-            running.kill()
-            running.wait()
-
-
-@contextmanager
-def robot(name):
-    command = [program(), "--robot", name, "--ip", ADDRESS]
-    with process(*command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as simulation:
-        ready, _, _ = select.select([simulation.stdout], [], [], 60)
-        line = simulation.stdout.readline() if ready else ""
-        assert "waits for clients" in line, line or "franka_sim says nothing."
-        yield
+        stop(running)
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +75,8 @@ def joint_states(session) -> dict:
 @pytest.mark.parametrize("name", ["panda", "fr3"] if os.environ.get("FRANKA_TEST_LONG") else ["panda"])
 def test_arm_and_hand_are_shown_together(screen, tmp_path, name):
     rviz = name == "panda"
-    with robot(name), launch(tmp_path / "launch.log", name, f"rviz:={str(rviz).lower()}") as session:
+    robot = simulated(name, ADDRESS, "realtime")
+    with robot, launch(tmp_path / "launch.log", name, f"rviz:={str(rviz).lower()}") as session:
         session.wait_for_master()
         states = joint_states(session)
         assert list(states)[:7] == [f"{name}_joint{i}" for i in range(1, 8)]
