@@ -158,7 +158,7 @@ TEST_P(Commands, CarryTheirArguments) {
     EXPECT_EQ((std::array<double, 3>{1.0, 2.0, 3.0}), wall.object_world_size);
     EXPECT_TRUE(wall.active);
     robot->setFilters(100, 200, 300, 400, 500);
-    const auto& filters = std::get<fci::SetFiltersRequest>(fake.requests().back());
+    const auto filters = std::get<fci::SetFiltersRequest>(fake.requests().back());
     EXPECT_EQ(100.0, filters.joint_position);
     EXPECT_EQ(500.0, filters.controller);
   }
