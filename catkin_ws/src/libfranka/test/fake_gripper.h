@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace franka_test {
@@ -58,9 +59,13 @@ class FakeGripper {
   std::atomic<bool> answers{true};  ///< else requests other than Connect and Stop wait
   std::atomic<bool> sends_states{true};
   std::atomic<bool> closes{false};  ///< closes the connection in the place of a reply
-  Bytes state;                      ///< what it sends; set before a client connects
   std::atomic<std::uint16_t> stop_command{4};
 
+  /// What it sends from now on.
+  void show(Bytes state) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_ = std::move(state);
+  }
   /// The requests it got, Connect left out.
   std::vector<Bytes> requests() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -108,7 +113,8 @@ class FakeGripper {
         to.sin_family = AF_INET;
         to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         to.sin_port = htons(udp_port_);
-        sendto(datagrams_, state.data(), state.size(), 0, reinterpret_cast<sockaddr*>(&to),
+        const std::lock_guard<std::mutex> lock(mutex_);
+        sendto(datagrams_, state_.data(), state_.size(), 0, reinterpret_cast<sockaddr*>(&to),
                sizeof(to));
       }
     }
@@ -168,6 +174,7 @@ class FakeGripper {
   std::uint16_t udp_port_{0};
   std::vector<Header> pending_;
   std::mutex mutex_;
+  Bytes state_;
   std::vector<Bytes> requests_;
   std::atomic<bool> ended_{false};
   std::thread thread_;

@@ -30,7 +30,7 @@ FakeGripper::Bytes handState() {
 
 class GripperTest : public testing::Test {
  protected:
-  GripperTest() : fake_(3) { fake_.state = handState(); }
+  GripperTest() : fake_(3) { fake_.show(handState()); }
 
   FakeGripper fake_;
 };
@@ -126,7 +126,9 @@ TEST_F(GripperTest, NothingHangs) {
 }
 
 TEST_F(GripperTest, AStateOfAnotherSizeIsNone) {
-  fake_.state.pop_back();
+  FakeGripper::Bytes too_short = handState();
+  too_short.pop_back();
+  fake_.show(too_short);
   const franka::Gripper gripper(fake_.address());
   EXPECT_EQ("libfranka: incorrect object size",
             textOf<franka::ProtocolException>([&] { gripper.readOnce(); }));
@@ -134,7 +136,7 @@ TEST_F(GripperTest, AStateOfAnotherSizeIsNone) {
 
 TEST(Gripper, ConnectsAgainAndAgain) {
   FakeGripper fake(3);
-  fake.state = handState();
+  fake.show(handState());
   for (int i = 0; i < 100; i++) {
     franka::Gripper gripper(fake.address());
     EXPECT_TRUE(gripper.stop());
@@ -152,7 +154,7 @@ TEST(VacuumGripper, DoesItsWork) {
   sent.vacuum = 600;
   vacuum::StateBuffer buffer;
   vacuum::encodeState(sent, buffer);
-  fake.state.assign(buffer.begin(), buffer.end());
+  fake.show({buffer.begin(), buffer.end()});
 
   const franka::VacuumGripper gripper(fake.address());
   EXPECT_EQ(1, gripper.serverVersion());

@@ -57,7 +57,7 @@ TEST(HandPrograms, RunUnchanged) {
     state.is_grasped = is_grasped;
     hand::StateBuffer buffer;
     hand::encodeState(state, buffer);
-    fake.state.assign(buffer.begin(), buffer.end());
+    fake.show({buffer.begin(), buffer.end()});
   };
   show(true);
   EXPECT_EQ(0, graspAndLetGo(fake, "1", "0.03"));
