@@ -26,9 +26,9 @@ ControlNode::ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle
     : public_nh_(public_nh), private_nh_(private_nh) {}
 
 bool ControlNode::init() {
-  reconnects_ = private_nh_.param("reconnect", false);
-  restarts_controllers_ = private_nh_.param("restart_controllers_after_recovery", true);
-  if (!franka_hw_.init(public_nh_, private_nh_)) {
+  if (!readFlag("reconnect", reconnects_) ||
+      !readFlag("restart_controllers_after_recovery", restarts_controllers_) ||
+      !franka_hw_.init(public_nh_, private_nh_)) {
     ROS_ERROR("franka_control_node: the robot could not be set up (see above).");
     return false;
   }
@@ -38,8 +38,7 @@ bool ControlNode::init() {
                       ->getHandle(arm_id + "_robot")
                       .getRobotState();
   aborts_ = std::make_unique<AbortReporter>(private_nh_);
-  health_ =
-      std::make_unique<LoopHealth>(private_nh_, private_nh_.param<std::string>("arm_id", "robot"));
+  health_ = std::make_unique<LoopHealth>(private_nh_, arm_id);
   health_->connected(true);
   has_error_publisher_ = private_nh_.advertise<std_msgs::Bool>("has_error", 1, true);
   setError(false);
@@ -47,7 +46,17 @@ bool ControlNode::init() {
       std::make_unique<controller_manager::ControllerManager>(&franka_hw_, public_nh_);
   offerConnection();
   offerRobot();
+  ROS_INFO_STREAM("franka_control_node: the robot '" << arm_id << "' is ready.");
   return true;
+}
+
+bool ControlNode::readFlag(const std::string& name, bool& flag) const {
+  if (!private_nh_.hasParam(name) || private_nh_.getParam(name, flag)) {
+    return true;
+  }
+  ROS_ERROR_STREAM("franka_control_node: the parameter '" << private_nh_.resolveName(name)
+                                                          << "' is not true or false.");
+  return false;
 }
 
 // --- services ------------------------------------------------------------------------------------
@@ -131,6 +140,7 @@ void ControlNode::recover() {
     recovery_server_->setSucceeded();
     return;
   }
+  ROS_INFO("franka_control_node: recovering from the error.");
   try {
     if (!restarts_controllers_) {
       stopControllers();

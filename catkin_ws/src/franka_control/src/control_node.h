@@ -45,6 +45,8 @@ class ControlNode {
   typedef std_srvs::Trigger::Request TriggerRequest;
   typedef std_srvs::Trigger::Response TriggerResponse;
 
+  /// Leaves `flag` where the parameter is not set. @returns false after a sentence
+  bool readFlag(const std::string& name, bool& flag) const;
   void offerConnection();
   void offerRobot();
   void withdrawRobot();

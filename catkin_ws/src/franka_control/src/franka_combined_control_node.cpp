@@ -11,6 +11,8 @@
 
 #include <string>
 
+#include "end_in_time.h"
+
 namespace {
 
 /// Real-time priority for this thread, where realtime_config does not say to do without (the arms'
@@ -35,6 +37,7 @@ bool raisePriority(const ros::NodeHandle& nh) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "franka_combined_control_node");
+  const franka_control::EndInTime end_in_time("franka_combined_control_node");
   ros::AsyncSpinner spinner(4);
   spinner.start();
 

@@ -4,9 +4,11 @@
 #include <ros/spinner.h>
 
 #include "control_node.h"
+#include "end_in_time.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "franka_control_node");
+  const franka_control::EndInTime end_in_time("franka_control_node");
   franka_control::ControlNode node{ros::NodeHandle(), ros::NodeHandle("~")};
   if (!node.init()) {
     return 1;

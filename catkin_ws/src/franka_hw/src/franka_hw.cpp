@@ -5,6 +5,7 @@
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/model.h>
 #include <ros/console.h>
+#include <ros/init.h>
 
 #include <iomanip>
 #include <limits>
@@ -73,13 +74,14 @@ void FrankaHW::initRobot() {
 }
 
 void FrankaHW::connectInTime() {
+  ROS_INFO_STREAM("FrankaHW: Connecting to the robot '" << arm_id_ << "' at " << robot_ip_ << ".");
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(connect_timeout_);
   while (true) {
     try {
       connect();
       return;
     } catch (const franka::NetworkException&) {
-      if (ros::WallTime::now() >= deadline) {
+      if (ros::WallTime::now() >= deadline || !ros::ok()) {
         throw;
       }
       ros::WallDuration(kConnectPeriod).sleep();

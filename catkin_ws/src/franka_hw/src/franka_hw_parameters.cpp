@@ -72,7 +72,9 @@ bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
     ROS_INFO_STREAM("FrankaHW: no parameter joint_limit_warning_threshold, warning "
                     << joint_limit_warning_threshold_ << " rad before the ends of the joints.");
   }
-  connect_timeout_ = robot_hw_nh.param("connect_timeout", 0.0);
+  if (!readConnectTimeout(robot_hw_nh)) {
+    return false;
+  }
   readCollisionConfig(robot_hw_nh);
   readJointRanges();
   return readRealtimeConfig(robot_hw_nh);
@@ -89,6 +91,18 @@ bool FrankaHW::readJointNames(const ros::NodeHandle& nh) {
     return false;
   }
   std::copy(names.begin(), names.end(), joint_names_.begin());
+  return true;
+}
+
+bool FrankaHW::readConnectTimeout(const ros::NodeHandle& nh) {
+  if (!nh.hasParam("connect_timeout")) {
+    return true;
+  }
+  if (!nh.getParam("connect_timeout", connect_timeout_) || !(connect_timeout_ >= 0.0)) {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName("connect_timeout")
+                                                 << "' is not a number of seconds from 0 on.");
+    return false;
+  }
   return true;
 }
 
@@ -131,9 +145,9 @@ std::vector<double> FrankaHW::getCollisionThresholds(const std::string& name,
                                                      const std::vector<double>& defaults) {
   std::vector<double> thresholds;
   if (!robot_hw_nh.getParam(name, thresholds) || thresholds.size() != defaults.size()) {
-    ROS_INFO_STREAM("FrankaHW: the parameter '" << robot_hw_nh.resolveName(name)
-                                                << "' is no list of " << defaults.size()
-                                                << " numbers; using the defaults.");
+    ROS_WARN_STREAM("FrankaHW: the parameter '"
+                    << robot_hw_nh.resolveName(name) << "' is missing or is no list of "
+                    << defaults.size() << " numbers; using the defaults.");
     return defaults;
   }
   return thresholds;

@@ -334,6 +334,7 @@ class FrankaHW : public hardware_interface::RobotHW {
   };
 
   bool readJointNames(const ros::NodeHandle& nh);
+  bool readConnectTimeout(const ros::NodeHandle& nh);
   bool readRealtimeConfig(const ros::NodeHandle& nh);
   void readCollisionConfig(const ros::NodeHandle& nh);
   bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,

@@ -1,0 +1,51 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "end_in_time.h"
+
+#include <ros/init.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+namespace franka_control {
+
+namespace {
+
+// Between two looks at whether ROS ends.
+constexpr std::chrono::milliseconds kPeriod{50};
+
+}  // namespace
+
+EndInTime::EndInTime(std::string node, std::chrono::milliseconds patience)
+    : node_(std::move(node)), patience_(patience), thread_(&EndInTime::watch, this) {}
+
+EndInTime::~EndInTime() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void EndInTime::watch() {
+  // Not ros::ok(), which is false before the first node handle, too.
+  while (!ros::isShuttingDown()) {
+    if (endedWithin(kPeriod)) {
+      return;
+    }
+  }
+  if (!endedWithin(patience_)) {
+    std::fprintf(stderr, "%s: ended without the robot's answer, which did not come in time.\n",
+                 node_.c_str());
+    std::_Exit(EXIT_FAILURE);
+  }
+}
+
+bool EndInTime::endedWithin(std::chrono::milliseconds time) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return changed_.wait_for(lock, time, [this] { return ended_; });
+}
+
+}  // namespace franka_control

@@ -1,0 +1,149 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Single nodes on a bare ROS master, without launch files: their parameters, their output, how they end."""
+
+import os
+import signal
+import subprocess
+import time
+import xmlrpc.client
+from contextlib import contextmanager
+from pathlib import Path
+
+from franka_sim_mujoco.session import free_port
+
+CONTROL_CONFIG = Path(__file__).resolve().parents[2] / "catkin_ws/src/franka_control/config"
+
+
+def executable(package: str, name: str) -> str:
+    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
+        found = Path(prefix) / "lib" / package / name
+        if found.exists():
+            return str(found)
+    raise FileNotFoundError(f"There is no {package}/{name} in the workspace; build it with ./franka build.")
+
+
+def robot_description(robot: str, **arguments: str) -> str:
+    """The URDF of an arm."""
+    file = subprocess.run(
+        ["catkin_find", "--first-only", "franka_description", f"robots/{robot}/{robot}.urdf.xacro"],
+        text=True,
+        capture_output=True,
+        check=True,
+    ).stdout.strip()
+    command = [executable("xacro", "xacro"), file, *(f"{name}:={value}" for name, value in arguments.items())]
+    return subprocess.run(command, text=True, capture_output=True, check=True).stdout
+
+
+class Node:
+    """A running node."""
+
+    def __init__(self, process: subprocess.Popen, log: Path):
+        self.process, self.log = process, log
+
+    @property
+    def output(self) -> str:
+        return self.log.read_text(errors="replace")
+
+    def says(self, text: str, timeout: float = 30.0) -> bool:
+        """Waits until it has said that; no longer than it lives."""
+        deadline = time.monotonic() + timeout
+        while time.monotonic() < deadline:
+            lives = self.process.poll() is None
+            if text in self.output:
+                return True
+            if not lives:
+                return False
+            time.sleep(0.01)
+        return False
+
+    def ends(self, timeout: float = 30.0) -> int:
+        """Waits for its end; returns its status."""
+        return self.process.wait(timeout)
+
+    def interrupt(self, timeout: float = 30.0) -> float:
+        """Interrupts it as Ctrl-C does; returns how long it took to end [s]."""
+        begin = time.monotonic()
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait(timeout)
+        return time.monotonic() - begin
+
+
+class Master:
+    """A master of its own and what runs on it."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.uri = f"http://localhost:{free_port()}"
+        self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_LOG_DIR=str(folder))
+        self.environment.setdefault("ROS_HOSTNAME", "localhost")
+        self.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1"  # into a file, too
+        self.server = xmlrpc.client.ServerProxy(self.uri)
+        self.process = None
+        self._nodes = 0
+
+    def start(self) -> None:
+        port = self.uri.rsplit(":", 1)[1]
+        command = ["/usr/bin/python3", "/usr/bin/rosmaster", "--core", "-p", port]
+        self.process = subprocess.Popen(
+            command, env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        deadline = time.monotonic() + 60.0
+        while True:
+            try:
+                self.server.getPid("/test")
+                return
+            except OSError:
+                assert time.monotonic() < deadline, "The ROS master did not come up."
+                time.sleep(0.02)
+
+    def stop(self) -> None:
+        self.process.kill()
+        self.process.wait()
+
+    def set(self, name: str, value) -> None:
+        """Sets one parameter, or a tree of them."""
+        self.server.setParam("/test", name, value)
+
+    def delete(self, name: str) -> None:
+        if self.server.hasParam("/test", name)[2]:
+            self.server.deleteParam("/test", name)
+
+    @contextmanager
+    def node(self, package: str, kind: str, name: str):
+        """Starts a node; when the test is done with it, it is no more."""
+        self._nodes += 1
+        log = self.folder / f"{name}_{self._nodes}.txt"
+        with open(log, "w", encoding="utf-8") as out:
+            process = subprocess.Popen(
+                [executable(package, kind), f"__name:={name}"],
+                env=self.environment,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+            )
+        try:
+            yield Node(process, log)
+        finally:
+            process.kill()
+            process.wait()
+
+    def run(self, *command: str, timeout: float = 60.0) -> subprocess.CompletedProcess:
+        return subprocess.run(
+            command,
+            env=self.environment,
+            timeout=timeout,
+            text=True,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+        )
+
+
+@contextmanager
+def master(folder: Path):
+    started = Master(folder)
+    try:
+        started.start()
+        yield started
+    finally:
+        started.stop()
