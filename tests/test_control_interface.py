@@ -1,0 +1,238 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the lines of franka_sim's control interface do to a motion that runs: physics and protocol.
+
+The client goes byte by byte in lock-step, so that each line falls between two of its cycles and every number
+repeats.
+"""
+
+import struct
+import sys
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE / "support")]
+
+from fci_session import go_first, go_with_all, simulated  # noqa: E402
+from fci_wire import (  # noqa: E402
+    COMMUNICATION,
+    IDLE,
+    JOINT_IMPEDANCE,
+    JOINT_POSITION,
+    LAYOUTS,
+    MOVE,
+    REFLEX,
+    Client,
+    command,
+)
+
+GRAVITY = 9.81
+GUIDING, USER_STOPPED = 3, 5
+CARTESIAN_REFLEX = 7  # the error's index
+
+
+@pytest.fixture(autouse=True)
+def before_other_work():
+    """The client is in this process; in lock-step it must not be silent for half a second."""
+    go_first()
+    yield
+    go_with_all()
+
+
+@pytest.fixture(scope="module", params=["panda", "fr3"])
+def sim(request):
+    address = {"panda": "127.0.32.1", "fr3": "127.0.32.2"}[request.param]
+    with simulated(request.param, address, "lockstep") as sim:
+        yield sim
+
+
+@pytest.fixture
+def client(sim):
+    sim.ask("reset")
+    with Client(sim.address, sim.version) as client:
+        assert client.connect() == (0, sim.version)
+        yield client
+    for line in ("user_stop off", "guiding off", "loss 0", "delay 0", "load 0 0 0 0"):
+        sim.ask(line)
+
+
+def begin(client):
+    """@returns the first state of a motion, and where it starts."""
+    state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
+    return state, state.joints("q_d")
+
+
+def drive(client, state, positions, cycles, finish=False):
+    """`positions(k)` for so many cycles, while the robot moves. @returns the states after each command."""
+    seen = []
+    for k in range(cycles):
+        client.send(
+            command(client.version, state.message_id, positions(k), finished=finish and k == cycles - 1)
+        )
+        state = client.state()
+        seen.append(state)
+        if state.mode != MOVE:
+            break
+    return seen
+
+
+def hold(first):
+    return lambda k: first
+
+
+def force(state):
+    """Of O_F_ext_hat_K [N]."""
+    number, offset = ("d", 1728) if state.layout is LAYOUTS[5] else ("f", 868)
+    return struct.unpack_from("<3" + number, state.data, offset)
+
+
+def finish(client, state, first):
+    """Ends a motion where it stands; fails unless it ends well."""
+    states = drive(client, state, hold(first), 1, finish=True)
+    state = states[-1] if states[-1].mode != MOVE else client.state_until(lambda s: s.mode != MOVE)
+    assert state.mode == IDLE, state.reasons
+    assert client.reply()[1][0] == 0
+
+
+def test_loss_shows_in_the_success_rate_and_repeats_with_its_seed(sim, client):
+    """Each cycle's rate is the share of the last 100 commands that came: rates differ by single commands."""
+    runs = []
+    for seed in (3, 3, 4):
+        state, first = begin(client)
+        state = drive(client, state, hold(first), 150)[-1]
+        assert state.rate == 1.0
+        sim.ask(f"loss 0.2 {seed}")
+        states = drive(client, state, hold(first), 2000)
+        runs.append([round(100 * s.rate) for s in states])
+        sim.ask("loss 0")
+        state = drive(client, states[-1], hold(first), 101)[-1]
+        assert state.rate == 1.0, "It is over, but the robot still counts it."
+        finish(client, state, first)
+    rates = runs[0][100:]
+    # 1900 commands or more: five standard deviations of the binomial distribution are 0.046.
+    assert sum(rates) / len(rates) == pytest.approx(80.0, abs=4.6)
+    assert all(abs(a - b) <= 1 for a, b in zip(rates, rates[1:]))
+    assert runs[0] == runs[1] and runs[0] != runs[2]
+
+
+@pytest.mark.parametrize("count", [19, 20])
+def test_losses_in_a_row_lower_the_rate_one_by_one_until_it_is_too_much(sim, client, count):
+    state, first = begin(client)
+    state = drive(client, state, hold(first), 150)[-1]
+    sim.ask(f"lose {count}")
+    states = drive(client, state, hold(first), 60)
+    lowest = [round(100 * s.rate) for s in states if s.mode == MOVE][: count - 1]
+    assert lowest == [100 - i for i in range(1, count)]
+    if count == 19:
+        assert states[-1].mode == MOVE
+        finish(client, states[-1], first)
+    else:
+        assert states[-1].mode == REFLEX and states[-1].reasons == [COMMUNICATION]
+        assert len(states) == 20
+        assert client.reply()[1][0] == LAYOUTS[client.version].reflex
+        client.recover()
+
+
+def ramp(first):
+    """Joint 4 by the integral of a smooth velocity: 0.05 rad in half a second after 50 cycles of rest."""
+
+    def positions(k):
+        x = min(max((k - 50) / 500, 0.0), 1.0)
+        q = list(first)
+        q[3] += 0.05 * x**3 * (10 - 15 * x + 6 * x * x)
+        return q
+
+    return positions
+
+
+def test_a_delay_shifts_what_the_arm_is_told_by_whole_cycles(sim, client):
+    told = {}
+    for ticks in (0, 1, 2):
+        sim.ask("reset")
+        sim.ask(f"delay {ticks}")
+        state, first = begin(client)
+        states = drive(client, state, ramp(first), 600)
+        told[ticks] = [s.joints("q_d")[3] - first[3] for s in states]
+        finish(client, states[-1], ramp(first)(600))
+    resolution = 1e-12 if client.version == 5 else 5e-7  # of the state's numbers
+    for ticks in (1, 2):
+        shifted = told[ticks][ticks:]
+        assert shifted == pytest.approx(told[0][: len(shifted)], abs=resolution)
+        assert max(abs(a - b) for a, b in zip(told[ticks], told[0])) > 1e-4 * ticks
+
+
+def test_what_the_robot_wrongly_believes_to_carry_is_a_force_upwards(sim, client):
+    """The arm carries nothing; the robot that believes in 0.8 kg feels them being held."""
+    sim.ask("load 0.8 0 0 0.05")
+    state, first = begin(client)
+    states = drive(client, state, hold(first), 1500)
+    # The header's sign: forces from the robot on what it touches are positive.
+    assert force(states[-1]) == pytest.approx([0, 0, -0.8 * GRAVITY], abs=0.05)
+    with pytest.raises(AssertionError, match="The load was refused"):
+        sim.ask("load 0 0 0 0")
+    state = drive(client, states[-1], hold(first), 50)[-1]
+    assert force(state)[2] == pytest.approx(-0.8 * GRAVITY, abs=0.05)
+    finish(client, state, first)
+
+
+@pytest.mark.parametrize("axis, newtons", [(0, 8.0), (1, -8.0), (2, 8.0)])
+def test_a_push_is_felt_as_strong_as_it_is(sim, client, axis, newtons):
+    state, first = begin(client)
+    state = drive(client, state, hold(first), 50)[-1]
+    push = [0.0, 0.0, 0.0]
+    push[axis] = newtons
+    sim.ask(f"push {sim.robot}_hand {push[0]} {push[1]} {push[2]} 1500")
+    pressed = drive(client, state, hold(first), 1490)
+    felt = force(pressed[-1])
+    assert felt == pytest.approx([-f for f in push], abs=0.08)
+    bent = max(abs(a - b) for a, b in zip(pressed[-1].joints("q"), first))
+    assert bent > 1e-4, "The arm has not given way."
+    free = drive(client, pressed[-1], hold(first), 1500)[-1]
+    assert force(free) == pytest.approx([0, 0, 0], abs=0.02)
+    assert max(abs(a - b) for a, b in zip(free.joints("q"), first)) < 0.1 * bent
+    finish(client, free, first)
+
+
+def test_a_push_beyond_the_threshold_is_a_reflex(sim, client):
+    state, first = begin(client)
+    state = drive(client, state, hold(first), 50)[-1]
+    sim.ask(f"push {sim.robot}_hand 0 60 0 100")
+    states = drive(client, state, hold(first), 100)
+    assert states[-1].mode == REFLEX and CARTESIAN_REFLEX in states[-1].reasons
+    assert len(states) < 50
+    assert client.reply()[1][0] == LAYOUTS[client.version].reflex
+    client.recover()
+
+
+def test_the_user_stop_aborts_and_the_brakes_hold(sim, client):
+    state, first = begin(client)
+    state = drive(client, state, ramp(first), 300)[-1]
+    assert max(map(abs, state.joints("dq"))) > 0.1
+    sim.ask("user_stop on")
+    state = drive(client, state, lambda k: ramp(first)(k + 300), 10)[-1]
+    assert state.mode == USER_STOPPED
+    status = client.reply()[1][0]
+    assert status not in (0, LAYOUTS[client.version].reflex)
+    stopped = client.state_until(lambda s: max(map(abs, s.joints("dq"))) < 1e-3)
+    assert abs(stopped.joints("q")[3] - state.joints("q")[3]) < 0.02
+    sim.ask("user_stop off")
+    client.state_until(lambda s: s.mode == IDLE)
+    state, first = begin(client)
+    finish(client, state, first)
+
+
+def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
+    state, first = begin(client)
+    state = drive(client, state, hold(first), 50)[-1]
+    sim.ask("guiding on")
+    state = drive(client, state, hold(first), 10)[-1]
+    assert state.mode == GUIDING
+    assert client.reply()[1][0] not in (0, LAYOUTS[client.version].reflex)
+    before = client.state_until(lambda s: s.mode == GUIDING).joints("q")
+    sim.ask(f"push {sim.robot}_hand 0 5 0 500")
+    moved = client.state_until(lambda s: max(abs(a - b) for a, b in zip(s.joints("q"), before)) > 0.02)
+    assert moved.mode == GUIDING
+    sim.ask("guiding off")
+    client.state_until(lambda s: s.mode == IDLE)
