@@ -83,11 +83,6 @@ class Writer {
     return robot_.urdf.links[segment.link].name;
   }
 
-  double of(const std::map<std::string, double>& values, const std::string& joint) const {
-    const auto found = values.find(joint);
-    return found == values.end() ? 0.0 : found->second;
-  }
-
   void writeJoint(const Segment& segment, XMLElement* body) {
     if (segment.joint < 0) {
       return;
@@ -111,9 +106,8 @@ class Writer {
     }
     e->SetAttribute("stiffness", "0");
     e->SetAttribute("armature", toText({robot_.armature(joint)}).c_str());
-    e->SetAttribute("damping", toText({of(robot_.description.damping, joint.name)}).c_str());
-    e->SetAttribute("frictionloss",
-                    toText({of(robot_.description.coulomb_friction, joint.name)}).c_str());
+    e->SetAttribute("damping", toText({robot_.damping(joint)}).c_str());
+    e->SetAttribute("frictionloss", toText({robot_.friction(joint)}).c_str());
   }
 
   void writeShapes(const UrdfLink& link, const Eigen::Isometry3d& pose, XMLElement* body) {
@@ -236,11 +230,7 @@ class Writer {
     geom->SetAttribute("rgba", toText(rgba.data(), 4).c_str());
   }
 
-  /// Links that slide are fingers.
-  bool isFinger(const UrdfLink& link) const {
-    return link.parent_joint >= 0 &&
-           robot_.urdf.joints[link.parent_joint].type == UrdfJoint::Type::kPrismatic;
-  }
+  bool isFinger(const UrdfLink& link) const { return robot_.isFinger(link); }
 
   double frictionOf(const UrdfLink& link) const {
     return link.friction.value_or(isFinger(link) ? kFingerFriction : kLinkFriction);
@@ -252,8 +242,8 @@ class Writer {
         continue;
       }
       const bool brake = joint.mimic.empty();
-      if (brake && joint.type == UrdfJoint::Type::kPrismatic) {
-        continue;
+      if (brake && joint.type == UrdfJoint::Type::kPrismatic && robot_.isFranka(joint)) {
+        continue;  // a hand's fingers are never locked
       }
       XMLElement* e = append(target_.equality, "joint");
       e->SetAttribute("name", (brake ? brakeName(joint.name) : joint.name + "/mimic").c_str());

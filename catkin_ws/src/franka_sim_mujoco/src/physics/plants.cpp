@@ -11,6 +11,15 @@ namespace {
 /// A number that is none would make MuJoCo reset the whole world; no torque is the lesser evil.
 double finite(double value) noexcept { return std::isfinite(value) ? value : 0.0; }
 
+/// A joint's brake, closed or open. The equality holds q - qpos0 at its constant term.
+void writeHold(mjModel& model, const JointSlot& slot, bool closed, double position) noexcept {
+  if (slot.brake < 0) {
+    return;
+  }
+  model.eq_data[mjNEQDATA * slot.brake] = closed ? position - model.qpos0[slot.qpos] : 0.0;
+  model.eq_active[slot.brake] = closed ? 1 : 0;
+}
+
 }  // namespace
 
 MujocoArm::MujocoArm(const PlantView* view, std::array<std::string, 7> joints)
@@ -68,14 +77,7 @@ void MujocoArm::reset() noexcept {
 }
 
 void MujocoArm::writeBrake(std::size_t joint) noexcept {
-  const int brake = slots_[joint].brake;
-  if (brake < 0) {
-    return;
-  }
-  // The equality holds q - qpos0 at its constant term.
-  view_->model->eq_data[mjNEQDATA * brake] =
-      brakes_closed_ ? brake_positions_[joint] - view_->model->qpos0[slots_[joint].qpos] : 0.0;
-  view_->model->eq_active[brake] = brakes_closed_ ? 1 : 0;
+  writeHold(*view_->model, slots_[joint], brakes_closed_, brake_positions_[joint]);
 }
 
 MujocoHand::MujocoHand(const PlantView* view, std::array<std::string, 2> joints)
@@ -95,5 +97,47 @@ void MujocoHand::applyForces(const std::array<double, 2>& force) noexcept {
     view_->data->qfrc_applied[slots_[i].dof] = finite(force[i]);
   }
 }
+
+MujocoDrive::MujocoDrive(const PlantView* view, std::string joint)
+    : view_(view), joint_{std::move(joint)} {}
+
+JointMeasurement MujocoDrive::measure() const noexcept {
+  return {view_->data->qpos[slot_.qpos], view_->data->qvel[slot_.dof],
+          view_->motor_side->torque(slot_.dof)};
+}
+
+void MujocoDrive::applyEffort(double effort) noexcept {
+  follows_ = false;
+  view_->data->qfrc_applied[slot_.dof] = finite(effort);
+  writeTarget();
+}
+
+void MujocoDrive::follow(double position) noexcept {
+  if (!std::isfinite(position)) {
+    return;
+  }
+  follows_ = true;
+  target_ = position;
+  view_->data->qfrc_applied[slot_.dof] = 0.0;
+  writeTarget();
+}
+
+void MujocoDrive::bind(const Slots& slots) noexcept {
+  slot_ = slots[0];
+  writeTarget();
+}
+
+void MujocoDrive::jointWasMoved(const std::string& joint) noexcept {
+  if (joint == joint_[0] && follows_) {
+    follow(view_->data->qpos[slot_.qpos]);
+  }
+}
+
+void MujocoDrive::reset() noexcept {
+  follows_ = false;
+  writeTarget();
+}
+
+void MujocoDrive::writeTarget() noexcept { writeHold(*view_->model, slot_, follows_, target_); }
 
 }  // namespace franka_sim_mujoco::physics

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/physics/joint_drive.h>
 #include <franka_sim_mujoco/robot/plant.h>
 #include <mujoco/mujoco.h>
 
@@ -71,6 +72,34 @@ class MujocoHand final : public HandPlant {
   const PlantView* view_;
   std::array<std::string, 2> joints_;
   std::array<JointSlot, 2> slots_{};
+};
+
+/// A joint of another device in MuJoCo's arrays. Positions are followed as brakes hold theirs.
+class MujocoDrive final : public JointDrive {
+ public:
+  MujocoDrive(const PlantView* view, std::string joint);
+
+  JointMeasurement measure() const noexcept override;
+  void applyEffort(double effort) noexcept override;
+  void follow(double position) noexcept override;
+
+  const std::array<std::string, 1>& joints() const noexcept { return joint_; }
+  using Slots = std::array<JointSlot, 1>;
+  /// After the model was compiled anew; what is followed is followed on.
+  void bind(const Slots& slots) noexcept;
+  /// The joint was put elsewhere: what is followed is there.
+  void jointWasMoved(const std::string& joint) noexcept;
+  /// No effort, nothing followed.
+  void reset() noexcept;
+
+ private:
+  void writeTarget() noexcept;
+
+  const PlantView* view_;
+  std::array<std::string, 1> joint_;
+  JointSlot slot_{};
+  bool follows_{false};
+  double target_{0};
 };
 
 }  // namespace franka_sim_mujoco::physics

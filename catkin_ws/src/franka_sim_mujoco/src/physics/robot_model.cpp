@@ -169,6 +169,31 @@ double valueOf(const std::map<std::string, double>& values, const std::string& n
   return found == values.end() ? fallback : found->second;
 }
 
+/// Whether any joint below a link moves.
+bool movesSomething(const UrdfRobot& urdf, const UrdfLink& link) noexcept {
+  return std::any_of(link.child_joints.begin(), link.child_joints.end(), [&](int index) {
+    const UrdfJoint& joint = urdf.joints[index];
+    return joint.type != UrdfJoint::Type::kFixed || movesSomething(urdf, urdf.links[joint.child]);
+  });
+}
+
+/// Whether a joint is called <any prefix><middle>N, N = 1 to count, and the others are there too.
+bool isOneOf(const UrdfRobot& urdf, const std::string& joint, const std::string& middle,
+             int count) {
+  const std::size_t end = joint.size() - 1;
+  if (joint.size() <= middle.size() + 1 || joint[end] < '1' || joint[end] > '0' + count ||
+      joint.compare(end - middle.size(), middle.size(), middle) != 0) {
+    return false;
+  }
+  const std::string stem = joint.substr(0, end);
+  for (int i = 1; i <= count; ++i) {
+    if (urdf.joint(stem + std::to_string(i)) < 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 bool RobotModel::moves(const std::string& joint) const noexcept {
@@ -201,8 +226,26 @@ double RobotModel::initialPosition(const UrdfJoint& joint) const {
 }
 
 double RobotModel::armature(const UrdfJoint& joint) const {
-  const double fallback = joint.type == UrdfJoint::Type::kPrismatic ? kFingerArmature : 0.0;
+  const double fallback = isFinger(urdf.links[joint.child]) ? kFingerArmature : 0.0;
   return valueOf(description.rotor_inertia, joint.name, fallback);
+}
+
+double RobotModel::damping(const UrdfJoint& joint) const {
+  return valueOf(description.damping, joint.name, isFranka(joint) ? 0.0 : joint.damping);
+}
+
+double RobotModel::friction(const UrdfJoint& joint) const {
+  return valueOf(description.coulomb_friction, joint.name, isFranka(joint) ? 0.0 : joint.friction);
+}
+
+bool RobotModel::isFinger(const UrdfLink& link) const noexcept {
+  return link.parent_joint >= 0 &&
+         urdf.joints[link.parent_joint].type == UrdfJoint::Type::kPrismatic &&
+         !movesSomething(urdf, link);
+}
+
+bool RobotModel::isFranka(const UrdfJoint& joint) const {
+  return isOneOf(urdf, joint.name, "_joint", 7) || isOneOf(urdf, joint.name, "_finger_joint", 2);
 }
 
 RobotModel buildRobot(const RobotDescription& description) {

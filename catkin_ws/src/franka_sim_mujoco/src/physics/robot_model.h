@@ -37,8 +37,16 @@ struct RobotModel {
   /// Where a joint starts [rad] or [m]: the description's value, the leader's for mimic joints,
   /// else the value nearest to zero within the stops.
   double initialPosition(const UrdfJoint& joint) const;
-  /// Apparent inertia, friction and damping of a joint by the description; 0 when it names none.
+  /// Apparent inertia, friction and damping of a joint by the description. When it names none:
+  /// inertia 0 (fingers: kFingerArmature), the rest as in the URDF, but 0 for Franka arms and
+  /// hands, whose URDFs mean something else by it (decision 1).
   double armature(const UrdfJoint& joint) const;
+  double damping(const UrdfJoint& joint) const;
+  double friction(const UrdfJoint& joint) const;
+  /// Whether a link slides and carries nothing that moves: a finger, not a lift.
+  bool isFinger(const UrdfLink& link) const noexcept;
+  /// Whether a joint is one of the seven of a Franka arm or the two of a hand, by the names.
+  bool isFranka(const UrdfJoint& joint) const;
 };
 
 /// Reads and checks a robot.

@@ -178,6 +178,18 @@ void readLimits(const XMLElement& element, const std::string& where, UrdfJoint* 
   }
 }
 
+void readDynamics(const XMLElement& element, const std::string& where, UrdfJoint* joint) {
+  const XMLElement* dynamics = element.FirstChildElement("dynamics");
+  if (dynamics == nullptr) {
+    return;
+  }
+  joint->damping = numbers(*dynamics, "damping", {0}, where)[0];
+  joint->friction = numbers(*dynamics, "friction", {0}, where)[0];
+  if (joint->damping < 0 || joint->friction < 0) {
+    fail(where, "damping and friction must not be negative.");
+  }
+}
+
 int linkOf(const XMLElement& element, const char* role, const UrdfRobot& robot,
            const std::string& where) {
   const XMLElement* end = element.FirstChildElement(role);
@@ -208,6 +220,7 @@ UrdfJoint readJoint(const XMLElement& element, const UrdfRobot& robot, const std
     joint.axis.normalize();
   }
   readLimits(element, where, &joint);
+  readDynamics(element, where, &joint);
   if (const XMLElement* mimic = element.FirstChildElement("mimic")) {
     joint.mimic = required(*mimic, "joint", where);
     joint.mimic_multiplier = numbers(*mimic, "multiplier", {1}, where)[0];

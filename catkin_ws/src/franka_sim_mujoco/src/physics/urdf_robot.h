@@ -46,6 +46,7 @@ struct UrdfJoint {
   double lower{0}, upper{0};                                ///< [rad] or [m]; revolute, prismatic
   std::string mimic;                                        ///< leading joint, empty: none
   double mimic_multiplier{1}, mimic_offset{0};
+  double damping{0}, friction{0};  ///< of <dynamics> [Nm s/rad|N s/m], [Nm|N]
 };
 
 /// What physics needs of a URDF: a checked tree of links and joints.

@@ -113,6 +113,18 @@ HandPlant& World::hand(const std::string& robot, const std::string& arm_id) {
   return *hand;
 }
 
+JointDrive& World::drive(const std::string& robot, const std::string& joint) {
+  if (!impl_->robot(robot).moves(joint)) {
+    throw std::runtime_error("The robot '" + robot + "' has no joint '" + joint + "' that moves.");
+  }
+  auto& drive = impl_->drives[joint];
+  if (!drive) {
+    drive = std::make_unique<physics::MujocoDrive>(&impl_->view, joint);
+    drive->bind({impl_->slot(joint)});
+  }
+  return *drive;
+}
+
 bool World::hasHand(const std::string& robot, const std::string& arm_id) const {
   const physics::RobotModel& model = impl_->robot(robot);
   return model.moves(arm_id + "_finger_joint1") && model.moves(arm_id + "_finger_joint2");
@@ -184,6 +196,9 @@ void World::setJointPosition(const std::string& joint, double position) {
   impl_->kinematics_fresh = false;
   for (auto& [key, arm] : impl_->arms) {
     arm->jointWasMoved(joint);
+  }
+  for (auto& [key, drive] : impl_->drives) {
+    drive->jointWasMoved(joint);
   }
 }
 

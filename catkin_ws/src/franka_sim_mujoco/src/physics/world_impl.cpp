@@ -167,6 +167,7 @@ void World::Impl::bindPlants() {
   };
   bind(&arms);
   bind(&hands);
+  bind(&drives);
   for (auto& [key, arm] : arms) {
     arm->restoreBrakes();
   }
@@ -286,6 +287,9 @@ void World::Impl::reset() {
   placeInitially(*model, data.get(), robots);
   for (auto& [key, arm] : arms) {
     arm->reset();
+  }
+  for (auto& [joint, drive] : drives) {
+    drive->reset();
   }
   pushes.clear();
   motor_side.reset(*data);

@@ -39,8 +39,9 @@ struct World::Impl {
   // World file with objects, and robots, in the order they came.
   std::unique_ptr<physics::MjcfWorld> world;
   std::vector<std::unique_ptr<physics::RobotModel>> robots;
-  std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms;    ///< "<robot>/<arm_id>"
-  std::map<std::string, std::unique_ptr<physics::MujocoHand>> hands;  ///< "<robot>/<arm_id>"
+  std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms;      ///< "<robot>/<arm_id>"
+  std::map<std::string, std::unique_ptr<physics::MujocoHand>> hands;    ///< "<robot>/<arm_id>"
+  std::map<std::string, std::unique_ptr<physics::MujocoDrive>> drives;  ///< by the joint's name
 
   // The merged model and its state.
   physics::ModelPtr model;

@@ -163,6 +163,7 @@ struct Snapshot::Content {
   std::vector<unsigned char> eq_active;
   std::array<double, 3> gravity;
   std::map<std::string, physics::MujocoArm> arms;
+  std::map<std::string, physics::MujocoDrive> drives;
 };
 
 Snapshot World::snapshot() const {
@@ -181,6 +182,9 @@ Snapshot World::snapshot() const {
   content->gravity = gravity();
   for (const auto& [key, arm] : impl_->arms) {
     content->arms.emplace(key, *arm);
+  }
+  for (const auto& [joint, drive] : impl_->drives) {
+    content->drives.emplace(joint, *drive);
   }
   return Snapshot(content);
 }
@@ -207,6 +211,14 @@ void World::restore(const Snapshot& snapshot) {
       *arm = then->second;
     } else {
       arm->reset();
+    }
+  }
+  for (auto& [joint, drive] : impl_->drives) {
+    const auto then = content->drives.find(joint);
+    if (then != content->drives.end()) {
+      *drive = then->second;
+    } else {
+      drive->reset();
     }
   }
 }

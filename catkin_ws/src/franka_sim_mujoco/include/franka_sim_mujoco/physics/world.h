@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/physics/joint_drive.h>
 #include <franka_sim_mujoco/robot/plant.h>
 
 #include <array>
@@ -31,9 +32,11 @@ struct RobotDescription {
   ResourceResolver resolve;
   Pose base;  ///< where the URDF's root stands when that is not a link named `world`
   std::map<std::string, double> initial_positions;  ///< joint name -> [rad] or [m]
-  std::map<std::string, double> rotor_inertia;      ///< joint name -> armature [kg m^2]
-  std::map<std::string, double> coulomb_friction;   ///< joint name -> [Nm]
-  std::map<std::string, double> damping;            ///< joint name -> [Nm s/rad]
+  // For joints not named: no rotor inertia; friction and damping of the URDF's <dynamics>, but none
+  // for the joints of Franka arms and hands.
+  std::map<std::string, double> rotor_inertia;     ///< joint name -> armature [kg m^2]
+  std::map<std::string, double> coulomb_friction;  ///< joint name -> [Nm]
+  std::map<std::string, double> damping;           ///< joint name -> [Nm s/rad]
   /// Joint stops that differ from the URDF's limits (decision 8): name -> {lower, upper}.
   std::map<std::string, std::array<double, 2>> stops;
 };
@@ -42,10 +45,6 @@ struct Contact {
   std::string body1, body2;
   std::array<double, 3> position;  ///< world [m]
   std::array<double, 3> force;     ///< on body2, world axes [N]
-};
-
-struct JointMeasurement {
-  double position{0}, velocity{0}, effort{0};  ///< [rad|m, rad/s|m/s, Nm|N]
 };
 
 /// How a body moves: linear velocity of its origin [m/s] and angular velocity [rad/s], world axes.
@@ -116,6 +115,10 @@ class World {
   ArmPlant& arm(const std::string& robot, const std::string& arm_id);
   HandPlant& hand(const std::string& robot, const std::string& arm_id);
   bool hasHand(const std::string& robot, const std::string& arm_id) const;
+  /// The drive of a single joint, valid as plants are. One joint has one driver: a plant or this.
+  /// A joint that follows another (mimic) takes efforts, but no positions.
+  /// @throws std::runtime_error when there is no such joint or it does not move
+  JointDrive& drive(const std::string& robot, const std::string& joint);
 
   /// One tick of 1 ms.
   void step() noexcept;
