@@ -4,6 +4,7 @@
 
 #include <controller_manager_msgs/SwitchController.h>
 #include <franka/exception.h>
+#include <franka_hw/robot_wanted.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <std_msgs/Bool.h>
@@ -145,7 +146,7 @@ void ControlNode::recover() {
     if (!restarts_controllers_) {
       stopControllers();
     }
-    const std::lock_guard<std::mutex> lock(franka_hw_.robotMutex());
+    const auto lock = franka_hw::RobotWanted::take(franka_hw_.robotMutex());
     // An error of the controllers' own (NaN, a lost connection) leaves the robot Idle.
     if (franka_hw_.robotMode() != franka::RobotMode::kIdle) {
       franka_hw_.robot().automaticErrorRecovery();
@@ -213,8 +214,7 @@ void ControlNode::watchIdleRobot() {
     // Somebody else recovered it, or released the user stop.
     setError(false);
   }
-  // Lets those take the robot who wait for it.
-  std::this_thread::sleep_for(std::chrono::microseconds(100));
+  franka_hw::RobotWanted::giveWay();
 }
 
 void ControlNode::readIdleRobot() {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/franka_combinable_hw.h>
 #include <franka_hw/resource_helpers.h>
+#include <franka_hw/robot_wanted.h>
 #include <pluginlib/class_list_macros.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -100,7 +101,7 @@ void FrankaCombinableHW::recover() {
 
 void FrankaCombinableHW::resetError() {
   {
-    const std::lock_guard<std::mutex> lock(robot_mutex_);
+    const auto lock = RobotWanted::take(robot_mutex_);
     if (!robot_) {
       throw franka::NetworkException("FrankaCombinableHW: '" + arm_id_ +
                                      "' is not connected, so it cannot recover. Call the service "
@@ -164,6 +165,7 @@ void FrankaCombinableHW::controlLoop() {
     } else {
       watchIdleRobot();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      RobotWanted::giveWay();
     }
   }
 }

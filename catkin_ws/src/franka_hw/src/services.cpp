@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_hw/robot_wanted.h>
 #include <franka_hw/services.h>
 
 #include <array>
@@ -10,12 +11,13 @@ namespace franka_hw {
 
 namespace {
 
-// Who only reads a state holds the robot for a millisecond or two, who moves it for as long as the
-// motion lasts.
-constexpr std::chrono::milliseconds kPatience{50};
+// Who only reads a state holds the robot for a millisecond or two (longer where the machine is busy
+// with other work), who moves it for as long as the motion lasts.
+constexpr std::chrono::milliseconds kPatience{200};
 
 /// The robot for a short operation. @throws franka::InvalidOperationException while it is moving.
 std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
+  const RobotWanted wanted;
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   std::unique_lock<std::mutex> lock(robot_mutex, std::try_to_lock);
   while (!lock.owns_lock()) {
@@ -24,9 +26,7 @@ std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
           "The robot cannot be configured while a controller commands it. Stop that controller "
           "(rosservice call /controller_manager/switch_controller), then try again.");
     }
-    // A loop that reads states leaves the robot for some microseconds only, which one must not
-    // sleep.
-    std::this_thread::yield();
+    std::this_thread::sleep_for(RobotWanted::kMoment);
     lock.try_lock();
   }
   return lock;

@@ -1,0 +1,49 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+namespace franka_hw {
+
+/// That a thread wants a robot for a moment, to configure it or to let it recover.
+///
+/// A loop that only reads states holds FrankaHW::robotMutex() nearly all the time, and a mutex is
+/// not fair: who waits for it may wait for ever. While an object of this class lives, such loops
+/// stay away from their robots, so that nobody has to wait for them by spinning.
+class RobotWanted {
+ public:
+  RobotWanted() noexcept { waiting_.fetch_add(1, std::memory_order_relaxed); }
+  ~RobotWanted() { waiting_.fetch_sub(1, std::memory_order_relaxed); }
+  RobotWanted(const RobotWanted&) = delete;
+  RobotWanted& operator=(const RobotWanted&) = delete;
+
+  /// Waits for a robot's mutex. Not for loops that read.
+  static std::unique_lock<std::mutex> take(std::mutex& robot_mutex) {
+    const RobotWanted wanted;
+    return std::unique_lock<std::mutex>(robot_mutex);
+  }
+
+  /// For a loop between two reads, without the mutex: sleeps for a moment, and longer while
+  /// somebody wants a robot of this process. 5 ms at most: states go on meanwhile.
+  static void giveWay() {
+    for (int i = 0; i < kMost; i++) {
+      std::this_thread::sleep_for(kMoment);
+      if (waiting_.load(std::memory_order_relaxed) == 0) {
+        return;
+      }
+    }
+  }
+
+  /// Between two looks at whether the robot is free.
+  static constexpr std::chrono::microseconds kMoment{100};
+
+ private:
+  static constexpr int kMost = 50;
+  static inline std::atomic<int> waiting_{0};
+};
+
+}  // namespace franka_hw
