@@ -1,0 +1,79 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+/// @file
+/// Arrays on their way between C++ and numpy, as the module pyfranka shows them; also for others
+/// who hand robots to Python. To be called with the interpreter's lock held.
+
+namespace pyfranka {
+
+namespace py = pybind11;
+
+/// Shapes of the fields: matrices are shown as matrices, column by column as they are stored.
+enum class Shape { kVector, kMatrix3, kMatrix4, kJacobian, kMass };
+
+/// A numpy array that shows the values in place; `owner` keeps them alive. It cannot be written.
+template <std::size_t size>
+py::array_t<double> view(const std::array<double, size>& values, Shape shape, py::handle owner) {
+  constexpr py::ssize_t kItem = sizeof(double);
+  py::ssize_t rows = 0;
+  switch (shape) {
+    case Shape::kVector:
+      break;
+    case Shape::kMatrix3:
+      rows = 3;
+      break;
+    case Shape::kMatrix4:
+      rows = 4;
+      break;
+    case Shape::kJacobian:
+      rows = 6;
+      break;
+    case Shape::kMass:
+      rows = 7;
+      break;
+  }
+  const auto count = static_cast<py::ssize_t>(size);
+  py::array_t<double> array =
+      rows == 0
+          ? py::array_t<double>({count}, {kItem}, values.data(), owner)
+          : py::array_t<double>({rows, count / rows}, {kItem, rows * kItem}, values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// The same, of a copy.
+template <std::size_t size>
+py::array_t<double> copy(const std::array<double, size>& values, Shape shape) {
+  auto* const kept = new std::array<double, size>(values);
+  const py::capsule owner(kept,
+                          [](void* data) { delete static_cast<std::array<double, size>*>(data); });
+  return view(*kept, shape, owner);
+}
+
+/// Any sequence of numbers, or a matrix, as it goes to the robot: column by column.
+/// @throws std::invalid_argument with a sentence when it has another number of values
+template <std::size_t size>
+std::array<double, size> arrayOf(const py::object& values, const char* name) {
+  const auto array = py::array_t<double, py::array::f_style | py::array::forcecast>::ensure(values);
+  if (!array || static_cast<std::size_t>(array.size()) != size) {
+    PyErr_Clear();
+    throw std::invalid_argument(std::string(name) + " needs " + std::to_string(size) + " numbers" +
+                                (array ? ", not " + std::to_string(array.size()) : "") + ".");
+  }
+  std::array<double, size> result;
+  std::copy_n(array.data(), size, result.begin());
+  return result;
+}
+
+}  // namespace pyfranka
