@@ -49,6 +49,7 @@ sim_test(physics_test
     test/physics/arm_plant_test.cpp
     test/physics/determinism_test.cpp
     test/physics/grasp_test.cpp
+    test/physics/joint_drive_test.cpp
     test/physics/mjcf_world_test.cpp
     test/physics/model_agreement_test.cpp
     test/physics/renderer_test.cpp

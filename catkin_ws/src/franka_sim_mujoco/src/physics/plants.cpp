@@ -116,6 +116,7 @@ void MujocoDrive::follow(double position) noexcept {
   if (!std::isfinite(position)) {
     return;
   }
+  last_target_ = follows_ ? target_ : view_->data->qpos[slot_.qpos];
   follows_ = true;
   target_ = position;
   view_->data->qfrc_applied[slot_.dof] = 0.0;
@@ -129,13 +130,25 @@ void MujocoDrive::bind(const Slots& slots) noexcept {
 
 void MujocoDrive::jointWasMoved(const std::string& joint) noexcept {
   if (joint == joint_[0] && follows_) {
-    follow(view_->data->qpos[slot_.qpos]);
+    target_ = last_target_ = view_->data->qpos[slot_.qpos];
+    writeTarget();
   }
 }
 
 void MujocoDrive::reset() noexcept {
   follows_ = false;
   writeTarget();
+}
+
+void MujocoDrive::prepare(int substep, int substeps) noexcept {
+  if (!follows_) {
+    return;
+  }
+  const double way = target_ - last_target_;
+  writeHold(*view_->model, slot_, true, target_ - way * (substeps - substep) / substeps);
+  if (substep == substeps) {
+    last_target_ = target_;
+  }
 }
 
 void MujocoDrive::writeTarget() noexcept { writeHold(*view_->model, slot_, follows_, target_); }

@@ -91,6 +91,8 @@ class MujocoDrive final : public JointDrive {
   void jointWasMoved(const std::string& joint) noexcept;
   /// No effort, nothing followed.
   void reset() noexcept;
+  /// Before each physics step of a tick, counted from 1: the target moves in even steps, too.
+  void prepare(int substep, int substeps) noexcept;
 
  private:
   void writeTarget() noexcept;
@@ -99,7 +101,8 @@ class MujocoDrive final : public JointDrive {
   std::array<std::string, 1> joint_;
   JointSlot slot_{};
   bool follows_{false};
-  double target_{0};
+  double last_target_{0},
+      target_{0};  ///< where it was to be at the last tick's end, and at this one's
 };
 
 }  // namespace franka_sim_mujoco::physics

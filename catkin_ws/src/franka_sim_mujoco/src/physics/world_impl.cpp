@@ -271,6 +271,9 @@ void World::Impl::step() noexcept {
     if (!pushes.empty()) {
       applyPushes();
     }
+    for (auto& [joint, drive] : drives) {
+      drive->prepare(substep + 1, kSubsteps);
+    }
     mj_step(model.get(), data.get());
     motor_side.addSubstep(*model, *data);
   }
