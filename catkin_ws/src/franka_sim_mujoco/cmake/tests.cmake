@@ -63,7 +63,7 @@ sim_test(ros_parts_test SOURCES test/ros/parts_test.cpp
   LIBRARIES franka_sim_ros)
 
 find_package(rostest REQUIRED)
-foreach(name simulation parameters worlds)
+foreach(name devices parameters simulation worlds)
   add_rostest(test/ros/${name}.test DEPENDENCIES
     franka_sim_mujoco_node franka_hw_sim franka_gripper_sim)
 endforeach()

@@ -137,6 +137,7 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   hand_ = has_hand ? &world.hand(robot.name, arm_id_) : nullptr;
 
   singularity_threshold_ = readNumber(node, "singularity_warning_threshold").value_or(-1.0);
+  devices_ = std::make_unique<DeviceJoints>(node, world, robot.name);
   for (const TransmissionInfo& transmission : transmissions) {
     addTransmission(transmission, model);
   }
@@ -147,8 +148,8 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   const bool restart_controllers =
       readBool(node, "restart_controllers_after_recovery").value_or(true);
   const PlaceJoint place_joint = [this, &world](const std::string& joint, double position) {
-    if (findJoint(joint) == nullptr) {
-      throw std::runtime_error("'" + joint + "' is no joint of the arm or its hand.");
+    if (findJoint(joint) == nullptr && devices_->names().count(joint) == 0) {
+      throw std::runtime_error("'" + joint + "' is no joint of this robot that is driven.");
     }
     world.setJointPosition(joint, position);
   };
@@ -192,6 +193,7 @@ void FrankaHWSim::readSim(ros::Time time, ros::Duration /*period*/) {
       joints_[kArmJoints + i].effort = joints_[kArmJoints + i].command;
     }
   }
+  devices_->read();
   if (!initialized_published_) {
     publishInitialized(true);
   }
@@ -208,10 +210,12 @@ void FrankaHWSim::writeSim(ros::Time /*time*/, ros::Duration period) {
     }
     hand_->applyForces(force);
   }
+  devices_->write(period);
 }
 
 void FrankaHWSim::worldWasReset() {
   arm_->worldWasReset();
+  devices_->worldWasReset();
   position_limits_.reset();
   for (Joint& joint : joints_) {
     joint.command = 0.0;
@@ -229,7 +233,7 @@ bool FrankaHWSim::prepareSwitch(
     const std::list<hardware_interface::ControllerInfo>& start_list,
     const std::list<hardware_interface::ControllerInfo>& /*stop_list*/) {
   for (const auto& controller : start_list) {
-    const std::string reason = whyRefused(controller, arm_id_);
+    const std::string reason = whyRefused(controller, arm_id_, devices_->names());
     if (!reason.empty()) {
       ROS_ERROR_NAMED(kLog, "%s", reason.c_str());
       return false;
@@ -259,6 +263,7 @@ bool FrankaHWSim::prepareSwitch(
 
 void FrankaHWSim::doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                            const std::list<hardware_interface::ControllerInfo>& stop_list) {
+  devices_->doSwitch(start_list, stop_list);
   const ControlMode starts = claimedMode(start_list, arm_id_);
   const ControlMode stops = claimedMode(stop_list, arm_id_);
   const ControlMode rest = arm_->mode() & ~stops;

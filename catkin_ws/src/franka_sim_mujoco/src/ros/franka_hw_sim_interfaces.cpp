@@ -53,14 +53,7 @@ void FrankaHWSim::addJoint(const TransmissionInfo& transmission, const urdf::Mod
   const auto& info = transmission.joints_.front();
   Joint* joint = findJoint(info.name_);
   if (joint == nullptr) {
-    if (!model.getJoint(info.name_)) {
-      throw std::invalid_argument("the transmission '" + transmission.name_ +
-                                  "' names the joint '" + info.name_ +
-                                  "', which the URDF does not have.");
-    }
-    ROS_WARN_NAMED(kLog,
-                   "%s: the joint '%s' of the transmission '%s' is none of this arm's: ignored.",
-                   arm_id_.c_str(), info.name_.c_str(), transmission.name_.c_str());
+    devices_->add(transmission, model);
     return;
   }
   joint->has_state = true;
@@ -157,6 +150,7 @@ void FrankaHWSim::registerAll() {
     }
   }
   registerCartesian();
+  devices_->registerHandles(joint_states_, efforts_, positions_, velocities_);
   registerInterface(&joint_states_);
   registerInterface(&efforts_);
   registerInterface(&positions_);

@@ -14,11 +14,14 @@ namespace {
 constexpr char kLog[] = "franka_sim_mujoco";
 
 /// The URDF names the hardware by the original's name; where the package franka_gazebo is not ours
-/// (it steps aside for the original) the same hardware has our own.
+/// (it steps aside for the original) the same hardware has our own. So has Gazebo's default.
 std::string availableName(HardwareLoader& loader, const std::string& type) {
-  static const std::string kOriginal = "franka_gazebo/";
-  if (!loader.isClassAvailable(type) && type.compare(0, kOriginal.size(), kOriginal) == 0) {
-    return "franka_sim_mujoco/" + type.substr(kOriginal.size());
+  if (!loader.isClassAvailable(type)) {
+    for (const std::string original : {"franka_gazebo/", "gazebo_ros_control/"}) {
+      if (type.compare(0, original.size(), original) == 0) {
+        return "franka_sim_mujoco/" + type.substr(original.size());
+      }
+    }
   }
   return type;
 }

@@ -41,10 +41,15 @@ PluginElement readPluginElement(const std::string& urdf) {
        gazebo = gazebo->NextSiblingElement("gazebo")) {
     for (const auto* plugin = gazebo->FirstChildElement("plugin"); plugin != nullptr;
          plugin = plugin->NextSiblingElement("plugin")) {
-      if (plugin->FirstChildElement("robotSimType") == nullptr) {
+      const char* library = plugin->Attribute("filename");
+      if (plugin->FirstChildElement("robotSimType") != nullptr) {
+        result.hardware_type = childText(*plugin, "robotSimType");
+      } else if (library != nullptr &&
+                 std::string(library).find("gazebo_ros_control") != std::string::npos) {
+        result.hardware_type = "gazebo_ros_control/DefaultRobotHWSim";
+      } else {
         continue;
       }
-      result.hardware_type = childText(*plugin, "robotSimType");
       result.robot_namespace = childText(*plugin, "robotNamespace");
       const auto* period = plugin->FirstChildElement("controlPeriod");
       if (period != nullptr &&

@@ -8,6 +8,7 @@
 #include <franka_hw/model_kdl.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 #include <franka_sim_mujoco/ros/arm_services.h>
+#include <franka_sim_mujoco/ros/device_joints.h>
 #include <franka_sim_mujoco/ros/sim_arm.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
@@ -30,6 +31,7 @@ namespace franka_sim_mujoco {
 /// Cartesian velocity. Joints are offered as the URDF's transmissions declare them; who has the
 /// franka state has the Cartesian interfaces too. Every command and every state goes through the
 /// arm's ControlUnit. The hand's fingers, when there are any, are two more effort joints.
+/// Other joints of the URDF, of a lift or a mobile base, are driven beside the arm (DeviceJoints).
 ///
 /// Position and velocity handles show what is wanted of the joints (q_d, dq_d), effort and state
 /// handles what is measured. Claims may be combined as on the robot (resource_helpers.h).
@@ -97,6 +99,7 @@ class FrankaHWSim : public RobotHWSim {
   std::array<Joint, kJoints> joints_;
   HandPlant* hand_{nullptr};
   std::unique_ptr<SimArm> arm_;
+  std::unique_ptr<DeviceJoints> devices_;  ///< all other joints with transmissions
   std::unique_ptr<franka_hw::ModelKDL> model_;
   hardware_interface::JointStateInterface joint_states_;
   hardware_interface::EffortJointInterface efforts_;
