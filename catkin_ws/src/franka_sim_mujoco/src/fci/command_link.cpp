@@ -2,17 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/fci/command_link.h>
 
-#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace franka_sim_mujoco::fci {
 
-void CommandLink::setLoss(double probability, std::uint64_t seed) noexcept {
+void CommandLink::setLoss(double probability, std::uint64_t seed) {
+  if (!(probability >= 0.0 && probability <= 1.0)) {
+    throw std::invalid_argument("The probability of a loss is a number from 0 to 1.");
+  }
   loss_ = probability;
   engine_.seed(seed);
 }
 
-void CommandLink::setDelay(unsigned ticks) noexcept {
-  delay_ = std::min(ticks, kLongestDelay);
+void CommandLink::setDelay(double ticks) {
+  if (!(ticks >= 0.0 && ticks <= kLongestDelay) || ticks != std::floor(ticks)) {
+    throw std::invalid_argument("Commands are delayed by 0, 1 or 2 ticks.");
+  }
+  delay_ = static_cast<unsigned>(ticks);
   slots_ = {};
 }
 

@@ -48,12 +48,8 @@ timespec toTimespec(std::chrono::nanoseconds duration) noexcept {
 }  // namespace
 
 Host::Host(std::function<void()> step, const Pace& pace)
-    : step_(std::move(step)),
-      pace_(pace),
-      period_(
-          std::chrono::nanoseconds(std::llround(1e6 / (pace.factor > 0.0 ? pace.factor : 1.0)))),
-      deadline_(Clock::now()),
-      spin_(std::thread::hardware_concurrency() > 1) {
+    : step_(std::move(step)), spin_(std::thread::hardware_concurrency() > 1) {
+  setPace(pace);
   // Wake-ups are otherwise gathered within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
@@ -65,10 +61,22 @@ void Host::add(HostedRobot& robot) {
 
 void Host::add(Service& service) { services_.push_back(&service); }
 
+void Host::remove(const HostedRobot& robot) {
+  const auto is_robot = [&](const Guest& guest) { return guest.robot == &robot; };
+  guests_.erase(std::remove_if(guests_.begin(), guests_.end(), is_robot), guests_.end());
+}
+
+void Host::setPace(const Pace& pace) {
+  pace_ = pace;
+  period_ = std::chrono::nanoseconds(std::llround(1e6 / (pace.factor > 0.0 ? pace.factor : 1.0)));
+  rolling_ = 0;
+  restartClock();
+}
+
 void Host::letRun(std::uint64_t ticks) { rolling_ = std::max(rolling_, ticks + kTicksAfterAction); }
 
 void Host::run(const std::atomic<bool>& stop) {
-  deadline_ = Clock::now();
+  restartClock();
   stop_ = &stop;
   while (!stopped()) {
     tick();
@@ -96,6 +104,21 @@ void Host::tick() {
   unpublished_ticks_++;
 }
 
+void Host::tickAtOnce() {
+  const Pace kept = pace_;
+  pace_.lockstep = pace_.flows = true;
+  tick();
+  pace_ = kept;
+}
+
+void Host::standStill() {
+  for (const Guest& guest : guests_) {
+    guest.robot->publish(guest.robot->expectsCommand() ? 0 : 1, true);
+  }
+  serveAll();
+  restartClock();
+}
+
 void Host::publishAll(bool same_moment) {
   for (const Guest& guest : guests_) {
     guest.robot->publish(std::max<std::uint64_t>(unpublished_ticks_, 1), same_moment);
@@ -121,7 +144,8 @@ void Host::serveAll() {
   }
   // While the world comes to rest by itself, a request must not meet it at a tick that depends on
   // how fast the client was.
-  const bool stops_only = pace_.lockstep && rolling_ > 0 && !hand_busy && !clientsAreDue();
+  const bool stops_only =
+      pace_.lockstep && !pace_.flows && rolling_ > 0 && !hand_busy && !clientsAreDue();
   requests_left_ = stops_only;
   for (const Guest& guest : guests_) {
     guest.robot->serve(stops_only);
@@ -235,6 +259,9 @@ void Host::waitInLockStep() {
         return;
       }
       continue;
+    }
+    if (pace_.flows) {
+      return;
     }
     if (timeMustGoOn()) {
       rolling_--;

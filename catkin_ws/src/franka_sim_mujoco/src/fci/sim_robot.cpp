@@ -33,10 +33,8 @@ SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServer
   }
 }
 
-// Within a tick: what was measured before the reset holds no longer.
 void SimRobot::restart() noexcept {
   unit_.restart();
-  unit_.observe(arm_.measure());
   if (hand_) {
     hand_->unit.restart();
   }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "person.h"
 
-#include <franka_core/error_names.h>
-#include <franka_core/fci/texts.h>
+#include <franka_sim_mujoco/fci/serving.h>
 
 #include <cmath>
 #include <cstdio>
@@ -31,30 +30,6 @@ std::uint64_t toTicks(const std::string& word) {
 
 std::array<double, 3> toVector(const Words& words, std::size_t first) {
   return {toNumber(words.at(first)), toNumber(words.at(first + 1)), toNumber(words.at(first + 2))};
-}
-
-std::string toText(const std::array<double, 7>& values) {
-  std::string text;
-  for (const double value : values) {
-    char number[32];
-    std::snprintf(number, sizeof(number), " %.9g", value);
-    text += number;
-  }
-  return text;
-}
-
-std::string errorNames(const std::array<bool, franka_core::kErrorCount>& errors) {
-  std::string text;
-  for (std::size_t i = 0; i < errors.size(); i++) {
-    text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
-  }
-  return text.empty() ? " none" : text;
-}
-
-std::string describe(const fci::SimRobot& robot, const franka_core::RobotState& state) {
-  return std::string(franka_core::fci::modeName(state.robot_mode)) + ", client of protocol " +
-         std::to_string(robot.server().version()) + ", errors" + errorNames(state.errors) + ", q" +
-         toText(state.q);
 }
 
 void require(RequestStatus status, const std::string& sentence) {
@@ -92,11 +67,7 @@ void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
 
 void addLink(LineServer& lines, fci::SimRobot& robot) {
   lines.add("loss PROBABILITY [SEED]", [&](const Words& words) {
-    const double probability = toNumber(words.at(0));
-    if (probability < 0.0 || probability > 1.0) {
-      throw std::invalid_argument("The probability of a loss is a number from 0 to 1.");
-    }
-    robot.link().setLoss(probability,
+    robot.link().setLoss(toNumber(words.at(0)),
                          words.size() > 1 ? static_cast<std::uint64_t>(toNumber(words[1])) : 0);
     return "";
   });
@@ -105,11 +76,7 @@ void addLink(LineServer& lines, fci::SimRobot& robot) {
     return "";
   });
   lines.add("delay TICKS", [&](const Words& words) {
-    const double ticks = toNumber(words.at(0));
-    if (ticks != 0.0 && ticks != 1.0 && ticks != 2.0) {
-      throw std::invalid_argument("Commands are delayed by 0, 1 or 2 ticks.");
-    }
-    robot.link().setDelay(static_cast<unsigned>(ticks));
+    robot.link().setDelay(toNumber(words.at(0)));
     return "";
   });
 }
@@ -171,6 +138,7 @@ void reset(const Scene& scene) {
   scene.world.reset();
   for (fci::SimRobot* robot : scene.robots) {
     robot->restart();
+    robot->observe();  // what was measured in this tick holds no longer
   }
   scene.host.letRun(1);
 }
@@ -182,7 +150,7 @@ void addRobot(LineServer& lines, fci::SimRobot& robot) {
             "The load was refused: it has a negative mass, or the robot moves.");
     return "";
   });
-  lines.add("state", [&robot](const Words&) { return describe(robot, robot.unit().state()); });
+  lines.add("state", [&robot](const Words&) { return fci::describe(robot); });
   lines.add("hash", [&robot](const Words&) {
     char text[24];
     std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(robot.hash()));

@@ -3,7 +3,7 @@
 #include "served_arm.h"
 
 #include <franka_core/limits.h>
-#include <franka_sim_mujoco/fci/served_models.h>
+#include <franka_sim_mujoco/fci/serving.h>
 #include <franka_sim_mujoco/ros/physics_config.h>
 
 #include <cmath>
@@ -21,9 +21,6 @@ constexpr double kFingersAtStart = 0.001;  // [m] each
 // (fci.md 3).
 constexpr std::array<double, 16> kHandF_T_NE{
     M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1};
-
-// Force laws of the fingers: gains of the manual (franka_ros.md 9.5).
-constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
 
 // The descriptions that come along name all links and joints after their robot.
 std::string withPrefix(std::string urdf, const std::string& robot, const std::string& arm_id) {
@@ -77,12 +74,9 @@ RobotDescription describeRobot(const ArmOptions& options, const std::string& urd
   return robot;
 }
 
-std::uint16_t newestProtocol(const ArmOptions& options) {
-  return options.protocol != 0 ? options.protocol : (options.robot == "panda" ? 5 : 10);
-}
-
-std::uint16_t oldestProtocol(const ArmOptions& options) {
-  return options.protocol != 0 ? options.protocol : (options.robot == "panda" ? 3 : 6);
+fci::ProtocolRange protocolsOf(const ArmOptions& options) {
+  return options.protocol != 0 ? fci::ProtocolRange{options.protocol, options.protocol}
+                               : fci::protocolsOf(options.robot);
 }
 
 ControlUnitParameters unitParameters(const ArmOptions& options, const std::string& urdf,
@@ -96,28 +90,15 @@ ControlUnitParameters unitParameters(const ArmOptions& options, const std::strin
     parameters.F_T_NE = kHandF_T_NE;
   }
   parameters.has_hand = hand;
-  behaveAsOverFci(parameters, newestProtocol(options));
+  behaveAsOverFci(parameters, protocolsOf(options).newest);
   return parameters;
-}
-
-fci::RobotServerParameters serverParameters(const ArmOptions& options,
-                                            const franka_core::ArmModel& model) {
-  fci::RobotServerParameters server;
-  server.address = options.ip;
-  server.oldest_version = oldestProtocol(options);
-  server.newest_version = newestProtocol(options);
-  server.model_library = fci::servedLibrary(model);
-  server.urdf = fci::servedUrdf(model, server.newest_version);
-  return server;
 }
 
 std::optional<fci::SimRobot::Hand> servedHand(const ArmOptions& options, World& world, bool hand) {
   if (!hand || options.tool != Tool::kGripper) {
     return {};
   }
-  fci::SimRobot::Hand served{&world.hand(options.arm_id, options.arm_id), {}};
-  served.parameters.gains = {kFingerGains, kFingerGains};
-  return served;
+  return fci::servedHand(world.hand(options.arm_id, options.arm_id));
 }
 
 }  // namespace
@@ -133,15 +114,14 @@ ServedArm::ServedArm(const ArmOptions& options, World& world) : options_(options
     vacuum.emplace();
   }
   robot_.emplace(unit, world.arm(options.arm_id, options.arm_id),
-                 serverParameters(options, unit.model), servedHand(options, world, hand), vacuum);
+                 fci::servedAt(options.ip, protocolsOf(options), unit.model),
+                 servedHand(options, world, hand), vacuum);
 }
 
 std::string ServedArm::protocols() const {
-  if (options_.protocol != 0) {
-    return std::to_string(options_.protocol);
-  }
-  return std::to_string(oldestProtocol(options_)) + " to " +
-         std::to_string(newestProtocol(options_));
+  const fci::ProtocolRange range = protocolsOf(options_);
+  const std::string newest = std::to_string(range.newest);
+  return range.oldest == range.newest ? newest : std::to_string(range.oldest) + " to " + newest;
 }
 
 }  // namespace franka_sim_mujoco

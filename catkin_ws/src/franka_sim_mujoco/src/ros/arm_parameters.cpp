@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
@@ -144,6 +145,16 @@ std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std:
         "_joint<1 to 7>/p are stiffnesses; they must lie between 0 and 14250 Nm/rad.");
   }
   return stiffness;
+}
+
+std::array<double, 3> gravityInBase(World& world, const std::string& base) {
+  const std::array<double, 3> g = world.gravity();
+  const std::array<double, 4> q = world.bodyPose(base).orientation;
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  return {
+      (1 - 2 * (y * y + z * z)) * g[0] + 2 * (x * y + w * z) * g[1] + 2 * (x * z - w * y) * g[2],
+      2 * (x * y - w * z) * g[0] + (1 - 2 * (x * x + z * z)) * g[1] + 2 * (y * z + w * x) * g[2],
+      2 * (x * z + w * y) * g[0] + 2 * (y * z - w * x) * g[1] + (1 - 2 * (x * x + y * y)) * g[2]};
 }
 
 ControlUnitParameters readArmParameters(const ros::NodeHandle& node, const std::string& urdf,

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/ros/clock_publisher.h>
-#include <franka_sim_mujoco/ros/pacer.h>
+#include <franka_sim_mujoco/ros/pace.h>
 
 #include <algorithm>
 

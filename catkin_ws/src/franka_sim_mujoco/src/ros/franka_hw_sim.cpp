@@ -82,17 +82,6 @@ std::string namesOfErrors(std::uint64_t errors) {
   return names;
 }
 
-/// The world's gravity in the axes of the arm's base.
-std::array<double, 3> gravityInBase(World& world, const std::string& base) {
-  const std::array<double, 3> g = world.gravity();
-  const std::array<double, 4> q = world.bodyPose(base).orientation;
-  const double w = q[0], x = q[1], y = q[2], z = q[3];
-  return {
-      (1 - 2 * (y * y + z * z)) * g[0] + 2 * (x * y + w * z) * g[1] + 2 * (x * z - w * y) * g[2],
-      2 * (x * y - w * z) * g[0] + (1 - 2 * (x * x + z * z)) * g[1] + 2 * (y * z + w * x) * g[2],
-      2 * (x * z + w * y) * g[0] + 2 * (y * z - w * x) * g[1] + (1 - 2 * (x * x + y * y)) * g[2]};
-}
-
 }  // namespace
 
 FrankaHWSim::FrankaHWSim() = default;

@@ -1,9 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/ros/pacer.h>
+#include <franka_sim_mujoco/ros/pace.h>
 #include <franka_sim_mujoco/ros/robot_instance.h>
 #include <ros/console.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -49,13 +50,8 @@ RobotInstance::RobotInstance(const RobotPlan& plan, World& world, HardwareLoader
     joints_.insert(joint.first);
   }
   world.addRobot(plan.description);
-  if (plan.hardware_type.empty()) {
-    ROS_INFO_NAMED(kLog, "'%s' names no robotSimType: it stands in the world without hardware.",
-                   name_.c_str());
-    return;
-  }
   try {
-    startHardware(plan, world, loader, std::move(between_ticks));
+    start(plan, world, loader, std::move(between_ticks));
   } catch (...) {
     manager_.reset();
     hardware_.reset();
@@ -65,6 +61,28 @@ RobotInstance::RobotInstance(const RobotPlan& plan, World& world, HardwareLoader
 }
 
 RobotInstance::~RobotInstance() = default;
+
+void RobotInstance::start(const RobotPlan& plan, World& world, HardwareLoader& loader,
+                          BetweenTicks between_ticks) {
+  if (!plan.fci_ip.empty()) {
+    serve(plan, world, std::move(between_ticks));
+  } else if (!plan.hardware_type.empty()) {
+    startHardware(plan, world, loader, std::move(between_ticks));
+  } else {
+    ROS_INFO_NAMED(kLog, "'%s' names no robotSimType: it stands in the world without hardware.",
+                   name_.c_str());
+  }
+}
+
+void RobotInstance::serve(const RobotPlan& plan, World& world, BetweenTicks between_ticks) {
+  try {
+    served_ = std::make_unique<ServedRobot>(plan, world, std::move(between_ticks));
+  } catch (const std::exception& error) {
+    throw std::runtime_error("'" + name_ + "' cannot be served at " + plan.fci_ip + ": " +
+                             error.what());
+  }
+  ROS_INFO_NAMED(kLog, "'%s' is served over the FCI at %s.", name_.c_str(), plan.fci_ip.c_str());
+}
 
 void RobotInstance::startHardware(const RobotPlan& plan, World& world, HardwareLoader& loader,
                                   BetweenTicks between_ticks) {
@@ -85,6 +103,11 @@ void RobotInstance::startHardware(const RobotPlan& plan, World& world, HardwareL
                              (reason.empty() ? "the log of the simulation says why." : reason));
   }
   manager_ = std::make_unique<controller_manager::ControllerManager>(hardware_.get(), node);
+}
+
+bool RobotInstance::hasAnyOf(const std::vector<std::string>& joints) const {
+  return std::any_of(joints.begin(), joints.end(),
+                     [this](const std::string& joint) { return joints_.count(joint) > 0; });
 }
 
 void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
@@ -116,7 +139,17 @@ void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
   }
 }
 
+void RobotInstance::requireRest() const {
+  if (served_ && served_->isCommanded()) {
+    throw std::runtime_error("A client moves '" + name_ +
+                             "' over the FCI: end its motion before anything is put elsewhere.");
+  }
+}
+
 void RobotInstance::worldWasReset() {
+  if (served_) {
+    served_->robot().restart();
+  }
   if (hardware_) {
     hardware_->worldWasReset();
     restart_controllers_ = true;

@@ -104,7 +104,6 @@ RobotPlan planRobot(const SpawnOrder& order) {
         "' is not a URDF that can be read; the lines above in the log say why.");
   }
   const PluginElement plugin = readPluginElement(order.urdf);
-  plan.hardware_type = plugin.hardware_type;
   plan.control_ticks =
       std::max(1, static_cast<int>(std::lround(plugin.control_period / World::kTick)));
   plan.robot_namespace =
@@ -116,12 +115,14 @@ RobotPlan planRobot(const SpawnOrder& order) {
   if (!ros::names::validate(plan.robot_namespace, why)) {
     throw std::runtime_error("'" + plan.robot_namespace + "' is no valid namespace: " + why);
   }
+  const ros::NodeHandle node(plan.robot_namespace);
+  plan.fci_ip = readString(node, "fci_ip").value_or("");
+  plan.hardware_type = plan.fci_ip.empty() ? plugin.hardware_type : "";
   if (!plan.hardware_type.empty() &&
       !transmission_interface::TransmissionParser::parse(order.urdf, plan.transmissions)) {
     throw std::runtime_error("The transmissions of '" + order.name + "' cannot be read.");
   }
 
-  const ros::NodeHandle node(plan.robot_namespace);
   plan.arm_id = readArmId(node, plan.robot_namespace, order.name);
   plan.description.name = order.name;
   plan.description.urdf = order.urdf;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
 constexpr std::uint32_t kTickNanoseconds = 1000000;
+constexpr std::chrono::milliseconds kServedNap{1};  ///< where clients want to be heard
 constexpr std::chrono::milliseconds kStandStillNap{20};
 /// Compiling a world with several robots takes seconds on a slow machine.
 constexpr std::chrono::milliseconds kSpawnTimeout{60000};
@@ -25,12 +26,9 @@ Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
     : loader_("franka_sim_mujoco", "franka_sim_mujoco::RobotHWSim"),
       world_(options.world_file, resolveUri),
       clock_(node),
+      host_([this] { advance(); }, paceOf(options.real_time_factor)),
+      real_time_factor_(options.real_time_factor),
       paused_(options.paused) {
-  if (!pacer_.setFactor(options.real_time_factor)) {
-    throw std::runtime_error("The real time factor " + std::to_string(options.real_time_factor) +
-                             " is wrong: it must be 0 (as fast as possible) or at least " +
-                             std::to_string(Pacer::kSlowest) + ".");
-  }
   const std::string unsupported = world_.unsupported();
   if (!unsupported.empty()) {
     ROS_WARN_NAMED(kLog, "%s", unsupported.c_str());
@@ -53,7 +51,7 @@ void Simulation::stop() {
 
 void Simulation::loop() {
   requests_.adopt();
-  pacer_.restart();
+  host_.restartClock();
   try {
     while (!stop_) {
       requests_.serve();
@@ -61,11 +59,11 @@ void Simulation::loop() {
         standStill();
         continue;
       }
-      tick(nullptr);
       if (steps_left_ > 0) {
+        host_.tickAtOnce();
         finishStepping();
       } else {
-        pacer_.waitForNextTick();
+        host_.tick();
       }
     }
   } catch (const std::exception& error) {
@@ -79,14 +77,14 @@ void Simulation::loop() {
 
 void Simulation::standStill() {
   clock_.standStill(time());
-  requests_.waitForWork(kStandStillNap);
-  pacer_.restart();
+  requests_.waitForWork(host_.empty() ? kStandStillNap : kServedNap);
+  host_.standStill();
 }
 
-void Simulation::tick(TickTimes* times) {
+void Simulation::advance() {
   const ros::Time now = time();
   for (const auto& robot : robots_) {
-    robot->tick(now, times);
+    robot->tick(now, timing_ ? &times_ : nullptr);
   }
   world_.step();
   ++tick_count_;
@@ -116,12 +114,8 @@ void Simulation::setPaused(bool paused) {
 
 void Simulation::setRealTimeFactor(double factor) {
   requests_.run([&] {
-    if (!pacer_.setFactor(factor)) {
-      throw std::runtime_error("The real time factor " + std::to_string(factor) +
-                               " is wrong: it must be 0 (as fast as possible) or at least " +
-                               std::to_string(Pacer::kSlowest) + "; it stays " +
-                               std::to_string(pacer_.factor()) + ".");
-    }
+    host_.setPace(paceOf(factor));
+    real_time_factor_ = factor;
   });
 }
 
@@ -155,8 +149,15 @@ SimulationState Simulation::state() {
   return state;
 }
 
+void Simulation::requireRest() const {
+  for (const auto& robot : robots_) {
+    robot->requireRest();
+  }
+}
+
 void Simulation::reset() {
   requests_.run([&] {
+    requireRest();
     world_.reset();
     for (const auto& robot : robots_) {
       robot->worldWasReset();
@@ -184,8 +185,12 @@ void Simulation::spawn(const SpawnOrder& order) {
         const BetweenTicks between_ticks = [this](const std::function<void()>& work) {
           requests_.run(work);
         };
-        robots_.push_back(std::make_unique<RobotInstance>(plan, world_, loader_, between_ticks));
-        pacer_.restart();
+        auto robot = std::make_unique<RobotInstance>(plan, world_, loader_, between_ticks);
+        if (robot->served() != nullptr) {
+          host_.add(*robot->served());
+        }
+        robots_.push_back(std::move(robot));
+        host_.restartClock();
       },
       kSpawnTimeout);
 }
@@ -200,9 +205,12 @@ void Simulation::remove(const std::string& name) {
       throw std::runtime_error("There is no robot named '" + name + "'.");
     }
     removed = std::move(*robot);
+    if (removed->served() != nullptr) {
+      host_.remove(*removed->served());
+    }
     robots_.erase(robot);
     world_.removeRobot(name);
-    pacer_.restart();
+    host_.restartClock();
   });
   // Its action servers and services may wait for their threads: not in the stepping thread.
   removed.reset();
@@ -215,7 +223,7 @@ std::string Simulation::spawnObject(const std::string& name, const std::string& 
       [&] {
         world_.addObject(name, text, pose);
         unsupported = world_.unsupported(name);
-        pacer_.restart();
+        host_.restartClock();
       },
       kSpawnTimeout);
   return unsupported;
@@ -224,7 +232,7 @@ std::string Simulation::spawnObject(const std::string& name, const std::string& 
 void Simulation::removeObject(const std::string& name) {
   requests_.run([&] {
     world_.removeObject(name);
-    pacer_.restart();
+    host_.restartClock();
   });
 }
 
@@ -240,7 +248,7 @@ SimulationInventory Simulation::inventory() {
     }
     result.gravity = world_.gravity();
     result.paused = paused_;
-    result.real_time_factor = pacer_.factor();
+    result.real_time_factor = real_time_factor_;
   });
   return result;
 }
@@ -249,6 +257,11 @@ void Simulation::setJoints(const std::vector<std::string>& names,
                            const std::vector<double>& positions,
                            const std::vector<double>& velocities) {
   requests_.run([&] {
+    for (const auto& robot : robots_) {
+      if (robot->hasAnyOf(names)) {
+        robot->requireRest();
+      }
+    }
     const Snapshot before = world_.snapshot();
     try {
       for (std::size_t i = 0; i < names.size(); ++i) {
@@ -260,8 +273,7 @@ void Simulation::setJoints(const std::vector<std::string>& names,
       throw;
     }
     for (const auto& robot : robots_) {
-      if (std::any_of(names.begin(), names.end(),
-                      [&](const std::string& name) { return robot->hasJoint(name); })) {
+      if (robot->hasAnyOf(names)) {
         robot->worldWasReset();
       }
     }
@@ -277,7 +289,7 @@ std::uint64_t Simulation::takeSnapshot(const std::string& name) {
     }
     snapshots_[name] = world_.snapshot();
     hash = world_.stateHash();
-    pacer_.restart();
+    host_.restartClock();
   });
   return hash;
 }
@@ -289,6 +301,7 @@ std::uint64_t Simulation::restoreSnapshot(const std::string& name) {
     if (found == snapshots_.end()) {
       throw std::runtime_error("There is no snapshot named '" + name + "'.");
     }
+    requireRest();
     world_.restore(found->second);
     for (const auto& robot : robots_) {
       robot->worldWasReset();
@@ -308,19 +321,21 @@ Simulation::Benchmark Simulation::benchmark(std::uint32_t ticks) {
   }
   Benchmark result;
   requests_.run([&] {
-    TickTimes times;
+    times_ = TickTimes();
+    timing_ = true;
     const std::int64_t start = threadNanoseconds();
     for (std::uint32_t i = 0; i < ticks; ++i) {
-      tick(&times);
+      host_.tickAtOnce();
     }
+    timing_ = false;
     const double scale = 1e-3 / ticks;
     result.tick = scale * static_cast<double>(threadNanoseconds() - start);
-    result.read = scale * static_cast<double>(times.read);
-    result.update = scale * static_cast<double>(times.update);
-    result.write = scale * static_cast<double>(times.write);
+    result.read = scale * static_cast<double>(times_.read);
+    result.update = scale * static_cast<double>(times_.update);
+    result.write = scale * static_cast<double>(times_.write);
     result.physics = result.tick - result.read - result.update - result.write;
     result.bare = bareTickMicroseconds(world_, ticks);
-    pacer_.restart();
+    host_.restartClock();
   });
   return result;
 }

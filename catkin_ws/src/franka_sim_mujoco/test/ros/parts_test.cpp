@@ -9,7 +9,7 @@
 #include <franka_sim_mujoco/ros/command_shaper.h>
 #include <franka_sim_mujoco/ros/controller_check.h>
 #include <franka_sim_mujoco/ros/gripper_mailbox.h>
-#include <franka_sim_mujoco/ros/pacer.h>
+#include <franka_sim_mujoco/ros/pace.h>
 #include <franka_sim_mujoco/ros/physics_config.h>
 #include <franka_sim_mujoco/ros/request_queue.h>
 #include <franka_sim_mujoco/ros/world_file.h>
@@ -94,28 +94,27 @@ TEST(RequestQueue, CloseReleasesThoseWhoWait) {
   EXPECT_TRUE(contains(text, "shutting down")) << text;
 }
 
-TEST(Pacer, RefusesWhatIsNoPace) {
-  Pacer pacer;
+TEST(Pace, RefusesWhatIsNone) {
   for (const double factor : {-1.0, 0.001, std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity()}) {
-    EXPECT_FALSE(pacer.setFactor(factor)) << factor;
-    EXPECT_EQ(1.0, pacer.factor());
+    EXPECT_TRUE(contains(sentence([&] { paceOf(factor); }), "is wrong: it must be 0")) << factor;
   }
-  EXPECT_TRUE(pacer.setFactor(0.0));
-  EXPECT_TRUE(pacer.setFactor(Pacer::kSlowest));
+  EXPECT_TRUE(paceOf(0.0).flows);
+  EXPECT_FALSE(paceOf(kSlowestPace).lockstep);
 }
 
 double secondsFor(double factor, int ticks) {
-  Pacer pacer;
-  pacer.setFactor(factor);
+  int done = 0;
+  fci::Host host([&] { ++done; }, paceOf(factor));
   const std::int64_t start = monotonicNanoseconds();
   for (int i = 0; i < ticks; ++i) {
-    pacer.waitForNextTick();
+    host.tick();
   }
+  EXPECT_EQ(ticks, done);
   return 1e-9 * static_cast<double>(monotonicNanoseconds() - start);
 }
 
-TEST(Pacer, KeepsThePaceWithoutAddingUpErrors) {
+TEST(Pace, KeepsThePaceWithoutAddingUpErrors) {
   // Never faster than asked; how much slower depends on the machine's load.
   EXPECT_GE(secondsFor(1.0, 200), 0.199);
   EXPECT_GE(secondsFor(2.0, 200), 0.099);

@@ -11,17 +11,18 @@
 namespace franka_sim_mujoco::fci {
 
 /// A worse way for commands than loopback is: loses some and delays all by whole ticks. The same
-/// seed loses the same commands. Real-time safe; one thread.
+/// seed loses the same commands. One thread; pass is real-time safe.
 class CommandLink {
  public:
   static constexpr unsigned kLongestDelay = 2;  ///< [ticks] (decision 20)
 
   /// @param probability of each command to be lost, 0 to 1.
-  void setLoss(double probability, std::uint64_t seed) noexcept;
+  /// @throws std::invalid_argument with a sentence for any other.
+  void setLoss(double probability, std::uint64_t seed);
   /// Loses the next commands, one after the other.
   void loseNext(unsigned commands) noexcept { lose_next_ = commands; }
-  /// @param ticks 0 to kLongestDelay.
-  void setDelay(unsigned ticks) noexcept;
+  /// @param ticks 0, 1 or 2. @throws std::invalid_argument with a sentence for any other.
+  void setDelay(double ticks);
 
   /// One tick: what comes in, or null; what comes out at the other end, or null. The result is
   /// valid until the next call.

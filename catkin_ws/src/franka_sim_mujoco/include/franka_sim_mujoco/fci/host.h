@@ -21,6 +21,9 @@ struct Pace {
   /// as machine and clients allow (decision 21). Otherwise ticks are due every millisecond divided
   /// by `factor`, whatever the clients do.
   bool lockstep{false};
+  /// With lock-step: time does not stand still between motions, but runs on as fast as the machine
+  /// allows. For a world in which others live too.
+  bool flows{false};
   double factor{1.0};
   /// After so long without an answer a client of a lock-step motion counts as lost; its cycles are
   /// then waited for a millisecond each (our choice: below the second after which clients give up).
@@ -75,14 +78,26 @@ class Host {
   /// @param step advances the world by one millisecond.
   Host(std::function<void()> step, const Pace& pace);
 
-  /// Must outlive the host.
+  /// Must outlive the host, or be removed.
   void add(HostedRobot& robot);
   void add(Service& service);
+  /// Between ticks, as all that follows.
+  void remove(const HostedRobot& robot);
+  void setPace(const Pace& pace);
+  bool empty() const noexcept { return guests_.empty() && services_.empty(); }
 
   /// Runs until `stop` is set.
   void run(const std::atomic<bool>& stop);
   /// One tick. In lock-step it begins with a wait until time goes on.
   void tick();
+  /// One tick that heeds no clock: it waits for the answers of clients in motion alone.
+  void tickAtOnce();
+  /// Instead of a tick, about every millisecond while the world is halted: clients are heard and
+  /// see that the robots are there. A motion that runs waits with its client, whose time stands
+  /// still too.
+  void standStill();
+  /// After a hold-up that is not to be made up for.
+  void restartClock() noexcept { deadline_ = Clock::now(); }
   /// For lock-step: lets this many ticks run without waiting for anybody, for what is done to the
   /// world from outside (a push) to take its course.
   void letRun(std::uint64_t ticks);
@@ -121,8 +136,8 @@ class Host {
   bool requests_left_{false};  // read, but kept for later
   Clock::time_point served_at_{};
   const std::atomic<bool>* stop_{nullptr};
-  Clock::duration period_;
-  Clock::time_point deadline_;
+  Clock::duration period_{};
+  Clock::time_point deadline_{};
   bool spin_;
   int starts_shown_{0};  // states sent to a client that is to begin
   Clock::time_point published_at_{};

@@ -50,7 +50,8 @@ class SimRobot final : public HostedRobot {
   /// Of all states that were answered and those after them up to rest, without their ids: equal
   /// hash, equal run (decision 21).
   std::uint64_t hash() const noexcept { return hash_; }
-  /// After the world was reset: as after the start; the hash begins anew.
+  /// After the world was reset: as after the start; the hash begins anew. To be followed by
+  /// `observe`, once: the one of the next tick, or within a tick one more.
   void restart() noexcept;
 
   void observe() override;

@@ -10,6 +10,8 @@
 
 namespace franka_sim_mujoco {
 
+class World;
+
 /// The control unit's configuration from the parameters of a robot's namespace (franka_ros.md 9.2),
 /// with defaults from its URDF: end effector composed of everything behind the flange (decision 7),
 /// F_T_NE that of the hand when there is one.
@@ -18,6 +20,9 @@ namespace franka_sim_mujoco {
 ControlUnitParameters readArmParameters(const ros::NodeHandle& node, const std::string& urdf,
                                         const std::string& arm_id, bool has_hand,
                                         const std::array<double, 3>& gravity);
+
+/// The world's gravity in the axes of the arm's base [m/s^2]. @param base the body of that name
+std::array<double, 3> gravityInBase(World& world, const std::string& base);
 
 /// Stiffness of the internal joint impedance controller [Nm/rad]: the proportional gains
 /// `motion_generators/position/gains/<arm_id>_jointN/p`. The original follows positions by a PID of

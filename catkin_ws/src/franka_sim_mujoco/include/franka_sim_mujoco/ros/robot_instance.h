@@ -5,6 +5,7 @@
 #include <controller_manager/controller_manager.h>
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
+#include <franka_sim_mujoco/ros/served_robot.h>
 #include <ros/node_handle.h>
 #include <urdf/model.h>
 
@@ -34,6 +35,7 @@ struct RobotPlan {
   std::string arm_id;
   JointPhysics arm_physics;
   std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a body without hardware
+  std::string fci_ip;         ///< where it is served instead, by a ServedRobot; empty: nowhere
   int control_ticks{1};       ///< controlPeriod in ticks of 1 ms
   urdf::Model urdf;
   std::vector<transmission_interface::TransmissionInfo> transmissions;
@@ -53,7 +55,8 @@ struct TickTimes {
   std::int64_t read{0}, update{0}, write{0};
 };
 
-/// A robot in the world with its hardware plugin and controller manager. Made, run and taken out of
+/// A robot in the world with its hardware plugin and controller manager, or served over the FCI, or
+/// a mere body. Made, run and taken out of
 /// the robots by the stepping thread; destroyed by any thread afterwards.
 class RobotInstance {
  public:
@@ -67,15 +70,26 @@ class RobotInstance {
   RobotInstance& operator=(const RobotInstance&) = delete;
 
   const std::string& name() const noexcept { return name_; }
-  bool hasJoint(const std::string& joint) const { return joints_.count(joint) > 0; }
+  /// Whether one of these joints is the robot's.
+  bool hasAnyOf(const std::vector<std::string>& joints) const;
 
-  /// Read, controllers, write. 1 kHz loop. @param times when not null, durations are added to it
+  /// What the host has to run where the robot is served; else null.
+  fci::SimRobot* served() noexcept { return served_ ? &served_->robot() : nullptr; }
+
+  /// Read, controllers, write; nothing for a served robot. 1 kHz loop. @param times when not null,
+  /// durations are added to it
   void tick(const ros::Time& time, TickTimes* times);
 
+  /// @throws std::runtime_error with a sentence while a client of the FCI moves the robot: its
+  /// motion would jump.
+  void requireRest() const;
   /// The world was put back; controllers are restarted in the next tick.
   void worldWasReset();
 
  private:
+  void start(const RobotPlan& plan, World& world, HardwareLoader& loader,
+             BetweenTicks between_ticks);
+  void serve(const RobotPlan& plan, World& world, BetweenTicks between_ticks);
   void startHardware(const RobotPlan& plan, World& world, HardwareLoader& loader,
                      BetweenTicks between_ticks);
 
@@ -84,6 +98,7 @@ class RobotInstance {
   int control_ticks_;
   int ticks_to_control_{0};
   bool restart_controllers_{false};
+  std::unique_ptr<ServedRobot> served_;
   std::shared_ptr<RobotHWSim> hardware_;  ///< destroyed after the manager that uses it
   std::unique_ptr<controller_manager::ControllerManager> manager_;
 };

@@ -7,6 +7,7 @@
 #include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
+#include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
 #include <functional>
@@ -55,6 +56,9 @@ class ServiceDesk {
   template <typename Response>
   static void setText(Response& response, const char* text) {
     response.error = text;
+  }
+  static void setText(std_srvs::SetBool::Response& response, const char* text) {
+    response.message = text;
   }
   static void setText(std_srvs::Trigger::Response& response, const char* text) {
     response.message = text;

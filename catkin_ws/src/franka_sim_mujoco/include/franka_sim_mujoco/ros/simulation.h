@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/fci/host.h>
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/ros/clock_publisher.h>
-#include <franka_sim_mujoco/ros/pacer.h>
+#include <franka_sim_mujoco/ros/pace.h>
 #include <franka_sim_mujoco/ros/request_queue.h>
 #include <franka_sim_mujoco/ros/robot_instance.h>
 
@@ -22,7 +23,7 @@ namespace franka_sim_mujoco {
 
 struct SimulationOptions {
   std::string world_file;        ///< MJCF or SDF; empty: the empty world
-  double real_time_factor{1.0};  ///< see Pacer
+  double real_time_factor{1.0};  ///< see paceOf
   bool paused{false};
 };
 
@@ -41,8 +42,9 @@ struct SimulationState {
   std::uint64_t state_hash{0};  ///< World::stateHash
 };
 
-/// The world, the robots in it and the one thread that steps them: requests, then for each robot
-/// readSim, controllers, writeSim, then the physics, then /clock.
+/// The world, the robots in it and the one thread that steps them: requests; then the host keeps
+/// the pace and hears the clients of served robots; then for each other robot readSim, controllers,
+/// writeSim; then the physics, then /clock.
 ///
 /// ROS time begins at 1 ms and grows by 1 ms a tick; it never goes back, also not when the world is
 /// reset. All public functions may be called from any thread and throw std::runtime_error with a
@@ -99,11 +101,13 @@ class Simulation {
 
  private:
   void loop();
-  void tick(TickTimes* times);
+  void advance();
   void standStill();
   void finishStepping();
   SimulationState stateNow() const;
   ros::Time time() const;
+  /// @throws std::runtime_error with a sentence while a client moves a robot
+  void requireRest() const;
   RobotInstance* find(const std::string& name);
 
   RequestQueue requests_;
@@ -112,7 +116,10 @@ class Simulation {
   std::vector<std::unique_ptr<RobotInstance>> robots_;
   std::map<std::string, Snapshot> snapshots_;
   ClockPublisher clock_;
-  Pacer pacer_;
+  fci::Host host_;
+  TickTimes times_;
+  bool timing_{false};
+  double real_time_factor_;
   bool paused_;
   std::uint64_t tick_count_{0};
   std::uint32_t steps_left_{0};

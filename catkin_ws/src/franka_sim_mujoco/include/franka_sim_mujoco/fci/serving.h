@@ -1,0 +1,34 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+#include <franka_sim_mujoco/fci/sim_robot.h>
+
+#include <cstdint>
+#include <string>
+
+/// @file
+/// How a Panda or an FR3 is put on the network, whoever runs the world it lives in.
+
+namespace franka_sim_mujoco::fci {
+
+/// Protocol versions that a robot speaks.
+struct ProtocolRange {
+  std::uint16_t oldest, newest;
+};
+
+/// All versions of a robot's generation (decision 25). @param robot "fr3"; all else is a Panda
+ProtocolRange protocolsOf(const std::string& robot) noexcept;
+
+/// The network face at an address of this machine, with the models of the arm that clients ask for.
+RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
+                               const franka_core::ArmModel& arm);
+
+/// The hand on its fingers. @param fingers outlive it
+SimRobot::Hand servedHand(HandPlant& fingers);
+
+/// Mode, client, errors and joints in one line for a person.
+std::string describe(SimRobot& robot);
+
+}  // namespace franka_sim_mujoco::fci

@@ -1,0 +1,28 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim_mujoco/fci/host.h>
+
+#include <cstdint>
+
+namespace franka_sim_mujoco {
+
+/// The slowest pace [simulated seconds a wall second]: a tick lasts a tenth of a second, so that
+/// requests are still served promptly.
+constexpr double kSlowestPace = 0.01;
+
+/// How the host keeps a real time factor; 0 means without waiting, but for the clients of robots
+/// in motion (docs/franka_sim.md).
+/// @throws std::runtime_error with a sentence when it is not finite, negative, or slower than
+/// kSlowestPace but not 0
+fci::Pace paceOf(double real_time_factor);
+
+/// The monotonic clock [ns].
+std::int64_t monotonicNanoseconds() noexcept;
+
+/// What the calling thread has computed so far [ns]: for benchmarks, which other programs shall not
+/// disturb.
+std::int64_t threadNanoseconds() noexcept;
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,65 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/error_names.h>
+#include <franka_core/fci/texts.h>
+#include <franka_sim_mujoco/fci/served_models.h>
+#include <franka_sim_mujoco/fci/serving.h>
+
+#include <cstdio>
+
+namespace franka_sim_mujoco::fci {
+
+namespace {
+
+// Force laws of the fingers: gains of the manual (franka_ros.md 9.5).
+constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
+
+std::string toText(const std::array<double, 7>& values) {
+  std::string text;
+  for (const double value : values) {
+    char number[32];
+    std::snprintf(number, sizeof(number), " %.9g", value);
+    text += number;
+  }
+  return text;
+}
+
+std::string errorNames(const std::array<bool, franka_core::kErrorCount>& errors) {
+  std::string text;
+  for (std::size_t i = 0; i < errors.size(); i++) {
+    text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
+  }
+  return text.empty() ? " none" : text;
+}
+
+}  // namespace
+
+ProtocolRange protocolsOf(const std::string& robot) noexcept {
+  return robot == "fr3" ? ProtocolRange{6, 10} : ProtocolRange{3, 5};
+}
+
+RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
+                               const franka_core::ArmModel& arm) {
+  RobotServerParameters server;
+  server.address = address;
+  server.oldest_version = protocols.oldest;
+  server.newest_version = protocols.newest;
+  server.model_library = servedLibrary(arm);
+  server.urdf = servedUrdf(arm, protocols.newest);
+  return server;
+}
+
+SimRobot::Hand servedHand(HandPlant& fingers) {
+  SimRobot::Hand hand{&fingers, {}};
+  hand.parameters.gains = {kFingerGains, kFingerGains};
+  return hand;
+}
+
+std::string describe(SimRobot& robot) {
+  const franka_core::RobotState& state = robot.unit().state();
+  return std::string(franka_core::fci::modeName(state.robot_mode)) + ", client of protocol " +
+         std::to_string(robot.server().version()) + ", errors" + errorNames(state.errors) + ", q" +
+         toText(state.q);
+}
+
+}  // namespace franka_sim_mujoco::fci
