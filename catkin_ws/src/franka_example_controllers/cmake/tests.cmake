@@ -3,11 +3,14 @@
 
 catkin_add_gtest(cartesian_impedance_test
   test/cartesian_impedance_test.cpp
+  test/command_claims_test.cpp
   test/pseudo_inversion_test.cpp
 )
 target_compile_options(cartesian_impedance_test PRIVATE -Wall -Wextra)
 target_include_directories(cartesian_impedance_test PRIVATE
   ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
+target_compile_definitions(cartesian_impedance_test PRIVATE
+  WRITE_YOUR_OWN="${CMAKE_CURRENT_SOURCE_DIR}/../../../docs/write_your_own.md")
 target_link_libraries(cartesian_impedance_test franka_example_controllers ${GTEST_MAIN_LIBRARIES}
   ${CMAKE_DL_LIBS})
 
@@ -23,3 +26,11 @@ target_link_libraries(cartesian_impedance_example_controller_test franka_example
   ${CMAKE_DL_LIBS})
 
 add_rostest(test/interactive_marker.test)
+add_rostest(test/teleop_gripper.test)
+
+add_rostest_gtest(python_controller_test test/python_controller.test
+  test/python_controller_test.cpp)
+target_compile_options(python_controller_test PRIVATE -Wall -Wextra)
+target_include_directories(python_controller_test PRIVATE
+  ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
+target_link_libraries(python_controller_test franka_python_controller ${CMAKE_DL_LIBS})

@@ -1,0 +1,96 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace franka_example_controllers {
+
+/// Brings velocities to rest without a jump: each follows the cubic that begins with the velocity
+/// and acceleration it had and ends at zero with zero acceleration. All take equally long.
+/// Real-time safe. Units: any, per second.
+template <std::size_t size>
+class GentleStop {
+ public:
+  using Values = std::array<double, size>;
+
+  GentleStop() = default;
+
+  /// @param deceleration the largest to be used for the velocities themselves; the accelerations
+  /// fade in the same time
+  GentleStop(const Values& velocity, const Values& acceleration, double deceleration)
+      : velocity_(velocity), acceleration_(acceleration) {
+    double fastest = 0.0;
+    for (const double value : velocity) {
+      fastest = std::max(fastest, std::abs(value));
+    }
+    // The cubic's steepest descent is 3/2 of the mean.
+    duration_ = std::clamp(1.5 * fastest / deceleration, kLeastDuration, kGreatestDuration);
+  }
+
+  /// @param time since the beginning [s]; after `duration` the velocities are zero
+  Values velocity(double time) const {
+    Values values{};
+    const double s = std::max(time, 0.0) / duration_;
+    if (s >= 1.0) {
+      return values;
+    }
+    const double rest = 1.0 - s;
+    for (std::size_t i = 0; i < size; ++i) {
+      values[i] = rest * rest * ((1.0 + 2.0 * s) * velocity_[i] + s * duration_ * acceleration_[i]);
+    }
+    return values;
+  }
+
+  double duration() const { return duration_; }  ///< [s]
+
+ private:
+  static constexpr double kLeastDuration = 0.1;     // [s]
+  static constexpr double kGreatestDuration = 2.0;  // [s]
+
+  Values velocity_{};
+  Values acceleration_{};
+  double duration_{kLeastDuration};
+};
+
+/// The velocity and acceleration of the last of three samples.
+template <std::size_t size>
+class Differences {
+ public:
+  using Values = std::array<double, size>;
+
+  /// Forgets what was before. @param sample that stands still
+  void reset(const Values& sample) { samples_ = {sample, sample, sample}; }
+
+  void add(const Values& sample, double period) {
+    samples_ = {samples_[1], samples_[2], sample};
+    period_ = period;
+  }
+
+  const Values& last() const { return samples_[2]; }
+
+  Values first() const {
+    Values values{};
+    for (std::size_t i = 0; period_ > 0.0 && i < size; ++i) {
+      values[i] = (samples_[2][i] - samples_[1][i]) / period_;
+    }
+    return values;
+  }
+
+  Values second() const {
+    Values values{};
+    for (std::size_t i = 0; period_ > 0.0 && i < size; ++i) {
+      values[i] = (samples_[2][i] - 2.0 * samples_[1][i] + samples_[0][i]) / (period_ * period_);
+    }
+    return values;
+  }
+
+ private:
+  std::array<Values, 3> samples_{};
+  double period_{0.0};
+};
+
+}  // namespace franka_example_controllers

@@ -1,0 +1,32 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Leads the end effector along a circle in the plane of y and z, by its pose."""
+
+import numpy as np
+
+
+class CartesianCircle:
+    """Commands cartesian_pose. Parameters: radius [m], round_trip [s], and ramp [s] to reach that pace."""
+
+    def __init__(self, parameters):
+        self.radius = float(parameters.get("radius", 0.05))
+        self.speed = 2.0 * np.pi / float(parameters.get("round_trip", 6.0))  # [rad/s]
+        self.ramp = float(parameters.get("ramp", 2.0))
+
+    def starting(self, state, model):
+        self.begin = np.array(state.O_T_EE_d)
+        self.time = 0.0
+
+    def angle(self):
+        """Angle along the circle; its speed rises as a cosine, without a jump of acceleration."""
+        t = min(self.time, self.ramp)
+        risen = t / 2.0 - self.ramp / (2.0 * np.pi) * np.sin(np.pi * t / self.ramp)
+        return self.speed * (risen + self.time - t)
+
+    def update(self, state, model, period):
+        self.time += period
+        angle = self.angle()
+        pose = self.begin.copy()
+        pose[1, 3] += self.radius * (1.0 - np.cos(angle))
+        pose[2, 3] += self.radius * np.sin(angle)
+        return pose

@@ -1,0 +1,35 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A joint impedance by torques: the arm swings about where it started, led like a pendulum."""
+
+import numpy as np
+
+LARGEST_STEP = 1.0  # [Nm] in a cycle, as the robot demands it
+
+
+class JointImpedance:
+    """Commands effort. Parameters: k_gains [Nm/rad], d_gains [Nm s/rad], seven each; amplitude [rad] and
+    frequency [Hz] of the swing of the fourth joint."""
+
+    def __init__(self, parameters):
+        self.k = np.array(parameters["k_gains"], dtype=float)
+        self.d = np.array(parameters["d_gains"], dtype=float)
+        self.amplitude = float(parameters.get("amplitude", 0.1))
+        self.omega = 2.0 * np.pi * float(parameters.get("frequency", 0.2))
+
+    def starting(self, state, model):
+        self.begin = np.array(state.q)
+        self.time = 0.0
+
+    def target(self):
+        """Where the joints should be, and how fast, at rest in the beginning."""
+        q, dq = self.begin.copy(), np.zeros(7)
+        q[3] += self.amplitude / 2.0 * (1.0 - np.cos(self.omega * self.time))
+        dq[3] = self.amplitude / 2.0 * self.omega * np.sin(self.omega * self.time)
+        return q, dq
+
+    def update(self, state, model, period):
+        self.time += period
+        q, dq = self.target()
+        tau = self.k * (q - state.q) + self.d * (dq - state.dq) + model.coriolis()
+        return state.tau_J_d + np.clip(tau - state.tau_J_d, -LARGEST_STEP, LARGEST_STEP)

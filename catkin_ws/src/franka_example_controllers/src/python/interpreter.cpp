@@ -1,0 +1,73 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "interpreter.h"
+
+#include <dlfcn.h>
+
+#include <mutex>
+#include <stdexcept>
+
+namespace franka_example_controllers {
+
+namespace {
+
+namespace py = pybind11;
+
+// A script that does not let go is asked to after this time, so that others get their turn within a
+// cycle; Python's own 5 ms would delay them by five.
+constexpr double kSwitchInterval = 1e-4;  // [s]
+
+/// Keeps the library that holds an address until the process ends. Python's extension modules look
+/// for Python's symbols among the global ones, and Python keeps pointers to functions of ours.
+void keepLibraryOf(void* address, int flags) {
+  Dl_info info;
+  if (dladdr(address, &info) != 0) {
+    dlopen(info.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE | flags);
+  }
+}
+
+void start() {
+  PyConfig config;
+  PyConfig_InitPythonConfig(&config);
+  config.install_signal_handlers = 0;
+  config.parse_argv = 0;
+  // The interpreter that ROS runs, which need not be the first one on the path.
+  PyStatus status = PyConfig_SetBytesString(&config, &config.program_name, PYTHON_PROGRAM);
+  if (PyStatus_Exception(status) == 0) {
+    status = Py_InitializeFromConfig(&config);
+  }
+  PyConfig_Clear(&config);
+  if (PyStatus_Exception(status) != 0) {
+    throw std::runtime_error(std::string("Python could not start: ") +
+                             (status.err_msg != nullptr ? status.err_msg : "no reason given") +
+                             ".");
+  }
+  py::module_::import("sys").attr("setswitchinterval")(kSwitchInterval);
+  PyEval_SaveThread();
+}
+
+}  // namespace
+
+void ensureInterpreter() {
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (Py_IsInitialized() != 0) {
+    return;
+  }
+  keepLibraryOf(reinterpret_cast<void*>(&Py_InitializeFromConfig), RTLD_GLOBAL);
+  keepLibraryOf(reinterpret_cast<void*>(&ensureInterpreter), 0);
+  start();
+}
+
+std::string tracebackOf(const py::error_already_set& error) {
+  try {
+    const py::object trace = error.trace() ? py::object(error.trace()) : py::none();
+    const py::object lines = py::module_::import("traceback")
+                                 .attr("format_exception")(error.type(), error.value(), trace);
+    return py::str("").attr("join")(lines).attr("rstrip")().cast<std::string>();
+  } catch (const py::error_already_set&) {
+    return error.what();
+  }
+}
+
+}  // namespace franka_example_controllers
