@@ -32,13 +32,14 @@ class Person:
         self._address = (address, CONTROL_PORT)
 
     def does(self, line):
-        """One line a connection: the robot closes those that say nothing for a while."""
+        """@returns what follows `ok`. Connects for each line: the robot closes those that keep silent."""
         with socket.create_connection(self._address, 5.0) as connection, connection.makefile("rw") as stream:
             stream.write(line + "\n")
             stream.flush()
             answer = stream.readline().strip()
         if not answer.startswith("ok"):
             raise RuntimeError(f"{line}: {answer}")
+        return answer[3:]
 
 
 class Robot:
