@@ -45,7 +45,7 @@ SETTERS = {
     "set_load": SetLoad,
 }
 PUSH = [0.0, 0.0, -8.0]  # at the seventh link [N]
-PUSHED, BRIEFLY = 1000, 50  # [ms]
+PUSHED, LONG_PUSHED, BRIEFLY = 1000, 5000, 50  # [ms]
 WIDE = {"torque": [60.0] * 7, "force": [60.0] * 6}  # thresholds that nothing here reaches [Nm], [N, Nm]
 SOFT_JOINTS = [600.0] * 7  # [Nm/rad]
 SOFT_HAND = [800.0, 800.0, 800.0, 60.0, 60.0, 60.0]  # [N/m], [Nm/rad]
@@ -345,7 +345,7 @@ def tree(robot):
     return difference
 
 
-def pushed(robot, person, topics):
+def pushed(robot, person, topics, duration=PUSHED):
     """Pushes the arm; returns its state before, and one late in the push, when the arm has come to rest.
 
     Topics drop what a busy machine has no time for: when too much is missing, it is pushed once more.
@@ -354,14 +354,14 @@ def pushed(robot, person, topics):
     before = robot.state
     for _ in range(5):
         topics.forget()
-        person.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {PUSHED}")
-        over = robot.state.time + 1e-3 * PUSHED + 0.5
-        deadline = time.monotonic() + 4 * PATIENCE  # a second of a robot that waits for each answer
+        person.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {duration}")
+        over = robot.state.time + 1e-3 * duration + 0.5
+        deadline = time.monotonic() + 4 * PATIENCE  # the robot waits for each answer
         while robot.state.time < over and time.monotonic() < deadline:
             time.sleep(0.01)
         states = [s for _, s in sorted(topics.kept["franka_states"].items())]
         felt = [s for s in states if abs(s.O_F_ext_hat_K[2]) > 0.8 * abs(PUSH[2])]
-        late = [s for s in felt if s.time - felt[0].time > 0.6e-3 * PUSHED]
+        late = [s for s in felt if s.time - felt[0].time > 0.6e-3 * duration]
         if late:
             return before, late[-1]
     raise RuntimeError(f"Too few states were published under a push: {len(felt)} of {len(states)}.")
@@ -408,7 +408,7 @@ def soft_hand(robot, person, services, topics):
         ]
     }
     report["started"] = services.switch([CONTROLLER])
-    before, last = pushed(robot, person, topics)
+    before, last = pushed(robot, person, topics, LONG_PUSHED)  # the null space comes to rest slowly
     moved = np.array(last.O_T_EE[12:15]) - np.array(before.O_T_EE_d[12:15])
     report["gives"] = (moved / (PUSH[2] / SOFT_HAND[2])).tolist()
     report["contacts"] = [any(last.cartesian_contact), any(last.joint_contact)]

@@ -3,15 +3,12 @@
 """franka_combined_control.launch as a user starts it: torques for all arms, one of which hits something."""
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
+from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"))
-
-from franka_sim_mujoco.session import Session  # noqa: E402
 
 SUCCEEDED, IDLE = 3, 1
 ARMS = {"panda_1": "127.0.7.5", "panda_2": "127.0.7.6"}

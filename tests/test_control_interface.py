@@ -7,16 +7,10 @@ repeats.
 """
 
 import struct
-import sys
-from pathlib import Path
 
 import pytest
-
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE / "support")]
-
-from fci_session import go_first, go_with_all, simulated  # noqa: E402
-from fci_wire import (  # noqa: E402
+from fci_session import go_first, go_with_all, simulated
+from fci_wire import (
     COMMUNICATION,
     IDLE,
     JOINT_IMPEDANCE,

@@ -3,18 +3,14 @@
 """franka_control_node as it stands between users and a robot: each service, each topic, each report."""
 
 import json
-import sys
 import xmlrpc.client
 from pathlib import Path
 
 import pytest
+from fci_session import go_first, simulated
+from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"))
-sys.path.insert(0, str(HERE / "support"))
-
-from fci_session import go_first, simulated  # noqa: E402
-from franka_sim_mujoco.session import Session  # noqa: E402
 
 SUCCEEDED, IDLE, MOVE = 3, 1, 2
 OK, ERROR = 0, 2  # levels of diagnostics

@@ -11,17 +11,11 @@ import math
 import os
 import random
 import struct
-import sys
 import time
-from pathlib import Path
 
 import pytest
-
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE / "support")]
-
-from fci_session import go_first, go_with_all, simulated  # noqa: E402
-from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, Client, command  # noqa: E402
+from fci_session import go_first, go_with_all, simulated
+from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, Client, command
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 RUNS = 100 if LONG else 5

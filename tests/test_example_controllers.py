@@ -3,16 +3,13 @@
 """Every single-arm example controller on franka_control_node and a simulated robot, Panda and FR3."""
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
+from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent / "catkin_ws/src"
-sys.path.insert(0, str(SOURCE / "franka_sim_mujoco/src"))
-
-from franka_sim_mujoco.session import Session  # noqa: E402
 
 IDLE, MOVE = 1, 2
 # What moves while it runs [rad], at least; None: it only looks, or holds the arm where it is.

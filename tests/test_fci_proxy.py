@@ -2,12 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The bad network itself: it does what it says, and the same for the same seed."""
 
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
-
-from fci_proxy import (  # noqa: E402
+from fci_proxy import (
     Channel,
     bursts,
     delaying,

@@ -4,15 +4,9 @@
 hour, of the robot's time in lock-step."""
 
 import os
-import sys
-from pathlib import Path
 
 import pytest
-
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE / "support")]
-
-from fci_session import client_process, simulated  # noqa: E402
+from fci_session import client_process, simulated
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 MINUTES = 60 if LONG else 1

@@ -7,15 +7,13 @@ an environment of its own without Debian's packages (decision 33), made once in 
 """
 
 import json
-import os
-import select
 import socket
 import subprocess
 import time
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from fci_session import running
 
 TOP = Path(__file__).resolve().parent.parent
 CLIENTS = Path(__file__).resolve().parent / "support" / "genuine"
@@ -43,36 +41,6 @@ def client_python(name: str) -> Path:
     return python
 
 
-def simulator() -> Path:
-    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
-        program = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
-        if program.exists():
-            return program
-    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
-
-
-@contextmanager
-def simulated(*arguments):
-    """A simulated robot that has opened its ports."""
-    process = subprocess.Popen(
-        [str(simulator()), *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
-    try:
-        ready, _, _ = select.select([process.stdout], [], [], 30)
-        line = process.stdout.readline() if ready else ""
-        assert "waits for clients" in line, line + (process.stdout.read() if process.poll() else "")
-        yield process
-        assert process.poll() is None, "The simulation has ended by itself: " + process.stdout.read()
-    finally:
-        process.terminate()
-        try:
-            process.wait(10)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-            pytest.fail("The simulation did not end when it was told to.")
-
-
 def run_session(client: str, script: str, address: str) -> dict:
     result = subprocess.run(
         [client_python(client), CLIENTS / script, address], capture_output=True, text=True, timeout=120
@@ -86,7 +54,7 @@ def panda(request, tmp_path_factory):
     world = tmp_path_factory.mktemp("world") / "block.xml"
     world.write_text(FLOOR.format(height=0.3))
     address = "127.0.21.1" if request.param == "lockstep" else "127.0.21.2"
-    with simulated("--robot", "panda", "--ip", address, "--pace", request.param, "--world", str(world)):
+    with running("--robot", "panda", "--ip", address, "--pace", request.param, "--world", str(world)):
         seen = run_session("panda", "panda_client.py", address)
     seen["pace"] = request.param
     return seen
@@ -95,7 +63,7 @@ def panda(request, tmp_path_factory):
 @pytest.fixture(scope="module", params=["lockstep", "realtime"])
 def fr3(request):
     address = "127.0.21.3" if request.param == "lockstep" else "127.0.21.4"
-    with simulated("--robot", "fr3", "--ip", address, "--pace", request.param):
+    with running("--robot", "fr3", "--ip", address, "--pace", request.param):
         seen = run_session("pylibfranka", "pylibfranka_client.py", address)
     seen["pace"] = request.param
     return seen
@@ -203,7 +171,7 @@ def test_fr3_gripper(fr3):
 
 
 def test_versions_are_told_apart():
-    with simulated("--robot", "panda", "--ip", "127.0.21.5"):
+    with running("--robot", "panda", "--ip", "127.0.21.5"):
         result = subprocess.run(
             [client_python("pylibfranka"), CLIENTS / "pylibfranka_client.py", "127.0.21.5"],
             capture_output=True,
@@ -244,7 +212,7 @@ except Exception as error:
     print(error, flush=True)
 """
     address = "127.0.21.7"
-    with simulated("--robot", "panda", "--ip", address, "--pace", "lockstep"):
+    with running("--robot", "panda", "--ip", address, "--pace", "lockstep"):
         client = subprocess.Popen(
             [client_python("panda"), "-c", script, address], stdout=subprocess.PIPE, text=True
         )
@@ -281,7 +249,7 @@ robot.set_load(0.0, [0.0] * 3, [0.0] * 9)
     address = "127.0.21.8"
     hashes = []
     stone = ["--world", "stone.xml", "--base", "-0.5,0,0"]
-    with simulated("--robot", "panda", "--ip", address, "--pace", "lockstep", *stone):
+    with running("--robot", "panda", "--ip", address, "--pace", "lockstep", *stone):
         for _ in range(3):
             assert ask(address, "reset") == "ok"
             done = subprocess.run(
@@ -315,7 +283,7 @@ robot.automatic_error_recovery()
 print(robot.read_once().robot_mode)
 """
     python = client_python("panda")
-    with simulated("--robot", "panda", "--ip", "127.0.21.6"):
+    with running("--robot", "panda", "--ip", "127.0.21.6"):
         killed = subprocess.run([python, "-c", script, "127.0.21.6"], timeout=60)
         assert killed.returncode == -9
         deadline = time.monotonic() + 10

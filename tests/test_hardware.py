@@ -3,15 +3,12 @@
 """franka_control.launch as a user starts it, against a simulated robot over the control interface."""
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
+from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"))
-
-from franka_sim_mujoco.session import Session  # noqa: E402
 
 SUCCEEDED, ABORTED = 3, 4
 IDLE, MOVE = 1, 2

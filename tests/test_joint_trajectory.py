@@ -3,15 +3,12 @@
 """Trajectories on the simulated Panda with torques, positions and velocities, as MoveIt would send them."""
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
+from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"))
-
-from franka_sim_mujoco.session import Session  # noqa: E402
 
 CONTROLLER = "effort_joint_trajectory_controller"
 OTHERS = ["position_joint_trajectory_controller", "velocity_joint_trajectory_controller"]

@@ -16,14 +16,9 @@ import struct
 import sys
 import time
 from contextlib import ExitStack
-from pathlib import Path
 
 import pytest
-
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE / "support")]
-
-from fci_proxy import (  # noqa: E402
+from fci_proxy import (
     Proxy,
     bursts,
     delaying,
@@ -36,8 +31,8 @@ from fci_proxy import (  # noqa: E402
     stalling,
     truncated,
 )
-from fci_session import client_process, simulated  # noqa: E402
-from fci_wire import (  # noqa: E402
+from fci_session import client_process, simulated
+from fci_wire import (
     COMMUNICATION,
     CONNECT,
     EXTERNAL,
@@ -52,7 +47,7 @@ from fci_wire import (  # noqa: E402
     command,
     move_request,
 )
-from test_genuine_clients import client_python  # noqa: E402
+from test_genuine_clients import client_python
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 PACE = 0.25

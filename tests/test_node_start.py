@@ -5,21 +5,14 @@
 import os
 import signal
 import socket
-import sys
 import threading
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
+import ros_nodes
 import yaml
-
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"))
-sys.path.insert(0, str(HERE / "support"))
-
-import ros_nodes  # noqa: E402
-from fci_session import simulated  # noqa: E402
-from fci_wire import CONNECT, HEADER, PORT  # noqa: E402
+from fci_session import simulated
+from fci_wire import CONNECT, HEADER, PORT
 
 ADDRESS, OTHER, SILENT, ODD, NOBODY = (f"127.0.32.{i}" for i in range(1, 6))
 IN_TIME = 2.0  # to end after an interruption [s]

@@ -10,65 +10,12 @@ import time
 from pathlib import Path
 
 import pytest
-from franka_sim_mujoco.session import free_port
+from overlay import Overlay
 
 TOP = Path(__file__).resolve().parent.parent
 PACKAGE = TOP / "tests" / "out_of_tree" / "my_arm"
 AWAY = 0.1  # [rad], as in the launch file
 BEGIN = -2.356194490192345  # of the fourth joint [rad]
-
-
-class Overlay:
-    """A workspace of the package alone, on top of a space of ours."""
-
-    def __init__(self, underlay: Path, folder: Path):
-        self.underlay = underlay
-        self.folder = folder
-        self.environment = {
-            "HOME": str(folder),
-            "PATH": "/usr/bin:/bin",
-            "LANG": "C.UTF-8",
-            "ROS_HOSTNAME": "localhost",
-            "ROS_MASTER_URI": f"http://localhost:{free_port()}",
-            "ROS_HOME": str(folder),
-        }
-        if "CCACHE_DIR" in os.environ:
-            self.environment["CCACHE_DIR"] = os.environ["CCACHE_DIR"]
-
-    def shell(self, command: str, setup: Path, timeout: float) -> subprocess.CompletedProcess:
-        return subprocess.run(
-            ["bash", "-c", f"source {setup}/setup.bash && {command}"],
-            env=self.environment,
-            text=True,
-            capture_output=True,
-            timeout=timeout,
-            stdin=subprocess.DEVNULL,
-        )
-
-    def build(self) -> None:
-        command = (
-            f"cmake -S {PACKAGE} -B {self.folder}/build -DCATKIN_DEVEL_PREFIX={self.folder}/devel "
-            "-DCMAKE_CXX_FLAGS='-O0 -Wall -Wextra -Werror' -DPYTHON_EXECUTABLE=/usr/bin/python3 "
-            f"&& make -C {self.folder}/build -j2"
-        )
-        result = self.shell(command, self.underlay, timeout=600)
-        assert result.returncode == 0, (result.stdout + result.stderr)[-4000:]
-
-    def run(self, command: str, timeout: float = 60) -> str:
-        result = self.shell(command, self.folder / "devel", timeout)
-        assert result.returncode == 0, result.stdout + result.stderr
-        return result.stdout
-
-    def start(self, command: str, log: Path) -> subprocess.Popen:
-        with log.open("w") as out:
-            return subprocess.Popen(
-                ["bash", "-c", f"source {self.folder}/devel/setup.bash && exec {command}"],
-                env=self.environment,
-                stdout=out,
-                stderr=subprocess.STDOUT,
-                stdin=subprocess.DEVNULL,
-                start_new_session=True,
-            )
 
 
 def end(process: subprocess.Popen) -> None:
@@ -100,7 +47,7 @@ def where(overlay: Overlay, launch: subprocess.Popen, log: Path) -> tuple[str, i
 @pytest.mark.parametrize("space", ["devel", "install"])
 def test_package_builds_and_runs(space, tmp_path, request):
     underlay = TOP / "catkin_ws" / "devel" if space == "devel" else request.getfixturevalue("installed")
-    overlay = Overlay(underlay, tmp_path)
+    overlay = Overlay(underlay, PACKAGE, tmp_path)
     overlay.build()
     address = "127.0.41.1" if space == "devel" else "127.0.41.2"
     simulator = f"$(catkin_find --first-only --libexec franka_sim_mujoco franka_sim) --ip {address}"

@@ -3,16 +3,13 @@
 """A controller on franka_control_node survives reflexes and the user stop, ten times in a row and more."""
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
+from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent / "catkin_ws/src"
-sys.path.insert(0, str(SOURCE / "franka_sim_mujoco/src"))
-
-from franka_sim_mujoco.session import Session  # noqa: E402
 
 PREEMPTED, SUCCEEDED, ABORTED, RECALLED = 2, 3, 4, 8
 ADDRESS = "127.0.7.3"

@@ -4,16 +4,13 @@
 
 import json
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent / "catkin_ws/src"
-sys.path.insert(0, str(SOURCE / "franka_sim_mujoco/src"))
-
-from franka_sim_mujoco.session import Session  # noqa: E402
 
 SUCCEEDED = 3
 ADDRESS = "127.0.7.4"

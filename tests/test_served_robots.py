@@ -3,16 +3,13 @@
 """Robots of a ROS world that are served over the FCI at addresses of their own, beside one that is not."""
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
+from fci_wire import COMMUNICATION, IDLE, LAYOUTS, REFLEX
+from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"), str(HERE / "support")]
-
-from fci_wire import COMMUNICATION, IDLE, LAYOUTS, REFLEX  # noqa: E402
-from franka_sim_mujoco.session import Session  # noqa: E402
 
 VERSIONS = {"panda": 5, "fr3": 10}
 READY = [0, -0.785398163, 0, -2.35619449, 0, 1.57079632679, 0.785398163397]

@@ -3,13 +3,11 @@
 """The two-arm examples by their launch files, each on two simulated robots."""
 
 import json
-import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "catkin_ws/src/franka_sim_mujoco/src"))
+from franka_sim_mujoco.session import Session
 
-from franka_sim_mujoco.session import Session  # noqa: E402
+HERE = Path(__file__).resolve().parent
 
 
 def outcome_of(tmp_path, launch, client):

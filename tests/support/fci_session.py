@@ -80,14 +80,21 @@ class Simulation:
 
 
 @contextmanager
-def simulated(robot: str, address: str, pace: str, *arguments: str):
-    """Yields a robot that has opened its ports; fails when it ends by itself or will not end."""
-    process = start("--robot", robot, "--ip", address, "--pace", pace, *arguments)
+def running(*arguments: str):
+    """Yields a franka_sim that has opened its ports; fails when it ends by itself or will not end."""
+    process = start(*arguments)
     try:
-        yield Simulation(process, robot, address)
+        yield process
         assert process.poll() is None, "The simulation has ended by itself: " + process.stdout.read()
     finally:
         stop(process)
+
+
+@contextmanager
+def simulated(robot: str, address: str, pace: str, *arguments: str):
+    """The same for one robot."""
+    with running("--robot", robot, "--ip", address, "--pace", pace, *arguments) as process:
+        yield Simulation(process, robot, address)
 
 
 def go_first(pid: int = 0) -> None:

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """franka_sim as a person meets it: its command line, and the control interface of one line a command."""
 
-import os
-import select
 import socket
 import subprocess
 import time
@@ -11,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from fci_session import program, start, stop
 
 ROBOTS = Path(__file__).resolve().parents[1] / "robots"
 
@@ -21,14 +20,6 @@ WORLD = """<mujoco><worldbody>
 </worldbody></mujoco>"""
 
 
-def program() -> str:
-    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
-        found = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
-        if found.exists():
-            return str(found)
-    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
-
-
 def run(*arguments):
     return subprocess.run([program(), *arguments], capture_output=True, text=True, timeout=30)
 
@@ -36,13 +27,8 @@ def run(*arguments):
 @contextmanager
 def simulated(address, *arguments):
     """A robot, and a function that sends it a line and returns the answer."""
-    process = subprocess.Popen(
-        [program(), "--ip", address, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
+    process = start("--ip", address, *arguments)
     try:
-        ready, _, _ = select.select([process.stdout], [], [], 30)
-        line = process.stdout.readline() if ready else ""
-        assert "waits for clients" in line, line
         with socket.create_connection((address, 1340), timeout=20) as connection:
             stream = connection.makefile("rw", newline="\n")
 
@@ -53,13 +39,8 @@ def simulated(address, *arguments):
 
             yield say, process
     finally:
-        process.terminate()
-        try:
-            assert process.wait(10) == 0
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-            raise
+        stop(process)
+        assert process.returncode == 0
 
 
 def test_help_names_every_option():

@@ -1,0 +1,63 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A package outside of this repository, built and run on top of it with nothing else in the environment."""
+
+import os
+import subprocess
+from pathlib import Path
+
+from franka_sim_mujoco.session import free_port
+
+
+class Overlay:
+    """A workspace of a package alone, on top of a space of ours."""
+
+    def __init__(self, underlay: Path, package: Path, folder: Path):
+        self.underlay = underlay
+        self.package = package
+        self.folder = folder
+        self.environment = {
+            "HOME": str(folder),
+            "PATH": "/usr/bin:/bin",
+            "LANG": "C.UTF-8",
+            "ROS_HOSTNAME": "localhost",
+            "ROS_MASTER_URI": f"http://localhost:{free_port()}",
+            "ROS_HOME": str(folder),
+        }
+        if "CCACHE_DIR" in os.environ:
+            self.environment["CCACHE_DIR"] = os.environ["CCACHE_DIR"]
+
+    def shell(self, command: str, setup: Path, timeout: float) -> subprocess.CompletedProcess:
+        return subprocess.run(
+            ["bash", "-c", f"source {setup}/setup.bash && {command}"],
+            env=self.environment,
+            text=True,
+            capture_output=True,
+            timeout=timeout,
+            stdin=subprocess.DEVNULL,
+        )
+
+    def build(self) -> None:
+        command = (
+            f"cmake -S {self.package} -B {self.folder}/build -DCATKIN_DEVEL_PREFIX={self.folder}/devel "
+            "-DCMAKE_CXX_FLAGS='-O0 -Wall -Wextra -Werror' -DPYTHON_EXECUTABLE=/usr/bin/python3 "
+            f"&& make -C {self.folder}/build -j2"
+        )
+        result = self.shell(command, self.underlay, timeout=600)
+        assert result.returncode == 0, (result.stdout + result.stderr)[-4000:]
+
+    def run(self, command: str, timeout: float = 60) -> str:
+        result = self.shell(command, self.folder / "devel", timeout)
+        assert result.returncode == 0, result.stdout + result.stderr
+        return result.stdout
+
+    def start(self, command: str, log: Path) -> subprocess.Popen:
+        with log.open("w") as out:
+            return subprocess.Popen(
+                ["bash", "-c", f"source {self.folder}/devel/setup.bash && exec {command}"],
+                env=self.environment,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                stdin=subprocess.DEVNULL,
+                start_new_session=True,
+            )

@@ -1,0 +1,50 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A package that new_controller creates builds, loads, and its rostest passes; what cannot be is refused."""
+
+import os
+from pathlib import Path
+
+import pytest
+from overlay import Overlay
+
+DEVEL = Path(__file__).resolve().parent.parent / "catkin_ws" / "devel"
+NEW = "rosrun franka_example_controllers new_controller"
+
+PACKAGES = {
+    "my_pose_and_torque": "MyController --interfaces cartesian_pose effort",
+    "my_script": "MyLaw --interfaces joint_velocity --python",
+}
+if os.environ.get("FRANKA_TEST_LONG"):
+    PACKAGES["my_torques"] = "MyTorques --interfaces effort"
+    PACKAGES["my_velocities"] = "MyVelocities --interfaces joint_velocity"
+    PACKAGES["my_torque_script"] = "MyTorqueLaw --interfaces effort --python"
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_package_builds_and_its_test_passes(name, tmp_path):
+    overlay = Overlay(DEVEL, tmp_path / name, tmp_path)
+    created = overlay.shell(f"{NEW} {name} {PACKAGES[name]} --folder {tmp_path}", DEVEL, 60)
+    assert created.returncode == 0, created.stderr
+    overlay.build()
+    (test,) = (tmp_path / name / "test").glob("*.test")
+    result = overlay.shell(f"rostest --text {name} {test.name}", tmp_path / "devel", 300)
+    assert result.returncode == 0, result.stdout[-4000:] + result.stderr[-2000:]
+
+
+@pytest.mark.parametrize(
+    "arguments, why",
+    [
+        ("two MyController --interfaces joint_position joint_velocity", "one motion"),
+        ("Bad-Name MyController --interfaces effort", "package"),
+        ("fine notAClass! --interfaces effort", "class"),
+        ("fine MyController --interfaces hover", "hover"),
+    ],
+)
+def test_what_cannot_be_is_refused(arguments, why, tmp_path):
+    overlay = Overlay(DEVEL, tmp_path / "none", tmp_path)
+    result = overlay.shell(f"{NEW} {arguments} --folder {tmp_path}", DEVEL, 60)
+    assert result.returncode != 0
+    assert why in result.stderr.lower(), result.stderr
+    assert "Traceback" not in result.stderr
+    assert not list(tmp_path.glob("*/package.xml"))
