@@ -118,9 +118,8 @@ def test_cartesian_impedance_takes_effect(report):
     soft = report["soft_hand"]
     assert soft["set"] == [True, True] and soft["started"] and soft["stopped"]
     x, y, z = soft["gives"]  # the hand's way over F / K
-    # The arm's null space, which still gives way slowly, pulls a little, most across the push.
-    assert z == pytest.approx(1.0, rel=0.03)
-    assert abs(x) < 0.1 and abs(y) < 0.1
+    assert z == pytest.approx(1.0, abs=0.01)
+    assert abs(x) < 0.01 and abs(y) < 0.01
 
 
 def test_all_thresholds_take_effect(report):
