@@ -27,7 +27,7 @@ class PythonControllersTest(unittest.TestCase):
     def setUpClass(cls):
         cls.states, cls.errors = [], []
         rospy.Subscriber("/franka_state_controller/franka_states", FrankaState, cls.states.append)
-        rospy.Subscriber("/rosout_agg", Log, lambda m: m.level >= Log.ERROR and cls.errors.append(m.msg))
+        rospy.Subscriber("/rosout", Log, lambda m: m.level >= Log.ERROR and cls.errors.append(m.msg))
         rospy.wait_for_service("/controller_manager/list_controllers", LIMIT)
         cls.list = rospy.ServiceProxy("/controller_manager/list_controllers", ListControllers)
         cls.load = rospy.ServiceProxy("/controller_manager/load_controller", LoadController)
