@@ -6,33 +6,100 @@ import json
 from pathlib import Path
 
 import pytest
+import yaml
 from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
 
 SUCCEEDED, IDLE = 3, 1
-ARMS = {"panda_1": "127.0.7.5", "panda_2": "127.0.7.6"}
+ROBOTS = [("panda", 2), ("fr3", 2), ("panda", 4)]
+CONFIG = HERE.parent / "catkin_ws/src/franka_control/config"
+
+# Arms side by side, for any number of them.
+DESCRIPTION = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="arms">
+  <xacro:include filename="$(find franka_description)/robots/common/franka_arm.xacro" />
+  <xacro:property name="limits"
+    value="${{xacro.load_yaml('$(find franka_description)/robots/{robot}/joint_limits.yaml')}}" />
+  <link name="base" />{arms}
+</robot>"""
+ONE_ARM = """
+  <xacro:franka_arm arm_id="{arm}" connected_to="base" xyz="0 {place} 0" joint_limits="${{limits}}" />"""
 
 
-@pytest.fixture(scope="module")
-def report(tmp_path_factory):
-    log = tmp_path_factory.mktemp("combined") / "launch.log"
-    addresses = ", ".join(f"{arm}/robot_ip: {address}" for arm, address in ARMS.items())
-    launch = ["franka_control", "franka_combined_control.launch", "sim:=true", f"robot_ips:={{{addresses}}}"]
-    with Session(*launch, log=log) as session:
+def arguments(robot, arms, folder):
+    """What the launch file is told; of two Pandas it knows all but where they are."""
+    addresses = ", ".join(f"{arm}/robot_ip: {address}" for arm, address in arms.items())
+    launch = [f"robot_ips:={{{addresses}}}", f"sim_robot:={robot}"]
+    if list(arms) == ["panda_1", "panda_2"]:
+        return launch
+    placed = "".join(ONE_ARM.format(arm=arm, place=place) for place, arm in enumerate(arms))
+    description = folder / "arms.urdf.xacro"
+    description.write_text(DESCRIPTION.format(robot=robot, arms=placed))
+    states = ", ".join(f"{arm}_state_controller/joint_states" for arm in arms)
+    return [
+        *launch,
+        f"robot:={description}",
+        f"hw_config_file:={for_arms('franka_combined_control_node.yaml', arms, folder)}",
+        f"controllers_file:={for_arms('default_combined_controllers.yaml', arms, folder)}",
+        "controllers_to_start:=" + " ".join(f"{arm}_state_controller" for arm in arms),
+        f"joint_states_source_list:=[{states}]",
+    ]
+
+
+def for_arms(name, arms, folder):
+    """A file for panda_1 and panda_2, rewritten for other arms: what it says of the first holds for all."""
+    merged = {}
+    for arm in arms:
+        merge(merged, yaml.safe_load(alone((CONFIG / name).read_text()).replace("panda_1", arm)))
+    path = folder / name
+    path.write_text(yaml.safe_dump(merged))
+    return path
+
+
+def alone(text):
+    """The file without what it says of panda_2."""
+
+    def first(value):
+        if isinstance(value, dict):
+            return {key: first(item) for key, item in value.items() if not key.startswith("panda_2")}
+        if isinstance(value, list):
+            return [item for item in value if not str(item).startswith("panda_2")]
+        return value
+
+    return yaml.safe_dump(first(yaml.safe_load(text)))
+
+
+def merge(into, more):
+    """Lists that both have are joined."""
+    for key, value in more.items():
+        if isinstance(value, dict):
+            merge(into.setdefault(key, {}), value)
+        elif isinstance(value, list):
+            into[key] = into.get(key, []) + value
+        else:
+            into[key] = value
+
+
+@pytest.fixture(scope="module", params=ROBOTS, ids=lambda p: f"{p[1]} {p[0]}")
+def report(request, tmp_path_factory):
+    robot, count = request.param
+    folder = tmp_path_factory.mktemp("combined")
+    arms = {f"{robot}_{i + 1}": f"127.0.7.{5 + i}" for i in range(count)}
+    launch = ["franka_control", "franka_combined_control.launch", "sim:=true"]
+    launch += arguments(robot, arms, folder)
+    with Session(*launch, log=folder / "launch.log") as session:
         session.wait_for_master()
         load = ["rosrun", "controller_manager", "controller_manager", "load"]
         session.environment["ROS_NAMESPACE"] = "combined_panda"
         loaded = session.run(*load, "effort_joint_trajectory_controller", check=False, timeout=90)
         assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
-        arms = [f"{arm}={address}" for arm, address in ARMS.items()]
-        client = session.run(
-            "/usr/bin/python3", str(HERE / "combined_client.py"), *arms, check=False, timeout=240
-        )
-        print(client.stdout, session.tail(80), sep="\n")
-        assert client.returncode == 0, f"{client}\n{session.tail(60)}"
+        client = ["/usr/bin/python3", str(HERE / "combined_client.py"), robot]
+        client += [f"{arm}={address}" for arm, address in arms.items()]
+        result = session.run(*client, check=False, timeout=240)
+        print(result.stdout, session.tail(80), sep="\n")
+        assert result.returncode == 0, f"{result}\n{session.tail(60)}"
         session.check()
-        return json.loads(client.stdout.strip().splitlines()[-1])
+        return json.loads(result.stdout.strip().splitlines()[-1])
 
 
 def test_one_controller_moves_all_arms(report):
@@ -42,7 +109,8 @@ def test_one_controller_moves_all_arms(report):
 
 def test_one_arm_recovers_and_the_others_keep_their_state(report):
     assert report["hit"]["reflex"]
-    assert report["hit"]["others"] == [[IDLE, True]]  # one controller moves all: they wait
+    # One controller moves all: they wait.
+    assert all(other == [IDLE, True] for other in report["hit"]["others"])
     assert report["recovered"] == SUCCEEDED
     assert report["moves_again"]
     for before, after in zip(report["hit"]["others_at"], report["others_at"]):

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """teleop_gripper_node between two hands that the test plays."""
 
+import os
 import subprocess
 import threading
 import time
@@ -87,7 +88,22 @@ class TeleopGripperTest(unittest.TestCase):
 
     def start(self, *arguments):
         command = ["rosrun", "franka_example_controllers", "teleop_gripper_node", *arguments]
-        self.node = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.node = subprocess.Popen(
+            command,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env=dict(os.environ, PYTHONUNBUFFERED="1"),
+        )
+
+    def wait_to_follow(self):
+        """Until the node says that it has seen how wide the leader's hand is and follows it."""
+        said = ""
+        for line in self.node.stdout:
+            said += line
+            if "follows the leader's" in line:
+                return
+        self.fail(f"The node has ended: {said}")
 
     def wait_for(self, condition, what):
         end = time.monotonic() + DEADLINE
@@ -104,6 +120,7 @@ class TeleopGripperTest(unittest.TestCase):
         self.start()
         self.wait_for(lambda: len(self.hands.orders) == 2, "Homing of both")
         self.assertEqual({"leader/homing", "follower/homing"}, set(self.hands.names()))
+        self.wait_to_follow()
         # The largest width is the one seen after homing, 0.08: grasps below 0.04, opens above 0.048.
         self.follow(0.039, 3, "A grasp")
         name, grasp = self.hands.orders[-1]

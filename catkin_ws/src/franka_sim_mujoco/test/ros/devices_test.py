@@ -79,6 +79,12 @@ class Joints:
         return publisher
 
 
+def masses():
+    """Of all that the lift carries, and its own [kg]."""
+    links = ElementTree.fromstring(rospy.get_param("robot_description")).iter("mass")
+    return [float(mass.get("value")) for mass in links]
+
+
 class DevicesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -109,14 +115,20 @@ class DevicesTest(unittest.TestCase):
         self.assertAlmostEqual(max(speeds), 0.2, delta=1e-3)  # the URDF's limit
         base = call("/gazebo/get_body_pose", GetBodyPose, body="panda_link0").pose
         self.assertAlmostEqual(base.position.z, 0.2 + 0.3, delta=2e-4)
+        # The lift starts and stops with a jerk, for which the joints, held by springs, give way: by no more
+        # than takes up the energy of the whole load at that speed. Then they stand where they stood.
+        weakest = 2000.0  # [Nm/rad], of the joints' default stiffness
+        gives = np.sqrt(sum(masses()) * max(speeds) ** 2 / weakest)
         for state in self.arm[self.arm.index(before) :]:
-            self.assertLess(np.abs(np.array(state.q) - before.q).max(), 5e-3)
+            self.assertLess(np.abs(np.array(state.q) - before.q).max(), gives)
             self.assertEqual(state.current_errors, type(state.current_errors)())
+        self.robot.when(
+            lambda _: np.abs(np.array(self.arm[-1].q) - before.q).max() < 1e-3, "The arm to stand again"
+        )
 
     def test_the_lift_carries_the_weight_of_all_above(self):
         self.lift_to(0.3)
-        masses = ElementTree.fromstring(rospy.get_param("robot_description")).iter("mass")
-        weight = 9.81 * sum(float(mass.get("value")) for mass in masses)
+        weight = 9.81 * sum(masses())
         states = self.robot.when(
             lambda state: (
                 max(abs(value[1]) for value in state.values()) < 1e-3 and abs(state["lift"][2] - weight) < 0.5
