@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from fci_session import running
+from stalls import in_time
 
 TOP = Path(__file__).resolve().parent.parent
 CLIENTS = Path(__file__).resolve().parent / "support" / "genuine"
@@ -49,24 +50,32 @@ def run_session(client: str, script: str, address: str) -> dict:
     return json.loads(result.stdout.splitlines()[-1])
 
 
+def moves(seen: dict) -> bool:
+    return all(motion["outcome"] == "ok" for motion in seen["motions"].values())
+
+
 @pytest.fixture(scope="module", params=["lockstep", "realtime"])
 def panda(request, tmp_path_factory):
     world = tmp_path_factory.mktemp("world") / "block.xml"
     world.write_text(FLOOR.format(height=0.3))
     address = "127.0.21.1" if request.param == "lockstep" else "127.0.21.2"
-    with running("--robot", "panda", "--ip", address, "--pace", request.param, "--world", str(world)):
-        seen = run_session("panda", "panda_client.py", address)
-    seen["pace"] = request.param
-    return seen
+
+    def attempt():
+        with running("--robot", "panda", "--ip", address, "--pace", request.param, "--world", str(world)):
+            return run_session("panda", "panda_client.py", address)
+
+    return dict(in_time(attempt, moves), pace=request.param)
 
 
 @pytest.fixture(scope="module", params=["lockstep", "realtime"])
 def fr3(request):
     address = "127.0.21.3" if request.param == "lockstep" else "127.0.21.4"
-    with running("--robot", "fr3", "--ip", address, "--pace", request.param):
-        seen = run_session("pylibfranka", "pylibfranka_client.py", address)
-    seen["pace"] = request.param
-    return seen
+
+    def attempt():
+        with running("--robot", "fr3", "--ip", address, "--pace", request.param):
+            return run_session("pylibfranka", "pylibfranka_client.py", address)
+
+    return dict(in_time(attempt, moves), pace=request.param)
 
 
 def tolerance(seen) -> float:
