@@ -1,0 +1,94 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the example controllers lead an arm along, by their description, over time.
+
+Times `t` are seconds since a controller's start (n,). Poses are those of the end effector in the base (4, 4).
+"""
+
+import numpy as np
+
+
+def joint_position(t, start):
+    """Joint positions (n, 7) [rad]; the fifth joint goes the other way."""
+    swing = 0.2 * np.pi / 16 * (1 - np.cos(np.pi * t / 5))
+    return start + swing[:, None] * np.array([1, 1, 1, 1, -1, 1, 1])
+
+
+def there_and_back(t, period, highest):
+    """The integral of highest / 2 (1 - cos(2 pi t / period)), which every other period goes back."""
+    number, rest = np.divmod(t, period)
+    way = highest / 2 * (rest - period / (2 * np.pi) * np.sin(2 * np.pi * rest / period))
+    return np.where(number % 2 == 0, way, highest / 2 * period - way)
+
+
+def joint_velocity(t, start):
+    """Joint positions (n, 7) [rad] to which the commanded velocities lead."""
+    return start + there_and_back(t, 8.0, 0.1)[:, None] * np.ones(7)
+
+
+def shifted(start, x, y, z):
+    poses = np.repeat(start[None], len(x), axis=0)
+    poses[:, :3, 3] += np.stack([x, y, z], axis=1)
+    return poses
+
+
+def cartesian_pose(t, start):
+    """Poses (n, 4, 4) [m]"""
+    angle = np.pi / 4 * (1 - np.cos(np.pi * t / 5))
+    return shifted(start, -0.15 * np.sin(angle), 0 * t, -0.15 * (np.cos(angle) - 1))
+
+
+def cartesian_velocity(t, start):
+    """Poses (n, 4, 4) [m] to which the commanded velocities lead."""
+    way = there_and_back(t, 4.0, 0.05)
+    return shifted(start, way * np.cos(np.pi / 4), 0 * t, -way * np.sin(np.pi / 4))
+
+
+def elbow(t, start):
+    """Position of the third joint (n,) [rad]"""
+    return start + np.pi / 10 * (1 - np.cos(np.pi * t / 5))
+
+
+def joint_impedance(t, start, radius=0.1, highest=0.15, acceleration_time=2.0):
+    """Poses (n, 4, 4) [m] on a circle that begins with a steady acceleration."""
+    gaining = np.minimum(t, acceleration_time)
+    angle = highest * (gaining**2 / (2 * acceleration_time) + (t - gaining)) / radius
+    return shifted(start, 0 * t, radius * (1 - np.cos(angle)), radius * np.sin(angle))
+
+
+def joint_impedance_torques(error, error_rate):
+    """(n, 7) [Nm] beside the Coriolis torques, of what is left of q_d and dq_d [rad], [rad/s]."""
+    k_gains = np.array([600.0, 600.0, 600.0, 600.0, 250.0, 150.0, 50.0])
+    d_gains = np.array([50.0, 50.0, 50.0, 20.0, 20.0, 20.0, 10.0])
+    return k_gains * error + d_gains * error_rate
+
+
+def cartesian_impedance_torques(J, pose, wanted, q, dq, q_nullspace, stiffness, nullspace_stiffness):
+    """(7,) [Nm] beside the Coriolis torques, once the gains have come up.
+
+    @param J (6, 7); pose, wanted (4, 4); stiffness its two, [N/m] and [Nm/rad]
+    """
+    turn = turn_of(pose[:3, :3].T @ wanted[:3, :3])
+    error = np.concatenate([wanted[:3, 3] - pose[:3, 3], pose[:3, :3] @ turn])
+    gains = np.repeat(stiffness, 3)
+    wrench = gains * error - 2 * np.sqrt(gains) * (J @ dq)
+    own = nullspace_stiffness * (q_nullspace - q) - 2 * np.sqrt(nullspace_stiffness) * dq
+    return J.T @ (wrench - np.linalg.pinv(J.T) @ own) + own
+
+
+def turn_of(rotation):
+    """Vector part of the quaternion: the axis times the sine of half the angle."""
+    cosine = np.sqrt(max(0.0, 1 + np.trace(rotation))) / 2
+    skew = rotation - rotation.T
+    return np.array([skew[2, 1], skew[0, 2], skew[1, 0]]) / (4 * cosine)
+
+
+def begin_of(times, wanted, formula, earliest, latest):
+    """When a controller began: the time for which what was wanted is what its formula says, to 0.1 ms.
+
+    @param times (n,) of the states [s]; wanted (n, ...) what they say was wanted
+    @param formula of times (n,) since the begin, constant before it
+    """
+    candidates = np.arange(earliest, latest, 1e-4)
+    deviations = [np.abs(formula(np.maximum(times - begin, 0.0)) - wanted).max() for begin in candidates]
+    return candidates[int(np.argmin(deviations))]

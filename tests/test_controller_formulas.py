@@ -1,0 +1,201 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every example controller of one arm in FrankaHWSim, held against its formula; stopped and started again."""
+
+import json
+from functools import partial
+from pathlib import Path
+from types import SimpleNamespace
+
+import controller_formulas as formulas
+import numpy as np
+import pytest
+import rigid_arm
+from franka_sim_mujoco.session import Session
+
+HERE = Path(__file__).resolve().parent
+CONFIG = HERE.parent / "catkin_ws/src/franka_example_controllers/config/franka_example_controllers.yaml"
+
+MOVE = 2
+JOINT_ERROR, POSE_ERROR = 1e-3, 5e-4  # [rad], [m] of what is measured
+WANTED_ERROR = 1e-5  # [rad] or [m] of what is wanted
+FORCE_ERROR = 0.05  # share of the largest
+RECORDS_A_SECOND = 30
+PERIOD = 0.035  # [s] between two recorded states, at the longest
+LAG = 0.01  # [s] of the 100 Hz filter between a controller and the robot, several times
+STIFFNESS, NULLSPACE_STIFFNESS = (200.0, 10.0), 0.5  # compliance_param.cfg
+PUSH = np.array([0.0, 4.0, 0.0])  # [N] the client's
+ROTOR_INERTIA = 0.1 * np.eye(7)  # [kg m^2] physics.yaml
+GRAVITY = 9.81  # [m/s^2]
+MAY_JOIN = {"model", "cartesian_impedance", "force"}  # a motion of the joints: nothing, or torques
+
+
+@pytest.fixture(scope="module", params=["panda", "fr3"])
+def run(request, long_run, tmp_path_factory):
+    robot, folder = request.param, tmp_path_factory.mktemp("formulas")
+    seconds = ["30", "3"] if long_run or robot == "panda" else ["6", "3"]
+    parameters, recording = folder / "controllers.yaml", folder / "recording.npz"
+    parameters.write_text(CONFIG.read_text().replace("$(arg arm_id)", robot))
+    launch = ["franka_gazebo", f"{robot}.launch", "headless:=true", "real_time_factor:=0"]
+    with Session(*launch, log=folder / "launch.log") as session:
+        session.wait_for_master()
+        session.run("rosparam", "load", str(parameters))
+        command = ["/usr/bin/python3", str(HERE / "controller_formulas_client.py"), robot, str(recording)]
+        client = session.run(*command, *seconds, check=False, timeout=400)
+        print(client.stderr)
+        assert client.returncode == 0, f"{client.stderr}\n{session.tail(20)}"
+        session.check()
+    report = json.loads(client.stdout.strip().splitlines()[-1])
+    return SimpleNamespace(report=report, recording=np.load(recording))
+
+
+@pytest.fixture(params=[0, 1], ids=["first", "again"])
+def recorded(request, run):
+    """Recorded states of a controller's run, by its name."""
+    return lambda name: Run(run.recording, name, request.param)
+
+
+class Run:
+    """Each field an array over the states (n, ...), matrices as such."""
+
+    def __init__(self, recording, controller, number):
+        for key in recording.files:
+            prefix, _, field = key.rpartition("/")
+            if prefix == f"{controller}/{number}":
+                setattr(self, field, recording[key])
+        self.O_T_EE, self.O_T_EE_d = (as_poses(poses) for poses in (self.O_T_EE, self.O_T_EE_d))
+        self.elbow_d = self.elbow_d[:, 0]
+        assert self.flawless
+        self.moving = self.robot_mode == MOVE
+        load = rigid_arm.Body(
+            rigid_arm.FLANGE, self.m_total[0], self.F_x_Ctotal[0], self.I_total[0].reshape(3, 3)
+        )
+        self.bodies = rigid_arm.bodies(load)
+
+    def led_by(self, formula, field):
+        """What a formula says for each state, once the field of what is wanted has shown the begin."""
+        wanted = getattr(self, field)
+        formula = partial(formula, start=wanted[0])
+        first = self.time[self.moving][0]
+        begin = formulas.begin_of(self.time, wanted, formula, first - PERIOD, first + LAG)
+        says = formula(np.maximum(self.time - begin, 0.0))
+        assert np.abs(wanted - says).max() < WANTED_ERROR
+        return says
+
+    def coriolis(self, states):
+        return np.array([rigid_arm.coriolis(self.q[i], self.dq[i], self.bodies) for i in states])
+
+
+def as_poses(columns):
+    return np.reshape(columns, (-1, 4, 4)).transpose(0, 2, 1)
+
+
+def distances(poses, others):
+    return np.linalg.norm((poses - others)[..., :3, 3], axis=-1)
+
+
+def share(difference, of):
+    """For each column, over all states: single ones say little where the circle's acceleration has a step."""
+    return np.linalg.norm(difference, axis=0) / np.linalg.norm(of, axis=0)
+
+
+@pytest.mark.parametrize("controller", ["joint_position", "joint_velocity"])
+def test_joints_follow_the_formula(recorded, controller):
+    states = recorded(controller)
+    says = states.led_by(getattr(formulas, controller), "q_d")
+    assert np.abs(states.q - says).max() < JOINT_ERROR
+
+
+@pytest.mark.parametrize("controller", ["cartesian_pose", "cartesian_velocity"])
+def test_the_end_effector_follows_the_formula(recorded, controller):
+    states = recorded(controller)
+    says = states.led_by(getattr(formulas, controller), "O_T_EE_d")
+    assert distances(states.O_T_EE, says).max() < POSE_ERROR
+    assert np.abs(states.O_T_EE - says)[:, :3, :3].max() < JOINT_ERROR
+
+
+def test_the_elbow_swings_beside_a_resting_end_effector(recorded):
+    states = recorded("elbow")
+    says = states.led_by(formulas.elbow, "elbow_d")
+    assert np.abs(states.q[:, 2] - says).max() < JOINT_ERROR
+    assert distances(states.O_T_EE, states.O_T_EE[0]).max() < POSE_ERROR
+
+
+def test_joint_impedance_pulls_the_arm_along_a_circle(recorded):
+    """The robot's own motion is the circle. How far the arm stays behind follows from its springs and
+    dampers, whose torques accelerate the links and rotors: gravity and Coriolis torques are compensated."""
+    states = recorded("joint_impedance")
+    states.led_by(formulas.joint_impedance, "O_T_EE_d")
+    torques = formulas.joint_impedance_torques(states.q_d - states.q, states.dq_d - states.dq)
+    accelerations = np.gradient(states.dq, states.time, axis=0)
+    some = np.flatnonzero(states.moving)[2:-2:10]
+    needed = [(rigid_arm.mass(states.q[i], states.bodies) + ROTOR_INERTIA) @ accelerations[i] for i in some]
+    assert max(share(torques[some] - needed, of=needed)) < FORCE_ERROR
+    commanded = torques[some] + states.coriolis(some)
+    assert max(share(states.tau_J_d[some] - commanded, of=commanded)) < FORCE_ERROR
+
+
+@pytest.mark.parametrize("number", [0, 1], ids=["first", "again"])
+def test_model_prints_what_the_textbook_says(run, number):
+    seen, bodies = run.report["model"][number], Run(run.recording, "joint_position", 0).bodies
+    printed, q, links = seen["printed"], seen["q"], rigid_arm.poses(seen["q"])
+    same = partial(np.testing.assert_allclose, rtol=1e-5, atol=1e-5)  # six digits are printed
+    same(as_poses(printed["joint_pose"])[0], links[4])
+    end = as_poses(seen["O_T_EE"])[0, :3, 3]
+    same(np.reshape(printed["joint_zero_jacobian"], (7, 6)).T, rigid_arm.jacobian(links, end))
+    turned = np.kron(np.eye(2), links[4, :3, :3].T) @ rigid_arm.jacobian(links, links[4, :3, 3], 4)
+    same(np.reshape(printed["joint4_body_jacobian"], (7, 6)).T, turned)
+    same(np.reshape(printed["mass"], (7, 7)), rigid_arm.mass(q, bodies))
+    same(printed["gravity"], rigid_arm.gravity(q, bodies))
+    same(printed["gravity"], seen["tau_J"])  # the arm rests
+    same(printed["coriolis"], 0)
+
+
+def test_cartesian_impedance_comes_to_its_equilibrium_and_gives_way_as_a_spring(run):
+    wanted, reached, pushed = (np.array(run.report["led"][name]) for name in ("wanted", "reached", "pushed"))
+    assert distances(reached, wanted) < POSE_ERROR
+    np.testing.assert_allclose(reached[:3, :3], wanted[:3, :3], atol=JOINT_ERROR)
+    gave_way = (pushed - reached)[:3, 3]
+    np.testing.assert_allclose(STIFFNESS[0] * gave_way, PUSH, atol=FORCE_ERROR * np.linalg.norm(PUSH))
+
+
+def test_cartesian_impedance_commands_its_law(run):
+    """While the hand is pushed and let go; the null space rests where the controller was started."""
+    states, wanted = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["wanted"])
+    q_nullspace = run.report["led"]["q_nullspace"]
+    some = np.arange(2, len(states.time), 15)
+    says = []
+    for i in some:
+        pose, links = states.O_T_EE[i], rigid_arm.poses(states.q[i])
+        J = rigid_arm.jacobian(links, pose[:3, 3])
+        where = (J, pose, wanted, states.q[i], states.dq[i], q_nullspace)
+        says.append(formulas.cartesian_impedance_torques(*where, STIFFNESS, NULLSPACE_STIFFNESS))
+    says += states.coriolis(some)
+    assert max(share(states.tau_J_d[some] - says, of=says)) < FORCE_ERROR
+
+
+def test_cartesian_impedance_started_again_holds_where_it_is(run):
+    states = Run(run.recording, "cartesian_impedance", 1)
+    assert states.moving.sum() > RECORDS_A_SECOND // 2
+    assert distances(states.O_T_EE, states.O_T_EE[0]).max() < POSE_ERROR
+    assert np.abs(states.q - states.q[0]).max() < JOINT_ERROR
+
+
+@pytest.mark.parametrize("number", [0, 1], ids=["first", "again"])
+def test_force_presses_with_the_wanted_weight(run, number):
+    pressed, states = run.report["pressed"][number], Run(run.recording, "force", number)
+    weight = GRAVITY * pressed["desired_mass"]
+    assert pressed["forces"] == pytest.approx([weight] * len(pressed["forces"]), rel=FORCE_ERROR)
+    J = rigid_arm.jacobian(rigid_arm.poses(states.q[-1]), states.O_T_EE[-1, :3, 3])
+    np.testing.assert_allclose(
+        states.tau_J_d[-1], -weight * J[2], atol=FORCE_ERROR * weight * np.abs(J[2]).max()
+    )
+
+
+def test_claims_that_cannot_be_met_are_refused_and_disturb_nobody(run):
+    started = run.report["refused"]["started"]
+    assert {name for name, success in started.items() if success} == MAY_JOIN
+    states = run.report["refused"]["states"]
+    running = {name for name, state in states.items() if state == "running"}
+    assert running == {"joint_velocity_example_controller", "franka_state_controller", "franka_gripper"}
+    assert run.report["refused"]["still_moving"]
