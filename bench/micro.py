@@ -39,6 +39,8 @@ RATIOS = [
     Ratio("controller_manager_update_bench", "managerUpdate/1", "virtualCalls/1"),
     Ratio("controller_manager_update_bench", "managerUpdate/10", "virtualCalls/10"),
     Ratio("controller_manager_update_bench", "managerUpdate/50", "virtualCalls/50"),
+    Ratio("python_controller_bench", "jointImpedance/real_time", "callOfPython/real_time"),
+    Ratio("python_controller_bench", "constantCommand/real_time", "controllerInCpp/real_time"),
 ]
 
 
@@ -71,7 +73,7 @@ COUNTERS = [
 def micro() -> None:
     print("Parts, by google-benchmark (ratio to the reference in the same run)")
     found = executables()
-    # The controller manager's benchmark keeps its controllers' parameters at a master.
+    # The benchmarks of controllers keep their parameters at a master.
     with tempfile.TemporaryDirectory() as folder, Session("--core", log=Path(folder) / "core.log") as core:
         core.wait_for_master()
         for name in dict.fromkeys(ratio.executable for ratio in RATIOS):
@@ -114,7 +116,7 @@ def print_ratio(ratio: Ratio, times: dict[str, float]) -> None:
 def google_benchmark(
     executable: Path, environment: dict[str, str]
 ) -> tuple[dict[str, float], dict[str, dict[str, float]]]:
-    """Median CPU time of each benchmark [ns], and its counters."""
+    """Median time of each benchmark [ns], the processor's unless it says otherwise, and its counters."""
     unit = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
         command = [str(executable), f"--benchmark_out={out.name}", "--benchmark_out_format=json"]
@@ -125,6 +127,7 @@ def google_benchmark(
     times, counters = {}, {}
     for entry in medians:
         name = entry["run_name"].split("/min_time")[0].split("/repeats")[0].split("/iterations")[0]
-        times[name] = entry["cpu_time"] * unit[entry["time_unit"]]
+        clock = "real_time" if name.endswith("/real_time") else "cpu_time"
+        times[name] = entry[clock] * unit[entry["time_unit"]]
         counters[name] = {key: value for key, value in entry.items() if isinstance(value, float)}
     return times, counters
