@@ -5,12 +5,11 @@
 Cells 1 to 6 of the project's table of faults: loss, delay, damage, TCP, the client's timing, its death. Each
 says what mode the robot ends in, which error it names, what the client hears, and how long that may take.
 
-Where time matters the robots run at a quarter of the wall's speed, so that the proxy in Python and a busy
+Where time matters the robots run at a tenth of the wall's speed, so that the proxy in Python and a busy
 machine are no faults of their own; the rest runs in lock-step. The clients of one cell run side by side.
 """
 
 import os
-import select
 import signal
 import struct
 import sys
@@ -47,10 +46,11 @@ from fci_wire import (
     command,
     move_request,
 )
+from stalls import in_time
 from test_genuine_clients import client_python
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
-PACE = 0.25
+PACE = 0.1
 TICK = 1e-3 / PACE  # of the wall [s]
 SECONDS = 0.6  # a motion's, of the robot's time
 # So gentle that nineteen extrapolated cycles stay within the jerk's limit: what they miss is
@@ -100,7 +100,7 @@ def all_idle(request):
 
 @pytest.fixture(scope="module")
 def slow():
-    """Both genuine clients and the own one, at a quarter of the wall's speed."""
+    """Both genuine clients and the own one, at a tenth of the wall's speed."""
     with ExitStack() as stack:
         kinds = [("panda", "panda"), ("pylibfranka", "fr3"), ("pyfranka", "fr3")]
         yield stations(stack, "127.0.23", str(PACE), kinds)
@@ -235,14 +235,18 @@ def test_delays_within_the_cycle_are_survived(slow, kind):
 
 def test_a_network_that_is_always_late_ends_the_motion_at_once(slow):
     late = delaying(1.5 * TICK)
-    results = run(
-        slow,
-        commands=lambda: (
-            lambda number, data, chance: late(number, data, chance) if number >= 150 else [(0.0, data)]
-        ),
-    )
-    check_lost(slow, results, slowest(180))
-    assert all(result["cycles"] <= 175 for result in results)
+
+    def rule(number, data, chance):
+        return late(number, data, chance) if number >= 150 else [(0.0, data)]
+
+    def attempt():
+        results = run(slow, commands=lambda: rule)
+        check_lost(slow, results, slowest(180))
+        return [result["cycles"] for result in results]
+
+    # A robot that stalls itself finds late answers there in time.
+    cycles = in_time(attempt, lambda cycles: max(cycles) <= 175)
+    assert max(cycles) <= 175
 
 
 @pytest.mark.parametrize("ticks", [1, 10, 15] if LONG else [10])
@@ -539,17 +543,6 @@ def slow_raw():
         yield sim
 
 
-def newest(client):
-    state = client.state()
-    while waiting(client):
-        state = client.state()
-    return state
-
-
-def waiting(client) -> bool:
-    return bool(select.select([client.udp], [], [], 0.0)[0])
-
-
 def test_who_is_always_one_cycle_late_is_stopped(slow_raw):
     with connected(slow_raw) as client:
         before = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
@@ -567,36 +560,34 @@ def test_who_is_always_one_cycle_late_is_stopped(slow_raw):
 
 
 @pytest.mark.parametrize("own", [True, False])
-def test_resuming_after_a_pause(slow_raw, own):
+def test_resuming_after_a_pause(raw, own):
     """Who goes on from its own last command jumps; who begins again at q_d and dq_d does not."""
     speed, ramp, pause = 0.2, 100, 10
-    with connected(slow_raw) as client:
+    with connected(raw) as client:
         state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
-        q = list(state.joints("q_d"))
-        v = 0.0
-        for i in range(ramp):
-            v = speed * (i + 1) / ramp  # 2 rad/s^2
+        q, v = list(state.joints("q_d")), 0.0
+
+        def step():
             q[5] += v * 1e-3
-            client.send(command(5, state.message_id, q))
-            state = newest(client)
-        for _ in range(5):
-            q[5] += v * 1e-3
-            client.send(command(5, state.message_id, q))
-            state = newest(client)
+            client.send(command(raw.version, state.message_id, q))
+            return client.state()
+
+        for i in range(ramp + 5):
+            v = speed * min(1.0, (i + 1) / ramp)  # 2 rad/s^2
+            state = step()
+        raw.ask(f"lose {pause}")
         for _ in range(pause):
+            client.send(command(raw.version, state.message_id, q))
             state = client.state()
-        state = newest(client)
         for _ in range(20):
             if not own:
                 q = list(state.joints("q_d"))  # where the robot has gone meanwhile, at the same speed
-            q[5] += v * 1e-3
-            client.send(command(5, state.message_id, q))
-            state = newest(client)
+            state = step()
             if state.mode != MOVE:
                 break
         if own:
             assert state.mode == REFLEX and set(state.reasons) <= {13, 14, 15}, state.reasons
-            assert client.reply()[1][0] == LAYOUTS[5].reflex
+            assert client.reply()[1][0] == LAYOUTS[raw.version].reflex
             client.recover()
         else:
             assert state.mode == MOVE, state.reasons

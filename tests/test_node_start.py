@@ -6,6 +6,7 @@ import os
 import signal
 import socket
 import threading
+import time
 from contextlib import contextmanager
 
 import pytest
@@ -52,9 +53,13 @@ def bare(tmp_path_factory):
 
 @pytest.fixture
 def master(bare, urdf):
-    """A master with the parameters of a node for each kind of hardware, where nothing is wrong."""
     bare.delete(ONE)
     bare.delete(ALL)
+    return prepared(bare, urdf)
+
+
+def prepared(bare, urdf):
+    """A master with the parameters of a node for each kind of hardware, where nothing is wrong."""
     bare.set("/robot_description", urdf)
     one = configured("franka_control_node.yaml", arm_id="panda")
     bare.set(ONE, dict(one, robot_ip=ADDRESS, connect_timeout=0.0))
@@ -136,12 +141,16 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize("name, value, sentence", WRONG)
-def test_a_node_says_what_is_wrong_and_ends(master, name, value, sentence):
+def put(master, name, value):
     if value is None:
         master.delete(name)
     else:
         master.set(name, value)
+
+
+@pytest.mark.parametrize("name, value, sentence", WRONG)
+def test_a_node_says_what_is_wrong_and_ends(master, name, value, sentence):
+    put(master, name, value)
     with one(master) as node:
         assert node.ends() == 1, node.output
         assert sentence in node.output
@@ -184,11 +193,9 @@ WRONG_FOR_ALL = [
 
 @pytest.mark.parametrize("name, value, sentence", WRONG_FOR_ALL)
 def test_a_node_of_several_arms_says_what_is_wrong_and_ends(master, robot, name, value, sentence):
-    if value is None:
-        master.delete(name)
+    put(master, name, value)
+    if name == ALL + "/robot_description":
         master.delete("/robot_description")  # which would do in the place of its own
-    else:
-        master.set(name, value)
     with combined(master) as node:
         assert node.ends() == 1, node.output
         assert sentence in node.output
@@ -246,6 +253,17 @@ def test_a_node_whose_controller_runs_ends_when_interrupted(master):
         assert robot.ask("state").startswith("Idle"), "The motion did not end with the node."
 
 
+def test_a_motion_outlives_the_master(tmp_path, urdf):
+    with ros_nodes.master(tmp_path) as own, moving(prepared(own, urdf)) as (node, robot):
+        own.stop()
+        before = robot.ask("state")
+        time.sleep(2.0)
+        after = robot.ask("state")
+        assert before.startswith("Move") and after.startswith("Move"), (before, after, node.output)
+        assert node.process.poll() is None
+        assert node.interrupt() < IN_TIME
+
+
 def test_a_node_that_waits_for_a_recovery_ends_when_interrupted(master):
     with moving(master) as (node, robot):
         robot.ask("push panda_link7 0 0 -220 60")
@@ -266,7 +284,7 @@ def woken_at_last(robot):
 
 
 @contextmanager
-def one_with_robot(master, pace="realtime"):
+def one_with_robot(master, pace="patient"):
     with simulated("panda", OTHER, pace, "--no-hand") as robot, one(master) as node:
         assert node.says("is ready"), node.output
         yield node, robot

@@ -30,7 +30,7 @@ def report(request, tmp_path_factory, long_run):
         capture_output=True,
         check=True,
     ).stdout.strip()
-    command = [executable, "--robot", "panda", "--no-hand", "--ip", ADDRESS]
+    command = [executable, "--robot", "panda", "--no-hand", "--ip", ADDRESS, "--pace", "patient"]
     launch = ["franka_control", "franka_control.launch", "load_gripper:=false", f"robot_ip:={ADDRESS}"]
     launch += ["realtime_config:=ignore", "connect_timeout:=30", f"reconnect:={reconnect}"]
     robot = subprocess.Popen(command, stdout=subprocess.DEVNULL)

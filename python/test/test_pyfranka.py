@@ -386,6 +386,16 @@ def test_the_hand_and_threads_that_run_while_it_moves(robots, name):
         hand.move(0.5, 0.1)
 
 
+def test_states_of_the_hand_come_thirty_times_a_second(robots, name):
+    hand = pyfranka.Gripper(ADDRESSES[name])
+    hand.read_once()
+    begin = time.monotonic()
+    for _ in range(30):
+        hand.read_once()
+    # Not sooner; a busy machine may be late.
+    assert 0.9 < time.monotonic() - begin < 3.0
+
+
 def test_a_hand_is_stopped_from_another_thread(robots, name):
     hand = pyfranka.Gripper(ADDRESSES[name])
     hand.move(0.08, 0.1)

@@ -36,10 +36,10 @@ class Stalls:
 
 
 def in_time(attempt, is_good):
-    """What `attempt` returns.
+    """What `attempt` returns: the first that is good or met no stall of the machine.
 
-    It is tried again where it is not good and the machine has stalled meanwhile; if so each time, the test is
-    skipped.
+    Where there is none the test is skipped. It is for what needs the wall's clock: what a robot does is to be
+    tested in lock-step or with a patient one.
     """
     worst = []
     for _ in range(TRIES):
@@ -48,6 +48,4 @@ def in_time(attempt, is_good):
         if is_good(result) or stalls.worst < WORST:
             return result
         worst.append(f"{1e3 * stalls.worst:.1f}")
-    pytest.skip(
-        f"The machine has stalled for {', '.join(worst)} ms: nothing can be said of a robot by the clock."
-    )
+    pytest.skip(f"The machine has stalled for {', '.join(worst)} ms: the clock says nothing of a robot here.")

@@ -92,6 +92,9 @@ void Host::tick() {
   }
   if (pace_.lockstep) {
     waitInLockStep();
+    if (pace_.by_clock) {
+      listenUntil(nextDeadline());
+    }
   } else {
     publishAll();
     waitInRealTime();
@@ -107,6 +110,7 @@ void Host::tick() {
 void Host::tickAtOnce() {
   const Pace kept = pace_;
   pace_.lockstep = pace_.flows = true;
+  pace_.by_clock = false;
   tick();
   pace_ = kept;
 }
@@ -188,16 +192,24 @@ void Host::pollUntil(Clock::time_point deadline) {
   }
 }
 
-void Host::waitInRealTime() {
+Host::Clock::time_point Host::nextDeadline() {
   deadline_ += period_;
   const Clock::time_point now = Clock::now();
   if (now - deadline_ > kForgivenDelay) {
     deadline_ = now;
   }
-  Clock::time_point end = deadline_;
+  return deadline_;
+}
+
+void Host::waitInRealTime() {
+  Clock::time_point end = nextDeadline();
   if (clientsAreDue()) {
-    end = std::max(end, now + std::min<Clock::duration>(kLeastTimeToAnswer, period_));
+    end = std::max(end, Clock::now() + std::min<Clock::duration>(kLeastTimeToAnswer, period_));
   }
+  listenUntil(end);
+}
+
+void Host::listenUntil(Clock::time_point end) {
   do {
     pollUntil(end);
     receiveAll();
@@ -238,7 +250,7 @@ void Host::waitInLockStep() {
   const bool news = std::any_of(guests_.begin(), guests_.end(),
                                 [](const Guest& guest) { return guest.robot->hasNews(); });
   const bool due = clientsAreDue();
-  if (due || news || Clock::now() - published_at_ >= kTick) {
+  if (due || news || pace_.by_clock || Clock::now() - published_at_ >= kTick) {
     publishAll();
   }
   starts_shown_ = 0;

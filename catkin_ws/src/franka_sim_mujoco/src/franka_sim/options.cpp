@@ -34,7 +34,7 @@ const char* const kUsage =
     "  --control-port N    where lines of text press the user stop, push the arm and so on (1340;\n"
     "                      0: nowhere); send the line help for all of them\n"
     "Of all:\n"
-    "  --pace PACE         realtime, lockstep, or a factor such as 0.5 (realtime)\n"
+    "  --pace PACE         realtime, patient, lockstep, or a factor such as 0.5 (realtime)\n"
     "  --world FILE        the scene, MJCF: a file or the name of one that comes along, such as\n"
     "                      stone.xml (an empty world)\n"
     "  --viewer            open a window\n"
@@ -96,6 +96,10 @@ fci::Pace toPace(const std::string& text) {
     pace.lockstep = true;
     return pace;
   }
+  if (text == "patient") {
+    pace.lockstep = pace.flows = pace.by_clock = true;
+    return pace;
+  }
   if (text == "realtime") {
     return pace;
   }
@@ -103,7 +107,7 @@ fci::Pace toPace(const std::string& text) {
   pace.factor = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !(pace.factor >= 0.001 && pace.factor <= 100.0)) {
     throw std::invalid_argument("--pace " + text +
-                                ": give realtime, lockstep, or a factor from 0.001 to 100.");
+                                ": give realtime, patient, lockstep, or a factor from 0.001 to 100.");
   }
   return pace;
 }

@@ -83,6 +83,27 @@ TEST_F(ErrorFlags, VirtualWall) {
   EXPECT_NEAR(0.1, unit.state().O_T_EE[13], 0.01);
 }
 
+TEST_F(ErrorFlags, OutOfAVirtualWallTheWayIsOpen) {
+  for (const double direction : {1.0, -1.0}) {
+    standAt(kReady);
+    franka_core::fci::CartesianLimit wall;
+    wall.object_world_size = {{2, 1, 2}};
+    wall.object_frame = franka_core::kIdentityTransform;
+    wall.object_frame[13] = 0.48;  // from y = -0.02 on: the hand is two centimetres inside
+    wall.active = true;
+    ASSERT_EQ(RequestStatus::kSuccess, unit.setVirtualWall(0, wall));
+    moveTwist();
+    ramp(1, 0.1 * direction, 800);
+    if (direction > 0.0) {
+      expectReflex(1);
+      EXPECT_NEAR(0.0, unit.state().O_T_EE[13], 1e-3);
+    } else {
+      EXPECT_TRUE(raised().empty());
+      EXPECT_LT(unit.state().O_T_EE[13], -0.03);
+    }
+  }
+}
+
 TEST_F(ErrorFlags, SelfCollision) {
   // A pose that is nearly one, found from a fixed seed, and the way into it.
   std::mt19937 random(7);
@@ -330,6 +351,14 @@ TEST_F(ErrorFlags, TwentyLostCommandsButNotNineteen) {
     expectReflex(25);
     EXPECT_EQ(0.0, unit.state().control_command_success_rate);
   }
+}
+
+TEST_F(ErrorFlags, TheFirstCommandIsWaitedForAThousandTicks) {
+  moveJoints();
+  run(999);
+  EXPECT_TRUE(raised().empty());
+  run(1);
+  expectReflex(25);
 }
 
 TEST_F(ErrorFlags, Power) {

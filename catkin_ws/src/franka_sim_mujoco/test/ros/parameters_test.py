@@ -9,7 +9,18 @@ import unittest
 
 import rospy
 import rostest
-from franka_sim_mujoco.srv import DeleteRobot, SpawnRobot, SpawnRobotRequest
+from controller_manager_msgs.srv import LoadController, SwitchController
+from franka_sim_mujoco.srv import (
+    DeleteRobot,
+    GetBodyPose,
+    GetJointStates,
+    PushBody,
+    PushBodyRequest,
+    SpawnRobot,
+    SpawnRobotRequest,
+    Step,
+)
+from std_srvs.srv import Empty
 
 WAIT = 30
 WRONG = [
@@ -53,14 +64,23 @@ WRONG = [
 ]
 
 
+def service(name, kind):
+    rospy.wait_for_service(name, WAIT)
+    return rospy.ServiceProxy(name, kind)
+
+
 class ParametersTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("parameters_test")
-        for name in ("spawn_robot", "delete_robot"):
-            rospy.wait_for_service("/gazebo/" + name, WAIT)
-        cls.spawn_service = rospy.ServiceProxy("/gazebo/spawn_robot", SpawnRobot)
-        cls.delete = rospy.ServiceProxy("/gazebo/delete_robot", DeleteRobot)
+        cls.spawn_service = service("/gazebo/spawn_robot", SpawnRobot)
+        cls.delete = service("/gazebo/delete_robot", DeleteRobot)
+        cls.push = service("/gazebo/push_body", PushBody)
+        cls.step = service("/gazebo/step", Step)
+        cls.joints = service("/gazebo/get_joint_states", GetJointStates)
+        cls.pose = service("/gazebo/get_body_pose", GetBodyPose)
+        cls.pause = service("/gazebo/pause_physics", Empty)
+        cls.unpause = service("/gazebo/unpause_physics", Empty)
         cls.panda = rospy.get_param("/panda_description")
 
     def spawn(self, name, namespace, urdf=None, joints=()):
@@ -129,6 +149,33 @@ class ParametersTest(unittest.TestCase):
         self.assertTrue(answer.success, answer.error)
         self.assertTrue(self.delete("panda").success)
         self.assertTrue(self.delete("right").success)
+
+    def test_a_position_gain_is_the_stiffness_of_its_joint(self):
+        stiffness, force = 500.0, 5.0
+        joints = [f"panda_joint{i}" for i in range(1, 8)]
+        rospy.set_param("/soft/arm_id", "panda")
+        rospy.set_param("/soft/motion_generators/position/gains/panda_joint1/p", stiffness)
+        kind = "position_controllers/JointGroupPositionController"
+        rospy.set_param("/soft/hold", {"type": kind, "joints": joints})
+        bent = [("panda_joint2", -0.8), ("panda_joint4", -2.4), ("panda_joint6", 1.6)]
+        self.assertTrue(self.spawn("panda", "/soft", joints=bent).success)
+        try:
+            self.unpause()
+            self.assertTrue(service("/soft/controller_manager/load_controller", LoadController)("hold").ok)
+            switch = service("/soft/controller_manager/switch_controller", SwitchController)
+            self.assertTrue(switch(start_controllers=["hold"], strictness=2).ok)
+            self.pause()
+            before = self.joints(joints).state.position[0]
+            push = PushBodyRequest(body="panda_link7", ticks=3000)
+            push.force.y = force
+            self.assertTrue(self.push(push).success)
+            self.assertTrue(self.step(2999).success)
+            deflection = self.joints(joints).state.position[0] - before
+            lever = self.pose("panda_link7").pose.position.x
+            self.assertAlmostEqual(deflection, force * lever / stiffness, delta=2e-5)
+        finally:
+            self.pause()
+            self.assertTrue(self.delete("panda").success)
 
     def test_wrong_orders_end_in_a_sentence(self):
         rospy.set_param("/order/arm_id", "panda")

@@ -24,6 +24,9 @@ struct Pace {
   /// With lock-step: time does not stand still between motions, but runs on as fast as the machine
   /// allows. For a world in which others live too.
   bool flows{false};
+  /// With lock-step: no tick comes before the clock says so. The robot is then as fast as a real
+  /// one and loses nothing on a machine that does not keep time.
+  bool by_clock{false};
   double factor{1.0};
   /// After so long without an answer a client of a lock-step motion counts as lost; its cycles are
   /// then waited for a millisecond each (our choice: below the second after which clients give up).
@@ -118,6 +121,8 @@ class Host {
   bool receiveAll();
   void pollUntil(Clock::time_point deadline);
   void waitInRealTime();
+  Clock::time_point nextDeadline();
+  void listenUntil(Clock::time_point end);
   void waitInLockStep();
   void awaitSwiftAnswers(Clock::time_point begin);
   bool waitForClients(Clock::time_point begin, bool all_answered);
