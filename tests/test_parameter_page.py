@@ -13,6 +13,7 @@ SOURCE = TOP / "catkin_ws" / "src"
 # How C++ and Python sources read a parameter: of a node handle, or by helpers that say what is wrong.
 READS = [
     re.compile(r'(?:nh_?|handle)\.(?:param|getParam|getParamCached|hasParam)(?:<[^>]*>)?\(\s*"([\w/]+)"'),
+    re.compile(r'searchParam\(\s*"([\w/]+)"'),
     re.compile(r'require\(\w+,\s*"([\w/]+)"'),
     re.compile(r'readFlag\(\s*"([\w/]+)"'),
     re.compile(r'(?:required|number)\(\s*"([\w/]*\w)"'),
@@ -24,8 +25,12 @@ PARTS = [
     (re.compile(r'tolerance\("(\w+)"\)'), "default_grasp_epsilon/"),
 ]
 SECTIONS = {
-    "Parameters of an arm": ["franka_hw/src/franka_hw_parameters.cpp"],
-    "franka_control_node": ["franka_control/src/control_node.cpp", "franka_control/src/abort_reporter.cpp"],
+    "Parameters of an arm": [
+        "franka_hw/src/franka_hw_parameters.cpp",
+        "franka_hw/src/reconnection.cpp",
+        "franka_hw/src/abort_reporter.cpp",
+    ],
+    "franka_control_node": ["franka_control/src/control_node.cpp"],
     "franka_combined_control_node": [
         "franka_control/src/franka_combined_control_node.cpp",
         "ros_control/combined_robot_hw/src/load_members.cpp",

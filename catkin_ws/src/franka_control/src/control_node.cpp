@@ -18,8 +18,6 @@ namespace {
 
 // [s] for the controllers to stop when they shall not start again.
 constexpr double kStopTimeout = 2.0;
-// [s] between two attempts to find a lost robot.
-constexpr double kReconnectPeriod = 1.0;
 
 }  // namespace
 
@@ -27,27 +25,29 @@ ControlNode::ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle
     : public_nh_(public_nh), private_nh_(private_nh) {}
 
 bool ControlNode::init() {
-  if (!readFlag("reconnect", reconnects_) ||
+  if (!reconnection_.init(private_nh_) ||
       !readFlag("restart_controllers_after_recovery", restarts_controllers_) ||
       !franka_hw_.init(public_nh_, private_nh_)) {
     ROS_ERROR("franka_control_node: the robot could not be set up (see above).");
     return false;
   }
   connected_ = true;
-  const std::string arm_id = private_nh_.param<std::string>("arm_id", "");
+  private_nh_.getParam("arm_id", arm_id_);
   robot_state_ = &franka_hw_.get<franka_hw::FrankaStateInterface>()
-                      ->getHandle(arm_id + "_robot")
+                      ->getHandle(arm_id_ + "_robot")
                       .getRobotState();
-  aborts_ = std::make_unique<AbortReporter>(private_nh_);
-  health_ = std::make_unique<LoopHealth>(private_nh_, arm_id);
-  health_->connected(true);
+  aborts_ = std::make_unique<franka_hw::AbortReporter>(private_nh_, arm_id_);
+  robot_health_ =
+      std::make_unique<RobotHealth>(private_nh_, "Robot", arm_id_, franka_hw_.responseTimes());
+  robot_health_->connected(true);
+  loop_health_ = std::make_unique<LoopHealth>(private_nh_, arm_id_);
   has_error_publisher_ = private_nh_.advertise<std_msgs::Bool>("has_error", 1, true);
   setError(false);
   controller_manager_ =
       std::make_unique<controller_manager::ControllerManager>(&franka_hw_, public_nh_);
   offerConnection();
   offerRobot();
-  ROS_INFO_STREAM("franka_control_node: the robot '" << arm_id << "' is ready.");
+  ROS_INFO_STREAM("franka_control_node: the robot '" << arm_id_ << "' is ready.");
   return true;
 }
 
@@ -114,7 +114,7 @@ void ControlNode::connectRobot() {
   offerRobot();
   lost_ = false;
   connected_ = true;
-  health_->connected(true);
+  robot_health_->connected(true);
   ROS_INFO("franka_control_node: connected to the robot.");
 }
 
@@ -129,7 +129,7 @@ bool ControlNode::disconnectRequested(TriggerRequest& /*request*/, TriggerRespon
   withdrawRobot();
   response.success = franka_hw_.disconnect();
   response.message = response.success ? "" : "Failed to disconnect robot.";
-  health_->connected(false);
+  robot_health_->connected(false);
   lost_ = false;
   return true;
 }
@@ -187,8 +187,11 @@ void ControlNode::run() {
   last_update_ = ros::Time::now();
   while (ros::ok()) {
     if (!connected_) {
-      if (lost_ && reconnects_) {
-        reconnect();
+      if (lost_) {
+        reconnection_.attempt(arm_id_, [this] {
+          const std::lock_guard<std::mutex> lock(connection_mutex_);
+          connectRobot();
+        });
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     } else if (franka_hw_.controllerActive() && !has_error_) {
@@ -224,7 +227,7 @@ void ControlNode::readIdleRobot() {
   }
   const franka::RobotState state = franka_hw_.robot().readOnce();
   franka_hw_.update(state);
-  health_->state(state);
+  robot_health_->state(state);
 }
 
 void ControlNode::moveRobot() {
@@ -247,7 +250,7 @@ void ControlNode::moveRobot() {
 
 bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& period) {
   const bool first = period.isZero();
-  health_->state(*robot_state_);
+  robot_health_->state(*robot_state_);
   // After an interruption the controllers start anew from where the robot stands. Those that a
   // switch has just started must not: they may have got a goal already.
   const bool anew = first && (interrupted_ || franka_hw_.motionGoesOn());
@@ -266,9 +269,9 @@ bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& perio
 
 void ControlNode::updateControllers(const ros::Time& time, const ros::Duration& period,
                                     bool reset) {
-  health_->cycleBegins();
+  loop_health_->cycleBegins();
   controller_manager_->update(time, period, reset);
-  health_->cycleEnds();
+  loop_health_->cycleEnds();
 }
 
 void ControlNode::motionFailed(const std::string& what, const std::vector<franka::Record>& log) {
@@ -279,7 +282,7 @@ void ControlNode::motionFailed(const std::string& what, const std::vector<franka
 
 void ControlNode::setError(bool has_error) {
   has_error_ = has_error;
-  health_->hasError(has_error);
+  robot_health_->hasError(has_error);
   std_msgs::Bool message;
   message.data = has_error;
   has_error_publisher_.publish(message);
@@ -287,32 +290,16 @@ void ControlNode::setError(bool has_error) {
 
 void ControlNode::robotLost(const std::string& what) {
   const std::lock_guard<std::mutex> lock(connection_mutex_);
-  ROS_ERROR_STREAM("franka_control_node: the robot is lost. "
-                   << what
-                   << (reconnects_ ? " Trying to connect again every second."
-                                   : " Call the service connect when it is back."));
+  ROS_ERROR_STREAM("franka_control_node: the robot is lost. " << what << reconnection_.outlook());
   connected_ = false;
   lost_ = true;
   // What ran when it was lost must not move it when it is back, unless somebody says so.
   robot_stopped_ = false;
   interrupted_ = true;
-  health_->connected(false);
+  robot_health_->connected(false);
   setError(franka_hw_.controllerActive() || has_error_);
   withdrawRobot();
   franka_hw_.dropConnection();
-}
-
-void ControlNode::reconnect() {
-  if ((ros::WallTime::now() - last_attempt_).toSec() < kReconnectPeriod) {
-    return;
-  }
-  last_attempt_ = ros::WallTime::now();
-  const std::lock_guard<std::mutex> lock(connection_mutex_);
-  try {
-    connectRobot();
-  } catch (const std::exception& error) {
-    ROS_WARN_STREAM_THROTTLE(30.0, "franka_control_node: still no robot. " << error.what());
-  }
 }
 
 }  // namespace franka_control

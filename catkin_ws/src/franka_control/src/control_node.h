@@ -4,7 +4,9 @@
 
 #include <actionlib/server/simple_action_server.h>
 #include <controller_manager/controller_manager.h>
+#include <franka_hw/abort_reporter.h>
 #include <franka_hw/franka_hw.h>
+#include <franka_hw/reconnection.h>
 #include <franka_hw/services.h>
 #include <franka_msgs/ErrorRecoveryAction.h>
 #include <ros/node_handle.h>
@@ -18,19 +20,19 @@
 #include <string>
 #include <vector>
 
-#include "abort_reporter.h"
 #include "loop_health.h"
+#include "robot_health.h"
 
 namespace franka_control {
 
 /// The node franka_control_node: one arm, one controller manager, and what keeps them running
 /// together through errors. Only a signal ends it.
 ///
-/// Parameters beside those of FrankaHW, in the node's own namespace: `reconnect` (bool, false): try
-/// to connect again, once a second, to a robot that was lost; `restart_controllers_after_recovery`
-/// (bool, true): whether controllers that were running when the robot stopped start again after a
-/// recovery, through their starting(), or are stopped. Topic `has_error` (std_msgs/Bool, latched):
-/// whether the robot stopped and waits for a recovery.
+/// Parameters beside those of FrankaHW, of franka_hw::Reconnection and franka_hw::AbortReporter, in
+/// the node's own namespace: `restart_controllers_after_recovery` (bool, true): whether controllers
+/// that were running when the robot stopped start again after a recovery, through their starting(),
+/// or are stopped. Topic `has_error` (std_msgs/Bool, latched): whether the robot stopped and waits
+/// for a recovery.
 class ControlNode {
  public:
   ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle& private_nh);
@@ -65,14 +67,14 @@ class ControlNode {
   /// Outside motions only: it publishes.
   void setError(bool has_error);
   void robotLost(const std::string& what);
-  void reconnect();
 
   ros::NodeHandle public_nh_, private_nh_;
   franka_hw::FrankaHW franka_hw_;
   const franka::RobotState* robot_state_{nullptr};  // what the controllers see
   std::unique_ptr<controller_manager::ControllerManager> controller_manager_;
-  std::unique_ptr<AbortReporter> aborts_;
-  std::unique_ptr<LoopHealth> health_;
+  std::unique_ptr<franka_hw::AbortReporter> aborts_;
+  std::unique_ptr<RobotHealth> robot_health_;
+  std::unique_ptr<LoopHealth> loop_health_;
 
   std::mutex connection_mutex_;  // one at a time connects, disconnects or recovers
   std::unique_ptr<franka_hw::ServiceContainer> robot_services_;
@@ -85,10 +87,10 @@ class ControlNode {
   std::atomic_bool has_error_{false};
   std::atomic_bool robot_stopped_{false};  // the error is the robot's, and ends when it is Idle
   bool interrupted_{false};                // the last motion, by an error; of the loop
-  bool reconnects_{false};
   bool restarts_controllers_{true};
+  franka_hw::Reconnection reconnection_;  // of the loop
+  std::string arm_id_;
   ros::Time last_update_;
-  ros::WallTime last_attempt_;
 };
 
 }  // namespace franka_control

@@ -9,11 +9,38 @@
 #include <ros/rate.h>
 #include <ros/spinner.h>
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "end_in_time.h"
+#include "loop_health.h"
+#include "robot_health.h"
 
 namespace {
+
+/// What is told of one arm on /diagnostics.
+class ArmHealth {
+ public:
+  ArmHealth(const ros::NodeHandle& nh, franka_hw::FrankaCombinableHW& arm)
+      : arm_(arm),
+        state_(arm.get<franka_hw::FrankaStateInterface>()
+                   ->getHandle(arm.getArmID() + "_robot")
+                   .getRobotState()),
+        health_(nh, arm.getArmID(), arm.getArmID(), arm.responseTimes()) {}
+
+  /// Once a cycle, after read().
+  void update() {
+    health_.connected(arm_.connected());
+    health_.hasError(arm_.hasOwnError());
+    health_.state(state_);
+  }
+
+ private:
+  franka_hw::FrankaCombinableHW& arm_;
+  const franka::RobotState& state_;
+  franka_control::RobotHealth health_;
+};
 
 /// Real-time priority for this thread, where realtime_config does not say to do without (the arms'
 /// own parameters say the same for their threads). @returns false after a sentence
@@ -51,6 +78,11 @@ int main(int argc, char** argv) {
     return 1;
   }
   controller_manager::ControllerManager controllers(&robots, nh);
+  std::vector<std::unique_ptr<ArmHealth>> arms;
+  for (franka_hw::FrankaCombinableHW* const arm : robots.arms()) {
+    arms.push_back(std::make_unique<ArmHealth>(nh, *arm));
+  }
+  franka_control::LoopHealth loop_health(nh, "all arms");
 
   const ros::Duration period(0.001);
   ros::Rate rate(period);
@@ -58,7 +90,12 @@ int main(int argc, char** argv) {
     rate.sleep();
     const ros::Time now = ros::Time::now();
     robots.read(now, period);
+    for (const auto& arm : arms) {
+      arm->update();
+    }
+    loop_health.cycleBegins();
     controllers.update(now, period, robots.controllerNeedsReset());
+    loop_health.cycleEnds();
     if (!robots.hasError()) {
       robots.write(now, period);
     }

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/exception.h>
 #include <franka_hw/franka_combinable_hw.h>
 #include <franka_hw/resource_helpers.h>
 #include <franka_hw/robot_wanted.h>
@@ -24,12 +25,17 @@ bool FrankaCombinableHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
   robot_hw_nh_ = robot_hw_nh;
   has_error_publisher_ = robot_hw_nh.advertise<std_msgs::Bool>("has_error", 1, true);
   publishErrorState();
-  return FrankaHW::init(root_nh, robot_hw_nh);
+  if (!reconnection_.init(robot_hw_nh) || !FrankaHW::init(root_nh, robot_hw_nh)) {
+    return false;
+  }
+  offerConnection();
+  return true;
 }
 
 void FrankaCombinableHW::initRobot() {
   FrankaHW::initRobot();
-  states_.write(robot_state_libfranka_);
+  aborts_ = std::make_unique<AbortReporter>(robot_hw_nh_, arm_id_);
+  states_.write({robot_state_libfranka_, ResponseTimes::Clock::now()});
   control_loop_thread_ = std::thread(&FrankaCombinableHW::controlLoop, this);
 }
 
@@ -40,29 +46,81 @@ void FrankaCombinableHW::initROSInterfaces(ros::NodeHandle& /*robot_hw_nh*/) {
   setupLimitInterface(effort_joint_limit_interface_, effort_joint_interface_);
   setupFrankaStateInterface(robot_state_ros_);
   setupFrankaModelInterface(robot_state_ros_);
-  setupServicesAndActionServers();
+  const std::lock_guard<std::mutex> lock(connection_mutex_);
+  offerRobot();
 }
 
 // --- connection ----------------------------------------------------------------------------------
 
 void FrankaCombinableHW::connect() {
+  const std::lock_guard<std::mutex> lock(connection_mutex_);
+  if (connected()) {
+    return;
+  }
   FrankaHW::connect();
-  connected_ = true;
+  lost_ = false;
   if (initialized_) {
-    setupServicesAndActionServers();
+    offerRobot();
+    ROS_INFO_STREAM("FrankaCombinableHW: connected to '" << arm_id_ << "'.");
   }
 }
 
 bool FrankaCombinableHW::disconnect() {
+  const std::lock_guard<std::mutex> lock(connection_mutex_);
   if (!controllerActive()) {
-    withdraw();  // the services refer to the robot that goes
+    withdrawRobot();  // the services refer to the robot that goes
+    lost_ = false;
+    setError(false);
   }
   return FrankaHW::disconnect();
 }
 
-void FrankaCombinableHW::withdraw() {
+void FrankaCombinableHW::lose(const std::string& what) {
+  const std::lock_guard<std::mutex> lock(connection_mutex_);
+  if (!connected()) {
+    return;  // given up by somebody meanwhile
+  }
+  ROS_ERROR_STREAM(arm_id_ << ": the robot is lost. " << what << reconnection_.outlook());
+  setError(true);
+  lost_ = true;
+  withdrawRobot();
+  dropConnection();
+}
+
+void FrankaCombinableHW::offerConnection() {
+  connect_server_ =
+      robot_hw_nh_.advertiseService("connect", &FrankaCombinableHW::connectRequested, this);
+  disconnect_server_ =
+      robot_hw_nh_.advertiseService("disconnect", &FrankaCombinableHW::disconnectRequested, this);
+}
+
+bool FrankaCombinableHW::connectRequested(TriggerRequest& /*request*/, TriggerResponse& response) {
+  response.success = false;
+  if (connected()) {
+    response.message = "Already connected to robot. Cannot connect twice.";
+    return true;
+  }
+  try {
+    connect();
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.message = "Failed to connect '" + arm_id_ + "': " + error.what();
+    ROS_ERROR_STREAM("FrankaCombinableHW: " << response.message);
+  }
+  return true;
+}
+
+bool FrankaCombinableHW::disconnectRequested(TriggerRequest& /*request*/,
+                                             TriggerResponse& response) {
+  response.success = disconnect();
+  response.message = response.success ? ""
+                                      : "A controller commands '" + arm_id_ +
+                                            "'. Cannot disconnect while it is running.";
+  return true;
+}
+
+void FrankaCombinableHW::withdrawRobot() {
   connected_ = false;
-  const std::lock_guard<std::mutex> lock(service_mutex_);
   if (recovery_server_) {
     // A recovery under way still answers through this pointer: it ends before reset() clears it.
     recovery_server_->shutdown();
@@ -71,10 +129,7 @@ void FrankaCombinableHW::withdraw() {
   services_.reset();
 }
 
-bool FrankaCombinableHW::connected() { return connected_; }
-
-void FrankaCombinableHW::setupServicesAndActionServers() {
-  const std::lock_guard<std::mutex> lock(service_mutex_);
+void FrankaCombinableHW::offerRobot() {
   if (!connected()) {
     ROS_ERROR_STREAM("FrankaCombinableHW: '"
                      << arm_id_ << "' is not connected: its services are not offered.");
@@ -107,7 +162,10 @@ void FrankaCombinableHW::resetError() {
                                      "' is not connected, so it cannot recover. Call the service "
                                      "connect first.");
     }
-    robot_->automaticErrorRecovery();
+    // An error of the controllers' own (NaN, a lost connection) leaves the robot Idle.
+    if (robot_->readOnce().robot_mode != franka::RobotMode::kIdle) {
+      robot_->automaticErrorRecovery();
+    }
   }
   if (has_error_) {
     error_recovered_ = true;
@@ -148,11 +206,6 @@ void FrankaCombinableHW::publishErrorState() {
   has_error_publisher_.publish(message);
 }
 
-void FrankaCombinableHW::reportError(const std::string& what) {
-  ROS_ERROR_STREAM(arm_id_ << ": " << what);
-  setError(true);
-}
-
 // --- the arm's thread ----------------------------------------------------------------------------
 
 void FrankaCombinableHW::controlLoop() {
@@ -163,38 +216,54 @@ void FrankaCombinableHW::controlLoop() {
     if (controllerActive() && !hasError() && connected()) {
       moveRobot();
     } else {
-      watchIdleRobot();
+      watchRobot();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       RobotWanted::giveWay();
     }
   }
 }
 
-void FrankaCombinableHW::watchIdleRobot() {
+void FrankaCombinableHW::watchRobot() {
+  if (connected()) {
+    readIdleRobot();
+    return;
+  }
+  if (controllerActive()) {
+    setError(true);  // it was given up in the moment in which a controller started
+  }
+  if (lost_ && initialized_) {
+    reconnection_.attempt(arm_id_, [this] { connect(); });
+  }
+}
+
+void FrankaCombinableHW::readIdleRobot() {
   try {
     const std::lock_guard<std::mutex> lock(robot_mutex_);
     if (robot_) {
-      const franka::RobotState state = robot_->readOnce();
-      robot_state_libfranka_ = state;
-      states_.write(state);
+      states_.write({robot_->readOnce(), ResponseTimes::Clock::now()});
     }
   } catch (const franka::Exception& error) {
-    reportError(std::string(error.what()) +
-                " The connection is given up; call the service connect "
-                "when the robot is back.");
-    withdraw();
-    dropConnection();
+    lose(error.what());
   }
 }
 
 void FrankaCombinableHW::moveRobot() {
   try {
-    // Nothing that was commanded before this motion belongs to it.
-    effort_joint_command_libfranka_ = franka::Torques({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
     control();
+  } catch (const franka::ControlException& error) {
+    abort(error.what(), error.log);
+  } catch (const franka::NetworkException& error) {
+    aborts_->report(error.what(), {});
+    lose(error.what());
   } catch (const std::exception& error) {
-    reportError(error.what());
+    abort(error.what(), {});
   }
+  motion_ended_ = ResponseTimes::Clock::now();
+}
+
+void FrankaCombinableHW::abort(const std::string& what, const std::vector<franka::Record>& log) {
+  setError(true);
+  aborts_->report(what, log);
 }
 
 void FrankaCombinableHW::control(
@@ -207,6 +276,7 @@ void FrankaCombinableHW::control(
   if (!robot_) {
     return;
   }
+  response_times_.motionBegins();
   try {
     run_function_(*robot_, Callback());
   } catch (const MotionInterrupted&) {
@@ -215,16 +285,21 @@ void FrankaCombinableHW::control(
 }
 
 franka::Torques FrankaCombinableHW::torqueCallback(const franka::RobotState& robot_state) {
-  states_.write(robot_state);
+  response_times_.stateArrived(robot_state.time, ResponseTimes::Clock::now());
+  states_.write({robot_state, response_times_.lastArrival()});
   if (!controllerActive() || hasError() || ending_) {
     return finished(effort_joint_command_libfranka_, robot_state);
   }
-  effort_joint_command_libfranka_ = torques_.read();
+  const Answer& answer = answers_.read();
+  // What was computed before the last motion ended does not belong to this one.
+  effort_joint_command_libfranka_ =
+      answer.since > motion_ended_ ? answer.torques : franka::Torques(std::array<double, 7>{});
   if (commandHasNaN(effort_joint_command_libfranka_)) {
     throw std::invalid_argument("A controller of " + arm_id_ +
                                 " commands a torque that is no number (NaN). The motion was ended "
                                 "before it reached the robot.");
   }
+  response_times_.commandReady(answer.since, ResponseTimes::Clock::now());
   return effort_joint_command_libfranka_;
 }
 
@@ -269,9 +344,25 @@ bool FrankaCombinableHW::checkForConflict(
   return partiallyClaimsArmJoints(claims, arm_id_);
 }
 
+bool FrankaCombinableHW::prepareSwitch(
+    const std::list<hardware_interface::ControllerInfo>& start_list,
+    const std::list<hardware_interface::ControllerInfo>& stop_list) {
+  ResourceWithClaimsMap resources = getResourceMap(start_list);
+  ArmClaimedMap claims;
+  if (!connected() && getArmClaimedMap(resources, claims) &&
+      getControlMode(arm_id_, claims) != ControlMode::None) {
+    ROS_ERROR_STREAM("FrankaCombinableHW: no controller can command '"
+                     << arm_id_ << "', which is not connected. Call its service connect first.");
+    return false;
+  }
+  return FrankaHW::prepareSwitch(start_list, stop_list);
+}
+
 void FrankaCombinableHW::read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {
   controller_needs_reset_ = error_recovered_.load();
-  FrankaHW::update(states_.read());
+  const ArrivedState& latest = states_.read();
+  read_arrival_ = latest.arrival;
+  FrankaHW::update(latest.state);
   FrankaCombinableHW::checkJointLimits();
 }
 
@@ -282,7 +373,7 @@ void FrankaCombinableHW::write(const ros::Time& /*time*/, const ros::Duration& p
     error_recovered_ = false;
   }
   enforceLimits(period);
-  torques_.write(effort_joint_command_ros_);
+  answers_.write({effort_joint_command_ros_, read_arrival_});
 }
 
 void FrankaCombinableHW::checkJointLimits() { FrankaHW::checkJointLimits(); }

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/exception.h>
 #include <franka_hw/franka_combined_hw.h>
 #include <ros/console.h>
 #include <std_srvs/Trigger.h>
@@ -60,6 +61,9 @@ void FrankaCombinedHW::recover() {
   is_recovering_ = true;
   std::string failures;
   for (FrankaCombinableHW* const arm : arms_) {
+    if (!arm->connected() && !arm->hasOwnError()) {
+      continue;  // it was given up, and keeps nobody waiting
+    }
     try {
       arm->resetError();
     } catch (const std::exception& error) {
@@ -102,8 +106,17 @@ bool FrankaCombinedHW::controllerNeedsReset() {
 }
 
 void FrankaCombinedHW::connect() {
+  std::string failures, connected;
   for (FrankaCombinableHW* const arm : arms_) {
-    arm->connect();
+    try {
+      arm->connect();
+      connected += " '" + arm->getArmID() + "' is connected.";
+    } catch (const std::exception& error) {
+      failures += (failures.empty() ? "'" : " '") + arm->getArmID() + "': " + error.what();
+    }
+  }
+  if (!failures.empty()) {
+    throw franka::NetworkException(failures + connected);
   }
 }
 

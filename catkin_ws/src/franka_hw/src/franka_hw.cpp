@@ -103,6 +103,7 @@ void FrankaHW::connect() {
       config.lower_force_thresholds_nominal, config.upper_force_thresholds_nominal);
   // Only a robot that is completely set up counts as connected.
   robot_ = std::move(robot);
+  connected_ = true;
 }
 
 bool FrankaHW::disconnect() {
@@ -110,17 +111,17 @@ bool FrankaHW::disconnect() {
     ROS_ERROR("FrankaHW: the connection cannot be ended while a controller is active.");
     return false;
   }
-  const std::lock_guard<std::mutex> lock(robot_mutex_);
-  robot_.reset();
+  dropConnection();
   return true;
 }
 
 void FrankaHW::dropConnection() {
   const std::lock_guard<std::mutex> lock(robot_mutex_);
+  connected_ = false;
   robot_.reset();
 }
 
-bool FrankaHW::connected() { return robot_ != nullptr; }
+bool FrankaHW::connected() { return connected_; }
 
 franka::Robot& FrankaHW::robot() const {
   if (!initialized_ || !robot_) {

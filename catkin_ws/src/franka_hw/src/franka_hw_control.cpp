@@ -160,6 +160,7 @@ void FrankaHW::control(
   };
 
   const std::lock_guard<std::mutex> lock(robot_mutex_);
+  response_times_.motionBegins();
   try {
     run_function_(robot(), once_a_state);
   } catch (const MotionInterrupted&) {

@@ -30,10 +30,14 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
   bool controllerNeedsReset();
   bool hasError();
 
-  /// Connects all arms. @throws franka::Exception when one cannot be reached
+  /// Connects the arms that are not connected, also where one of them fails.
+  /// @throws franka::NetworkException that names each arm that failed, why, and those that did not
   void connect();
   /// @returns false, leaving all connected, while a controller commands one of them
   bool disconnect();
+
+  /// The arms among the parts of the robot. They live as long as this.
+  const std::vector<FrankaCombinableHW*>& arms() const noexcept { return arms_; }
 
  private:
   using RecoveryServer = actionlib::SimpleActionServer<franka_msgs::ErrorRecoveryAction>;

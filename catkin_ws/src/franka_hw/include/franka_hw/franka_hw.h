@@ -11,6 +11,7 @@
 #include <franka_hw/franka_model_interface.h>
 #include <franka_hw/franka_state_interface.h>
 #include <franka_hw/model_base.h>
+#include <franka_hw/response_times.h>
 #include <franka_hw/robot_clock.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
@@ -142,6 +143,8 @@ class FrankaHW : public hardware_interface::RobotHW {
   virtual std::mutex& robotMutex();
   /// As of the last state.
   franka::RobotMode robotMode() const;
+  /// How fast the controllers answer the robot. Reports are for one thread.
+  ResponseTimes& responseTimes() noexcept { return response_times_; }
 
   /// Whether a value of the command is not a number.
   static bool commandHasNaN(const franka::Torques& command);
@@ -176,6 +179,7 @@ class FrankaHW : public hardware_interface::RobotHW {
   template <typename T>
   T controlCallback(const T& command, Callback ros_callback, const franka::RobotState& robot_state,
                     franka::Duration time_step) {
+    response_times_.stateArrived(robot_state.time, ResponseTimes::Clock::now());
     robot_state_libfranka_ = robot_state;
     const ros::Duration period(time_step.toSec());
     read(clock_.time(), period);
@@ -188,6 +192,7 @@ class FrankaHW : public hardware_interface::RobotHW {
                                   " commands a value that is no number (NaN). The motion was ended "
                                   "before it reached the robot.");
     }
+    response_times_.commandReady(response_times_.lastArrival(), ResponseTimes::Clock::now());
     return command;
   }
 
@@ -312,7 +317,8 @@ class FrankaHW : public hardware_interface::RobotHW {
 
   franka::RealtimeConfig realtime_config_{franka::RealtimeConfig::kEnforce};
 
-  bool initialized_{false};
+  std::atomic_bool initialized_{false};
+  std::atomic_bool connected_{false};
   std::atomic_bool controller_active_{false};
   ControlMode current_control_mode_ = ControlMode::None;
 
@@ -322,6 +328,7 @@ class FrankaHW : public hardware_interface::RobotHW {
   std::function<void(franka::Robot&, Callback)> run_function_;
 
   RobotClock clock_;  ///< what time the controllers are told
+  ResponseTimes response_times_;
 
  private:
   /// How a motion is run; a change needs a new motion.

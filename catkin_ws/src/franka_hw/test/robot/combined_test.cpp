@@ -1,7 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Several arms as one robot: FrankaCombinedHW and the FrankaCombinableHW that it loads.
+#include <franka/extensions.h>
 #include <franka_hw/franka_combined_hw.h>
+#include <franka_msgs/SetLoad.h>
 #include <gtest/gtest.h>
 #include <std_srvs/Trigger.h>
 
@@ -64,7 +66,30 @@ class Combined : public testing::Test {
     ASSERT_TRUE(robot_.prepareSwitch(both, {}));
     robot_.doSwitch(both, {});
   }
+  void stop() {
+    const std::list<ControllerInfo> both{claiming("left"), claiming("right")};
+    ASSERT_TRUE(robot_.prepareSwitch({}, both));
+    robot_.doSwitch({}, both);
+  }
   static double torqueOf(const FakeArm& arm) { return arm.robot.state().tau_J_d[3]; }
+  bool bothMove() {
+    return cycleUntil([&] { return torqueOf(left_) == 1.5 && torqueOf(right_) == -2.5; });
+  }
+
+  /// One of the node's services: of an arm, or of all.
+  std_srvs::Trigger::Response call(const std::string& service) {
+    std_srvs::Trigger trigger;
+    EXPECT_TRUE(ros::service::call(nh_.resolveName(service), trigger)) << service;
+    return trigger.response;
+  }
+  /// All arms recover: the action's goal, as its topic carries it.
+  void recover() {
+    ros::Publisher goal =
+        nh_.advertise<franka_msgs::ErrorRecoveryActionGoal>("error_recovery/goal", 1);
+    ASSERT_TRUE(cycleUntil([&] { return goal.getNumSubscribers() > 0; }));
+    goal.publish(franka_msgs::ErrorRecoveryActionGoal());
+    ASSERT_TRUE(cycleUntil([&] { return !robot_.hasError(); }));
+  }
 
   ros::NodeHandle nh_{FakeArm::freshNamespace()};
   FakeArm left_{"left", nh_}, right_{"right", nh_};
@@ -97,12 +122,10 @@ TEST_F(Combined, RefusesWhatIsNoTorque) {
 
 TEST_F(Combined, CommandsEachArmItsOwn) {
   start();
-  EXPECT_TRUE(cycleUntil([&] { return torqueOf(left_) == 1.5 && torqueOf(right_) == -2.5; }));
+  EXPECT_TRUE(bothMove());
   EXPECT_FALSE(robot_.hasError());
   EXPECT_FALSE(robot_.disconnect()) << "not while controllers run";
-  const std::list<ControllerInfo> both{claiming("left"), claiming("right")};
-  ASSERT_TRUE(robot_.prepareSwitch({}, both));
-  robot_.doSwitch({}, both);
+  stop();
   EXPECT_TRUE(cycleUntil([&] {
     return left_.robot.state().robot_mode == franka_core::RobotMode::kIdle &&
            right_.robot.state().robot_mode == franka_core::RobotMode::kIdle;
@@ -126,12 +149,8 @@ TEST_F(Combined, AnErrorOfOneStopsAllUntilAllAreRecovered) {
     state.errors = {};
   });
   const int moves = right_.robot.count(Command::kMove);
-  // The action's goal, as its topic carries it.
-  ros::Publisher goal =
-      nh_.advertise<franka_msgs::ErrorRecoveryActionGoal>("error_recovery/goal", 1);
-  ASSERT_TRUE(cycleUntil([&] { return goal.getNumSubscribers() > 0; }));
-  goal.publish(franka_msgs::ErrorRecoveryActionGoal());
-  EXPECT_TRUE(cycleUntil([&] { return torqueOf(left_) == 1.5 && torqueOf(right_) == -2.5; }));
+  recover();
+  EXPECT_TRUE(bothMove());
   EXPECT_FALSE(robot_.hasError());
   EXPECT_TRUE(needed_reset_) << "the controllers were told to start anew";
   EXPECT_FALSE(robot_.controllerNeedsReset()) << "once";
@@ -153,15 +172,168 @@ TEST_F(Combined, NanOnOneArmIsAnErrorAndReachesNoRobot) {
 }
 
 TEST_F(Combined, ConnectionsAreGivenUpAndTakenTogether) {
-  std_srvs::Trigger trigger;
-  ASSERT_TRUE(ros::service::call(nh_.resolveName("disconnect"), trigger));
-  EXPECT_TRUE(trigger.response.success) << trigger.response.message;
-  ASSERT_TRUE(ros::service::call(nh_.resolveName("connect"), trigger));
-  EXPECT_TRUE(trigger.response.success) << trigger.response.message;
+  EXPECT_TRUE(call("disconnect").success);
+  EXPECT_TRUE(call("connect").success);
   EXPECT_EQ(2, left_.robot.connections());
   EXPECT_EQ(2, right_.robot.connections());
   start();
-  EXPECT_TRUE(cycleUntil([&] { return torqueOf(left_) == 1.5 && torqueOf(right_) == -2.5; }));
+  EXPECT_TRUE(bothMove());
+}
+
+// --- an arm that is lost -------------------------------------------------------------------------
+
+class Losing : public Combined {
+ protected:
+  void SetUp() override {
+    franka::Timeouts timeouts = usual_;
+    timeouts.state = std::chrono::seconds(3);
+    franka::setTimeouts(timeouts);
+    Combined::SetUp();
+  }
+  void TearDown() override { franka::setTimeouts(usual_); }
+
+  /// The left robot goes away in the middle of a motion of both.
+  void loseLeft(bool stays_away = true) {
+    left_.robot.script([=](auto& script) {
+      script.close_after = 50;
+      if (stays_away) {
+        script.fatal.insert(Command::kConnect);
+      }
+    });
+    start();
+    ASSERT_TRUE(cycleUntil([&] { return !robot_.arms()[0]->connected(); }));
+    ASSERT_TRUE(cycleUntil(
+        [&] { return right_.robot.state().robot_mode == franka_core::RobotMode::kIdle; }));
+  }
+  void leftComesBack() {
+    left_.robot.script([](auto& script) {
+      script.close_after = -1;
+      script.fatal.clear();
+    });
+  }
+
+  const franka::Timeouts usual_{franka::timeouts()};
+};
+
+TEST_F(Losing, ALostArmIsNamedAndTheOtherIsThereForEverybody) {
+  const LogCatcher log;
+  loseLeft();
+  EXPECT_NE(std::string::npos, log.text().find("left: the robot is lost. ")) << log.text();
+  EXPECT_NE(std::string::npos, log.text().find("Call the service connect when it is back."));
+  EXPECT_TRUE(robot_.arms()[0]->hasOwnError());
+  EXPECT_FALSE(robot_.arms()[1]->hasOwnError());
+
+  const franka::RobotState& right =
+      robot_.get<franka_hw::FrankaStateInterface>()->getHandle("right_robot").getRobotState();
+  const std::uint64_t time = right.time.toMSec();
+  EXPECT_TRUE(cycleUntil([&] { return right.time.toMSec() > time + 20; })) << "states go on";
+  EXPECT_FALSE(ros::service::exists(left_.robot_nh.resolveName("set_load"), false));
+  franka_msgs::SetLoad load;
+  ASSERT_TRUE(ros::service::call(right_.robot_nh.resolveName("set_load"), load));
+  EXPECT_TRUE(load.response.success) << load.response.error;
+  EXPECT_EQ(1, right_.robot.count(Command::kSetLoad));
+}
+
+TEST_F(Losing, ConnectSaysWhatCameOfEachArm) {
+  loseLeft();
+  const std_srvs::Trigger::Response all = call("connect");
+  EXPECT_FALSE(all.success);
+  EXPECT_EQ(0u, all.message.find("FrankaCombinedHW: Failed to connect robot: 'left': libfranka"))
+      << all.message;
+  EXPECT_NE(std::string::npos, all.message.find("'right' is connected.")) << all.message;
+  EXPECT_FALSE(call("left/connect").success);
+  const std_srvs::Trigger::Response right = call("right/connect");
+  EXPECT_FALSE(right.success);
+  EXPECT_EQ("Already connected to robot. Cannot connect twice.", right.message);
+
+  leftComesBack();
+  EXPECT_TRUE(call("left/connect").success);
+  EXPECT_TRUE(robot_.hasError()) << "it moves again when somebody says so";
+  recover();
+  EXPECT_TRUE(bothMove());
+  EXPECT_TRUE(needed_reset_);
+}
+
+TEST_F(Losing, TheOtherGoesOnAloneWhenOneIsGivenUp) {
+  loseLeft();
+  const std_srvs::Trigger::Response early = call("left/disconnect");
+  EXPECT_FALSE(early.success);
+  EXPECT_NE(std::string::npos, early.message.find("'left'")) << early.message;
+  stop();
+  ASSERT_TRUE(robot_.hasError());
+  EXPECT_TRUE(call("left/disconnect").success);
+  ASSERT_TRUE(cycleUntil([&] { return !robot_.hasError(); }));
+  recover();  // succeeds: who was given up has nothing to recover from
+
+  const LogCatcher log;
+  EXPECT_FALSE(robot_.prepareSwitch({claiming("left")}, {}));
+  EXPECT_NE(std::string::npos, log.text().find("'left', which is not connected")) << log.text();
+  ASSERT_TRUE(robot_.prepareSwitch({claiming("right")}, {}));
+  robot_.doSwitch({claiming("right")}, {});
+  EXPECT_TRUE(cycleUntil([&] { return torqueOf(right_) == -2.5; }));
+
+  leftComesBack();
+  EXPECT_TRUE(call("left/connect").success) << "while the other one moves";
+  ASSERT_TRUE(robot_.prepareSwitch({claiming("left")}, {}));
+  robot_.doSwitch({claiming("left")}, {});
+  EXPECT_TRUE(bothMove());
+}
+
+class Reconnecting : public Losing {
+ protected:
+  void SetUp() override {
+    nh_.setParam("reconnect", true);  // of the node: for all of its arms
+    Losing::SetUp();
+  }
+};
+
+TEST_F(Reconnecting, ALostArmComesBackByItselfButDoesNotMove) {
+  const LogCatcher log;
+  loseLeft();
+  EXPECT_NE(std::string::npos, log.text().find("Trying to connect again")) << log.text();
+  leftComesBack();
+  ASSERT_TRUE(cycleUntil([&] { return robot_.arms()[0]->connected(); }));
+  for (int i = 0; i < 100; i++) {
+    cycle();
+  }
+  EXPECT_TRUE(robot_.hasError());
+  EXPECT_EQ(1, left_.robot.count(Command::kMove));
+  recover();
+  EXPECT_TRUE(bothMove());
+}
+
+TEST_F(Reconnecting, AnArmThatWasGivenUpStaysAway) {
+  ASSERT_TRUE(call("left/disconnect").success);
+  // Longer than between two attempts.
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1500);
+  while (std::chrono::steady_clock::now() < end) {
+    cycle();
+  }
+  EXPECT_FALSE(robot_.arms()[0]->connected());
+  EXPECT_EQ(1, left_.robot.connections());
+}
+
+// --- what is measured ----------------------------------------------------------------------------
+
+TEST_F(Combined, ResponseTimesCountFromTheStateThatTheControllersSaw) {
+  start();
+  ASSERT_TRUE(bothMove());
+  constexpr std::chrono::milliseconds kWork{5};
+  const auto slowCycle = [&] {
+    robot_.read(ros::Time::now(), ros::Duration(0.001));
+    std::this_thread::sleep_for(kWork);
+    robot_.write(ros::Time::now(), ros::Duration(0.001));
+  };
+  slowCycle();
+  slowCycle();
+  robot_.arms()[0]->responseTimes().take();
+  for (int i = 0; i < 40; i++) {
+    slowCycle();
+  }
+  const auto report = robot_.arms()[0]->responseTimes().take();
+  EXPECT_GT(report.cycles, 40u) << "the robot is answered at its own pace";
+  EXPECT_GT(report.mean, 5e-3);
+  EXPECT_GE(report.longest, report.mean);
 }
 
 }  // namespace

@@ -21,5 +21,27 @@ TEST(Cycle, NeitherAllocatesNorLocks) {
   EXPECT_EQ(0u, scope.locks());
 }
 
+TEST(Cycle, IsMeasuredFromTheStateToTheCommand) {
+  FakeArm arm;
+  franka_hw::FrankaHW robot;
+  ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh));
+  Loop loop(robot, arm);
+  loop.controller("JT+JP").fault = ToldController::Fault::kSleep;  // two milliseconds
+  ASSERT_TRUE(loop.switchTo({"JT+JP"}, {}));
+  const std::atomic<int>& updates = loop.controller("JT+JP").updates_since_start;
+  ASSERT_TRUE(waitUntil([&] { return updates > 5; }));
+  const int earliest = updates;
+  robot.responseTimes().take();
+  const int first = updates;
+  ASSERT_TRUE(waitUntil([&] { return updates >= first + 20; }));
+  const franka_hw::ResponseTimes::Report report = robot.responseTimes().take();
+  // Once for the two callbacks of a cycle.
+  EXPECT_GE(report.cycles, 18u);
+  EXPECT_LE(report.cycles, static_cast<std::uint64_t>(updates - earliest + 1));
+  EXPECT_GE(report.mean, 2e-3);
+  EXPECT_GE(report.longest, report.mean);
+  EXPECT_GT(report.spread, 0.0);
+}
+
 }  // namespace
 }  // namespace franka_hw_test

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "abort_reporter.h"
-
+#include <franka_hw/abort_reporter.h>
 #include <ros/console.h>
 #include <ros/file_log.h>
 #include <std_msgs/String.h>
@@ -9,11 +8,15 @@
 #include <ctime>
 #include <fstream>
 
-namespace franka_control {
+namespace franka_hw {
 
-AbortReporter::AbortReporter(ros::NodeHandle& nh)
-    : publisher_(nh.advertise<std_msgs::String>("abort", 1, true)),
-      directory_(nh.param("abort_log_directory", ros::file_log::getLogDirectory())) {}
+AbortReporter::AbortReporter(ros::NodeHandle& nh, const std::string& arm_id)
+    : publisher_(nh.advertise<std_msgs::String>("abort", 1, true)), arm_id_(arm_id) {
+  std::string name;
+  if (!nh.searchParam("abort_log_directory", name) || !nh.getParam(name, directory_)) {
+    directory_ = ros::file_log::getLogDirectory();
+  }
+}
 
 void AbortReporter::report(const std::string& what, const std::vector<franka::Record>& log) {
   std_msgs::String message;
@@ -24,7 +27,7 @@ void AbortReporter::report(const std::string& what, const std::vector<franka::Re
         file.empty() ? "\nThe log of the motion could not be written to '" + directory_ + "'."
                      : "\nThe last " + std::to_string(log.size()) + " states and commands: " + file;
   }
-  ROS_ERROR_STREAM(message.data);
+  ROS_ERROR_STREAM(arm_id_ << ": " << message.data);
   publisher_.publish(message);
 }
 
@@ -33,11 +36,11 @@ std::string AbortReporter::save(const std::vector<franka::Record>& log) const {
   char stamp[32];
   std::strftime(stamp, sizeof(stamp), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
   // The robot's own time tells two aborts of one second apart.
-  const std::string path = directory_ + "/franka_abort_" + stamp + "_" +
+  const std::string path = directory_ + "/franka_abort_" + arm_id_ + "_" + stamp + "_" +
                            std::to_string(log.back().state.time.toMSec()) + ".csv";
   std::ofstream file(path);
   file << franka::logToCSV(log);
   return file.good() ? path : "";
 }
 
-}  // namespace franka_control
+}  // namespace franka_hw

@@ -9,14 +9,16 @@
 #include <string>
 #include <vector>
 
-namespace franka_control {
+namespace franka_hw {
 
 /// Keeps what is known about the last abort of a motion where people find it: on the latched topic
 /// `abort` (std_msgs/String) and, where there is a log, in a CSV file. Not for the loop.
 class AbortReporter {
  public:
-  /// Files go to the parameter `abort_log_directory`, or to ROS's own log directory.
-  explicit AbortReporter(ros::NodeHandle& nh);
+  /// Files go to the parameter `abort_log_directory`, searched for from the namespace of the robot
+  /// upwards, or to ROS's own log directory.
+  /// @param nh namespace of the robot @param arm_id part of the files' names
+  AbortReporter(ros::NodeHandle& nh, const std::string& arm_id);
 
   /// @param what a sentence for a person @param log the last states and commands, maybe empty
   void report(const std::string& what, const std::vector<franka::Record>& log);
@@ -25,7 +27,8 @@ class AbortReporter {
   std::string save(const std::vector<franka::Record>& log) const;
 
   ros::Publisher publisher_;
+  std::string arm_id_;
   std::string directory_;
 };
 
-}  // namespace franka_control
+}  // namespace franka_hw
