@@ -48,16 +48,22 @@ def waits(condition, patience=PATIENCE):
 
 
 def recover(name):
+    """How a recovery ended."""
+    return recovery(name)[0]
+
+
+def recovery(name):
+    """The same, and its text."""
     client = actionlib.ActionClient(name, ErrorRecoveryAction)
     if not client.wait_for_server(rospy.Duration(PATIENCE)):
-        return "no server"
+        return ["no server", ""]
     goal = client.send_goal(ErrorRecoveryGoal())
     waits(lambda: goal.get_comm_state() == actionlib.CommState.DONE)
-    return goal.get_terminal_state()
+    return [goal.get_terminal_state(), goal.get_goal_status_text()]
 
 
-def move(arms, by):
-    """Moves all joints of all arms by the same angle; returns the largest error [rad]."""
+def move(arms, by, controller=CONTROLLER):
+    """Moves all joints of these arms by the same angle; returns the largest error [rad]."""
     targets = {f"{arm.name}_joint{i + 1}": arm.state.q[i] + by for arm in arms for i in range(7)}
     goal = FollowJointTrajectoryGoal()
     goal.trajectory.joint_names = list(targets)
@@ -69,7 +75,7 @@ def move(arms, by):
         )
     ]
     client = actionlib.ActionClient(
-        f"{NODE}/{CONTROLLER}/follow_joint_trajectory", FollowJointTrajectoryAction
+        f"{NODE}/{controller}/follow_joint_trajectory", FollowJointTrajectoryAction
     )
     if not client.wait_for_server(rospy.Duration(PATIENCE)):
         return None

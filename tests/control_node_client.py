@@ -15,7 +15,7 @@ import numpy as np
 import rospy
 import tf2_ros
 from controller_manager_msgs.srv import SwitchController
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnosis import Diagnosis
 from franka_msgs.msg import FrankaState
 from franka_msgs.srv import (
     SetCartesianImpedance,
@@ -280,28 +280,6 @@ class Topics:
         }
 
 
-class Diagnosis:
-    def __init__(self):
-        self.kept = {}
-        rospy.Subscriber("/diagnostics", DiagnosticArray, self._keep)
-
-    def _keep(self, message):
-        for status in message.status:
-            self.kept[status.name] = status
-
-    def shows(self, what, text, **expected):
-        """The status of one kind, once it says that: [level, hardware, values], or what it says instead."""
-        name = f"franka_control: {what}"
-        deadline = time.monotonic() + PATIENCE
-        while time.monotonic() < deadline:
-            status = self.kept.get(name)
-            values = {v.key: v.value for v in status.values} if status is not None else {}
-            if values.items() >= expected.items() and status is not None and status.message == text:
-                return [status.level, status.hardware_id, values]
-            time.sleep(0.02)
-        return self.kept[name].message if name in self.kept else sorted(self.kept)
-
-
 def idle(robot, person, services, topics, diagnosis):
     report = {"diagnosis": diagnosis.shows("Robot", "Ready")}
     report["loop"] = diagnosis.shows("Control loop", "The controllers keep time")
@@ -477,7 +455,7 @@ def connection(robot, services, diagnosis):
 
 def main():
     rospy.init_node("control_node_client", anonymous=True)
-    topics, diagnosis, services = Topics(), Diagnosis(), Services()
+    topics, diagnosis, services = Topics(), Diagnosis("franka_control"), Services()
     robot, person = Robot(), Person(ADDRESS)
     robot.waits(lambda: True)
     report = {"idle": idle(robot, person, services, topics, diagnosis)}
