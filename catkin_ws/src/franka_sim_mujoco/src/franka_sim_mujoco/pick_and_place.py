@@ -49,7 +49,6 @@ from franka_sim_mujoco.srv import GetBodyPose, GetContacts, RenderPicture, SetBo
 STONE_SIZE = (0.025, 0.032, 0.064)
 STONE_MASS = 0.1024
 TRAY_SIZE = (0.235035, 0.144926, 0.023348)
-HAND_REACH = 0.1034  # flange to the middle of the finger tips [m]
 PATIENCE = 10.0  # least wall time before anything is given up [s]
 
 
@@ -85,14 +84,20 @@ class Arm:
     SETTLED = 0.2  # a pose counts when it is kept for so long [s]
     LONGEST_STEP = 0.02  # a target runs ahead of the last by so much of its way at most [s]
 
-    def __init__(self, arm_id: str):
+    def __init__(self, arm_id: str, namespace: str = ""):
+        """@param namespace of its launch file, with a slash at its end; none: that of this process."""
         self.arm_id = arm_id
+        self.fingers = [f"{arm_id}_{side}finger" for side in ("left", "right")]
+        self._namespace = namespace
         self._state: FrankaState | None = None
         self._target: np.ndarray | None = None
         self._arrival: float | None = None  # since when the arm is where it should be
-        self._publisher = rospy.Publisher(f"{self.CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1)
-        rospy.Subscriber("franka_state_controller/franka_states", FrankaState, self._store, queue_size=1)
-        self._set_load = rospy.ServiceProxy("franka_control/set_load", SetLoad)
+        self._publisher = rospy.Publisher(
+            f"{namespace}{self.CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1
+        )
+        states = f"{namespace}franka_state_controller/franka_states"
+        rospy.Subscriber(states, FrankaState, self._store, queue_size=1)
+        self._set_load = rospy.ServiceProxy(f"{namespace}franka_control/set_load", SetLoad)
 
     def _store(self, state: FrankaState) -> None:
         self._state = state
@@ -123,14 +128,26 @@ class Arm:
 
     def configure(self, **parameters: float) -> None:
         """Sets stiffnesses by dynamic_reconfigure."""
-        name = rospy.resolve_name(f"{self.CONTROLLER}/dynamic_reconfigure_compliance_param_node")
-        ReconfigureClient(name, timeout=30).update_configuration(parameters)
+        server = f"{self._namespace}{self.CONTROLLER}/dynamic_reconfigure_compliance_param_node"
+        ReconfigureClient(rospy.resolve_name(server), timeout=30).update_configuration(parameters)
 
     def set_load(self, mass: float, centre: tuple[float, float, float], inertia: list[float]) -> None:
         """Tells the robot what hangs on its flange: [kg], in the flange frame [m], [kg m^2] column-major."""
         answer = self._set_load(mass, centre, inertia)
         if not answer.success:
             raise TaskError(f"set_load was refused: {answer.error}")
+
+    def carry(self, box: np.ndarray, size: tuple[float, float, float], mass: float) -> None:
+        """Tells the robot of a box that it holds: where it is in O (4x4), its sides [m] and mass [kg]."""
+        a, b, c = size
+        principal = mass / 12.0 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
+        flange = self.pose @ np.linalg.inv(np.array(self.state.F_T_EE).reshape(4, 4, order="F"))
+        held = np.linalg.inv(flange) @ box
+        inertia = held[:3, :3] @ np.diag(principal) @ held[:3, :3].T
+        self.set_load(mass, tuple(held[:3, 3]), list(inertia.flatten(order="F")))
+
+    def carry_nothing(self) -> None:
+        self.set_load(0.0, (0.0, 0.0, 0.0), [0.0] * 9)
 
     def move(
         self,
@@ -201,11 +218,12 @@ class Gripper:
 
     ACTIONS = {"homing": HomingAction, "move": MoveAction, "grasp": GraspAction, "stop": StopAction}
 
-    def __init__(self):
+    def __init__(self, namespace: str = ""):
+        """@param namespace as of Arm."""
         # Goal handles are polled: the simple client loses goals that end before its send_goal() returns,
         # as they do when the simulation runs flat out.
         self._clients = {
-            name: actionlib.ActionClient(f"franka_gripper/{name}", kind)
+            name: actionlib.ActionClient(f"{namespace}franka_gripper/{name}", kind)
             for name, kind in self.ACTIONS.items()
         }
 
@@ -289,8 +307,15 @@ class Scene:
             total += sum(math.hypot(f.x, f.y, f.z) for f in answer.forces)
         return total
 
-    def picture(self, width: int = 960, height: int = 720) -> Image:
-        answer = self._render(Point(1.15, -0.95, 1.05), Point(-0.1, 0.0, 0.42), 45.0, width, height)
+    def picture(
+        self,
+        eye: tuple[float, float, float] = (1.15, -0.95, 1.05),
+        target: tuple[float, float, float] = (-0.1, 0.0, 0.42),
+        width: int = 960,
+        height: int = 720,
+    ) -> Image:
+        """What is seen from a point of the world towards another [m]."""
+        answer = self._render(Point(*eye), Point(*target), 45.0, width, height)
         return self._checked(answer, "picture").image
 
 
@@ -314,7 +339,6 @@ class PickAndPlace:
         arm.wait_ready()
         gripper.wait_ready()
         self._base_inverse = np.linalg.inv(scene.pose(f"{arm.arm_id}_link0"))
-        self._fingers = [f"{arm.arm_id}_{side}finger" for side in ("left", "right")]
 
     def prepare(self) -> None:
         self.arm.configure(nullspace_stiffness=10.0, translational_stiffness=400.0, rotational_stiffness=30.0)
@@ -332,9 +356,9 @@ class PickAndPlace:
         self._descend(x, y, z, yaw)
         self.report(f"grasping with {self.FORCE:.0f} N")
         self.gripper.grasp(width, self.FORCE)
-        self._tell_load(yaw)
+        self.arm.carry(self._in_base(self.scene.pose("stone")), STONE_SIZE, STONE_MASS)
         self.report(
-            f"the stone is held, contact forces {self.scene.grip_force('stone', self._fingers):.1f} N"
+            f"the stone is held, contact forces {self.scene.grip_force('stone', self.arm.fingers):.1f} N"
         )
         self._held = (z, yaw, stone)
         self.arm.move(downwards(x, y, z + self.APPROACH, yaw), speed=0.1, what="the lift")
@@ -358,7 +382,7 @@ class PickAndPlace:
         self._descend(x, y, z + 0.002, yaw)
         self.gripper.stop()
         self.gripper.move(0.08, speed=0.05)
-        self.arm.set_load(0.0, (0.0, 0.0, 0.0), [0.0] * 9)
+        self.arm.carry_nothing()
         self.report("the stone is let go")
         self.arm.move(downwards(x, y, z + self.APPROACH, yaw), what="the retreat")
 
@@ -403,13 +427,3 @@ class PickAndPlace:
 
     def _descend(self, x: float, y: float, z: float, yaw: float) -> None:
         self.arm.move(downwards(x, y, z, yaw), speed=0.06, tolerance=0.008, what="the descent")
-
-    def _tell_load(self, yaw: float) -> None:
-        """Mass and inertia of the stone in the flange frame, upright between the finger tips."""
-        a, b, c = STONE_SIZE
-        principal = STONE_MASS / 12.0 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
-        stone_in_base = self._in_base(self.scene.pose("stone"))
-        flange = self.arm.pose @ np.linalg.inv(np.array(self.arm.state.F_T_EE).reshape(4, 4, order="F"))
-        turn = flange[:3, :3].T @ stone_in_base[:3, :3]
-        inertia = turn @ np.diag(principal) @ turn.T
-        self.arm.set_load(STONE_MASS, (0.0, 0.0, HAND_REACH), list(inertia.flatten(order="F")))

@@ -122,3 +122,11 @@ class Session:
             except OSError:
                 continue
         return found
+
+
+class ShellSession(Session):
+    """The same for a roslaunch command line as a person types it into a shell."""
+
+    def __init__(self, command: str, log: Path, port: int | None = None):
+        super().__init__(log=log, port=port)
+        self._command = ["bash", "-c", command]

@@ -88,9 +88,12 @@ std::string resolveUri(const std::string& uri) {
     return uri;
   }
   const std::size_t slash = uri.find('/', kPackage.size());
+  if (slash == std::string::npos) {
+    return "";  // no file; rospack would print errors about names such as `sun`, which are no packages
+  }
   const std::string package = uri.substr(kPackage.size(), slash - kPackage.size());
   const std::string folder = ros::package::getPath(package);
-  return folder.empty() || slash == std::string::npos ? "" : folder + uri.substr(slash);
+  return folder.empty() ? "" : folder + uri.substr(slash);
 }
 
 RobotPlan planRobot(const SpawnOrder& order) {

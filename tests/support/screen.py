@@ -1,0 +1,59 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A virtual screen with software OpenGL, and pictures of it."""
+
+import ctypes
+import os
+import re
+import subprocess
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+
+@contextmanager
+def virtual_screen(size: str = "1280x960x24"):
+    """Whatever is started meanwhile finds it as its display; its number is X's own choice."""
+    read, write = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", size],
+        pass_fds=[write],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    os.close(write)
+    try:
+        with os.fdopen(read) as answer, pytest.MonkeyPatch.context() as patch:
+            patch.setenv("DISPLAY", f":{answer.readline().strip()}")
+            patch.setenv("LIBGL_ALWAYS_SOFTWARE", "1")
+            yield
+    finally:
+        server.terminate()
+        server.wait(10)
+
+
+def colours(path: Path, window: int | None = None) -> int:
+    """Takes a picture of a window, or of all of the screen, and counts its colours."""
+    subprocess.run(["import", "-window", str(window or "root"), str(path)], check=True, timeout=30)
+    with Image.open(path) as picture:
+        return len(picture.convert("RGB").getcolors(maxcolors=1 << 20))
+
+
+def window_of(title: str) -> int | None:
+    """The number of the first window whose title contains a text."""
+    tree = subprocess.run(["xwininfo", "-root", "-tree"], text=True, capture_output=True, timeout=30).stdout
+    found = re.search(rf'^\s*(0x[0-9a-f]+) "[^"]*{re.escape(title)}[^"]*"', tree, re.M)
+    return int(found.group(1), 16) if found else None
+
+
+def move_window(window: int, x: int, y: int) -> None:
+    """There is no window manager: new windows cover each other in the upper left corner."""
+    x11 = ctypes.CDLL("libX11.so.6")
+    x11.XOpenDisplay.restype = ctypes.c_void_p
+    display = ctypes.c_void_p(x11.XOpenDisplay(None))
+    assert display, "There is no display."
+    x11.XMoveWindow(display, ctypes.c_ulong(window), x, y)
+    x11.XSync(display, 0)
+    x11.XCloseDisplay(display)
