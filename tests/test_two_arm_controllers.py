@@ -5,16 +5,24 @@
 import json
 from pathlib import Path
 
+import pytest
 from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
 
 
-def outcome_of(tmp_path, launch, client):
-    arguments = ["franka_example_controllers", launch, "sim:=true", "rviz:=false", "rqt:=false"]
-    with Session(*arguments, *client[1:], log=tmp_path / "launch.log") as session:
+@pytest.fixture(params=["panda", "fr3"])
+def robot(request, long_run):
+    if request.param == "fr3" and not long_run:
+        pytest.skip("FR3s follow the same launch files; they take part in the long form.")
+    return request.param
+
+
+def outcome_of(log, robot, launch, arguments, client):
+    launch = ["franka_example_controllers", launch, "sim:=true", "rviz:=false", "rqt:=false", *arguments]
+    with Session(*launch, f"robot_type:={robot}", log=log) as session:
         session.wait_for_master()
-        command = ["/usr/bin/python3", str(HERE / "two_arm_controllers_client.py"), *client[0]]
+        command = ["/usr/bin/python3", str(HERE / "two_arm_controllers_client.py"), robot, *client]
         result = session.run(*command, check=False, timeout=200)
         print(result.stdout, result.stderr, session.tail(60), sep="\n")
         assert result.returncode == 0, f"{result}\n{session.tail(60)}"
@@ -22,19 +30,19 @@ def outcome_of(tmp_path, launch, client):
         return json.loads(result.stdout.strip().splitlines()[-1])
 
 
-def test_two_arms_hold_their_relative_pose_while_the_marker_is_dragged(tmp_path):
-    robots = "robot_ips:={panda_1/robot_ip: 127.0.7.11, panda_2/robot_ip: 127.0.7.12}"
+def test_two_arms_hold_their_relative_pose_while_the_marker_is_dragged(robot, tmp_path):
+    addresses = [f"robot_ips:={{{robot}_1/robot_ip: 127.0.7.11, {robot}_2/robot_ip: 127.0.7.12}}"]
     launch = "dual_arm_cartesian_impedance_example_controller.launch"
-    outcome = outcome_of(tmp_path, launch, (["dual"], robots))
+    outcome = outcome_of(tmp_path / "launch.log", robot, launch, addresses, ["dual"])
     assert outcome["pairs"] > 20
     assert outcome["worst"] < 1e-3  # [m]
     assert outcome["still_moving_under_control"]
 
 
-def test_the_follower_follows_a_leader_that_is_pushed(tmp_path):
+def test_the_follower_follows_a_leader_that_is_pushed(robot, tmp_path):
     addresses = ["leader_ip:=127.0.7.13", "follower_ip:=127.0.7.14"]
-    client = (["teleop", "127.0.7.13"], *addresses)
-    outcome = outcome_of(tmp_path, "teleop_joint_pd_example_controller.launch", client)
+    launch = "teleop_joint_pd_example_controller.launch"
+    outcome = outcome_of(tmp_path / "launch.log", robot, launch, addresses, ["teleop", "127.0.7.13"])
     assert outcome["leader"] > 0.05 and outcome["follower"] > 0.05  # [rad]
     assert outcome["error"] < 2e-3  # [rad]
     assert outcome["still_moving_under_control"]

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Moves what a person would move in a two-arm example and prints what the arms did as JSON.
 
-Run by test_two_arm_controllers.py with the interpreter that ROS uses. Arguments: dual, or teleop and the
-address of the leader.
+Run by test_two_arm_controllers.py with the interpreter that ROS uses. Arguments: what the arms are, then
+dual, or teleop and the address of the leader.
 """
 
 import json
@@ -18,7 +18,7 @@ from geometry_msgs.msg import PoseStamped
 from visualization_msgs.msg import InteractiveMarkerFeedback
 
 CONTROL_PORT = 1340  # of a simulated robot
-LEFT_FROM_RIGHT = np.array([0.0, 1.0, 0.0])  # [m] base of panda_2 in panda_1's: dual_panda_example
+LEFT_FROM_RIGHT = np.array([0.0, 1.0, 0.0])  # [m] base of the left arm in the right one's: dual_panda_example
 DRAG, STEPS = np.array([0.03, 0.0, 0.04]), 20  # [m]
 
 
@@ -61,15 +61,15 @@ def relative(states):
     return np.linalg.inv(right) @ left
 
 
-def dual():
-    namespace = "/panda_dual"
+def dual(robot):
+    namespace, right, left = f"/{robot}_dual", f"{robot}_1", f"{robot}_2"
     frames = []
     controller = namespace + "/dual_arm_cartesian_impedance_example_controller"
     rospy.Subscriber(controller + "/centering_frame", PoseStamped, frames.append)
     hand = rospy.Publisher(
         namespace + "/target_pose_marker/feedback", InteractiveMarkerFeedback, queue_size=10
     )
-    arms = Arms(namespace, ["panda_1", "panda_2"])
+    arms = Arms(namespace, [right, left])
     wait_for(lambda: arms.moving() and frames and hand.get_num_connections(), "The controller's start")
     wait_for(lambda: arms.speed() < 1e-3, "Rest")
     begin, first = frames[-1].pose, relative([arms.last[name] for name in arms.names])
@@ -77,7 +77,7 @@ def dual():
     arms.pairs.clear()
     for step in range(1, STEPS + 1):
         feedback = InteractiveMarkerFeedback(client_id="test", marker_name="target_pose")
-        feedback.header.frame_id = "panda_2_link0"
+        feedback.header.frame_id = left + "_link0"
         feedback.event_type = InteractiveMarkerFeedback.POSE_UPDATE
         x, y, z = start + DRAG * step / STEPS
         feedback.pose.position.x, feedback.pose.position.y, feedback.pose.position.z = x, y, z
@@ -101,8 +101,8 @@ def dual():
     }
 
 
-def teleop(leader_address):
-    arms = Arms("/panda_teleop", ["leader", "follower"])
+def teleop(robot, leader_address):
+    arms = Arms(f"/{robot}_teleop", ["leader", "follower"])
     wait_for(arms.moving, "The controller's start")
 
     def error():
@@ -113,7 +113,7 @@ def teleop(leader_address):
     begin = [np.array(arms.last[name].q) for name in arms.names]
     with socket.create_connection((leader_address, CONTROL_PORT), 10.0) as connection:
         stream = connection.makefile("rw")
-        stream.write("push panda_link7 0 12 0 300\n")
+        stream.write(f"push {robot}_link7 0 12 0 300\n")
         stream.flush()
         answer = stream.readline().strip()
     moved = lambda: [  # noqa: E731
@@ -134,7 +134,8 @@ def teleop(leader_address):
 
 def main():
     rospy.init_node("two_arm_controllers_client", anonymous=True)
-    print(json.dumps(dual() if sys.argv[1] == "dual" else teleop(sys.argv[2])))
+    robot, example, *rest = sys.argv[1:]
+    print(json.dumps({"dual": dual, "teleop": teleop}[example](robot, *rest)))
 
 
 if __name__ == "__main__":

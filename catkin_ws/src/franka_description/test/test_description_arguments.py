@@ -138,6 +138,11 @@ def test_two_arms_of_one_name_are_refused():
         expand("dual_panda/dual_panda_example", arm_id_1="a", arm_id_2="a")
 
 
+def test_two_arms_of_an_unknown_kind_are_refused():
+    with pytest.raises(xacro.XacroException, match="'robot' is 'ur5'; it must be panda or fr3"):
+        expand("dual_panda/dual_panda_example", robot="ur5")
+
+
 @pytest.mark.parametrize("broken", ["joint3", "upper"])
 def test_incomplete_limits(tmp_path, broken):
     lines = (ROBOTS / "panda" / "joint_limits.yaml").read_text()

@@ -67,10 +67,11 @@ def test_limits(name, gazebo):
         }
 
 
-def test_dual_panda_has_the_pandas_limits():
-    robot = expand("dual_panda/dual_panda_example", arm_id_1="l", arm_id_2="r")
+@pytest.mark.parametrize("kind", TABLES)
+def test_two_arms_have_the_limits_of_what_they_are(kind):
+    robot = expand("dual_panda/dual_panda_example", arm_id_1="l", arm_id_2="r", robot=kind)
     for arm in "lr":
-        for i, row in enumerate(TABLES["panda"], start=1):
+        for i, row in enumerate(TABLES[kind], start=1):
             limit = robot.joints[f"{arm}_joint{i}"].find("limit")
             assert [float(limit.get(k)) for k in ("lower", "upper", "velocity", "effort")] == row
 
