@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_combined_control_node outlives one of its robots: what it says, what goes on, and how the robot comes back."""
+"""franka_combined_control_node outlives one of its robots: what it says, what goes on, how it comes back."""
 
 import json
 from pathlib import Path

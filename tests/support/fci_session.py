@@ -59,6 +59,12 @@ def ask(address: str, line: str) -> str:
     return answer[3:]
 
 
+def memory_of(pid: int) -> float:
+    """What a process holds resident [MB]."""
+    lines = Path(f"/proc/{pid}/status").read_text().splitlines()
+    return float(next(line for line in lines if line.startswith("VmRSS")).split()[1]) / 1024
+
+
 class Simulation:
     """A running franka_sim."""
 
@@ -72,8 +78,7 @@ class Simulation:
 
     def memory(self) -> float:
         """Resident [MB]."""
-        lines = Path(f"/proc/{self.process.pid}/status").read_text().splitlines()
-        return float(next(line for line in lines if line.startswith("VmRSS")).split()[1]) / 1024
+        return memory_of(self.process.pid)
 
     def descriptors(self) -> int:
         return len(os.listdir(f"/proc/{self.process.pid}/fd"))

@@ -276,6 +276,7 @@ void FrankaCombinableHW::control(
   if (!robot_) {
     return;
   }
+  const RobotInMotion in_motion(robot_mutex_);
   response_times_.motionBegins();
   try {
     run_function_(*robot_, Callback());

@@ -3,6 +3,7 @@
 // FrankaHW: the switch of controllers, and the motion.
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/resource_helpers.h>
+#include <franka_hw/robot_wanted.h>
 #include <ros/console.h>
 
 #include <chrono>
@@ -160,6 +161,7 @@ void FrankaHW::control(
   };
 
   const std::lock_guard<std::mutex> lock(robot_mutex_);
+  const RobotInMotion in_motion(robot_mutex_);
   response_times_.motionBegins();
   try {
     run_function_(robot(), once_a_state);

@@ -11,8 +11,9 @@ namespace franka_hw {
 
 namespace {
 
-// Who only reads a state holds the robot for a millisecond or two (longer where the machine is busy
-// with other work), who moves it for as long as the motion lasts.
+// Who only reads a state holds the robot for a millisecond or two, longer where the machine is busy
+// with other work. Whoever moves it without saying so (a loop of a user's own) is found out by
+// this.
 constexpr std::chrono::milliseconds kPatience{200};
 
 /// The robot for a short operation. @throws franka::InvalidOperationException while it is moving.
@@ -21,7 +22,7 @@ std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   std::unique_lock<std::mutex> lock(robot_mutex, std::try_to_lock);
   while (!lock.owns_lock()) {
-    if (std::chrono::steady_clock::now() > deadline) {
+    if (RobotInMotion::holds(robot_mutex) || std::chrono::steady_clock::now() > deadline) {
       throw franka::InvalidOperationException(
           "The robot cannot be configured while a controller commands it. Stop that controller "
           "(rosservice call /controller_manager/switch_controller), then try again.");

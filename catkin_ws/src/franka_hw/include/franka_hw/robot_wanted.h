@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <set>
 #include <thread>
 
 namespace franka_hw {
@@ -44,6 +45,32 @@ class RobotWanted {
  private:
   static constexpr int kMost = 50;
   static inline std::atomic<int> waiting_{0};
+};
+
+/// That a motion holds a robot's mutex: it will not let go of it soon, and nobody need wait for it.
+class RobotInMotion {
+ public:
+  /// For whoever holds the mutex, until this object ends.
+  explicit RobotInMotion(const std::mutex& robot_mutex) : robot_mutex_(&robot_mutex) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    moving_.insert(robot_mutex_);
+  }
+  ~RobotInMotion() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    moving_.erase(robot_mutex_);
+  }
+  RobotInMotion(const RobotInMotion&) = delete;
+  RobotInMotion& operator=(const RobotInMotion&) = delete;
+
+  static bool holds(const std::mutex& robot_mutex) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return moving_.count(&robot_mutex) != 0;
+  }
+
+ private:
+  const std::mutex* robot_mutex_;
+  static inline std::mutex mutex_;
+  static inline std::set<const std::mutex*> moving_;  // guarded by mutex_
 };
 
 }  // namespace franka_hw

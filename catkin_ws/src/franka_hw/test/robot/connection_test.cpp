@@ -113,7 +113,7 @@ TEST_F(Connection, SettersOfAMovingRobotAnswerAtOnce) {
   impedance.request.joint_stiffness.fill(1000.0);
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_joint_impedance"), impedance));
-  // Fifty milliseconds of patience; the rest is what a machine busy with other work may take.
+  // It takes no time; the rest is what a machine busy with other work may take.
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
   EXPECT_FALSE(impedance.response.success);
   EXPECT_NE(std::string::npos, impedance.response.error.find("Stop that controller"));
