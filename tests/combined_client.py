@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Several arms on franka_combined_control_node, one of which hits something; prints what came of it as JSON.
 
-Run by test_combined.py with ROS's interpreter. Arguments: what the robots are, and the arms with their
-addresses, as panda_1=127.0.0.1.
+Run by test_combined.py with ROS's interpreter. Arguments: the arms with their addresses, as
+panda_1=127.0.0.1.
 """
 
 import json
@@ -90,9 +90,9 @@ def all_move(arms):
     return waits(lambda: all(arm.mode == FrankaState.ROBOT_MODE_MOVE for arm in arms))
 
 
-def hit(robot, arm, others):
+def hit(arm, others):
     """One arm is pushed until its reflex; the others must not care."""
-    arm.person.does(f"push {robot}_link7 {PUSH}")
+    arm.person.does(f"push {arm.name}_link7 {PUSH}")
     outcome = {"reflex": waits(lambda: arm.mode == FrankaState.ROBOT_MODE_REFLEX and arm.has_error)}
     time.sleep(1.0)
     outcome["others"] = [[other.mode, other.has_error] for other in others]
@@ -102,21 +102,21 @@ def hit(robot, arm, others):
 
 def main():
     rospy.init_node("combined_client", anonymous=True)
-    robot, arms = sys.argv[1], [Arm(*argument.split("=")) for argument in sys.argv[2:]]
+    arms = [Arm(*argument.split("=")) for argument in sys.argv[1:]]
     report = {"states": waits(lambda: all(arm.state for arm in arms))}
     switch = rospy.ServiceProxy(f"{NODE}/controller_manager/switch_controller", SwitchController)
     report["started"] = switch(start_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
     report["moves"] = all_move(arms)
     report["error"] = move(arms, 0.1)
 
-    report["hit"] = hit(robot, arms[0], arms[1:])
+    report["hit"] = hit(arms[0], arms[1:])
     report["recovered"] = recover(arms[0].recovery)
     report["moves_again"] = all_move(arms)
     report["others_at"] = [list(other.state.q) for other in arms[1:]]
     report["error_again"] = move(arms, -0.05)
 
     for arm in arms:
-        arm.person.does(f"push {robot}_link7 {PUSH}")
+        arm.person.does(f"push {arm.name}_link7 {PUSH}")
     report["all_hit"] = waits(lambda: all(arm.has_error for arm in arms))
     report["all_recovered"] = recover(f"{NODE}/error_recovery")
     report["all_move"] = all_move(arms)

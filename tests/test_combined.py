@@ -93,7 +93,7 @@ def report(request, tmp_path_factory):
         session.environment["ROS_NAMESPACE"] = "combined_panda"
         loaded = session.run(*load, "effort_joint_trajectory_controller", check=False, timeout=90)
         assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
-        client = ["/usr/bin/python3", str(HERE / "combined_client.py"), robot]
+        client = ["/usr/bin/python3", str(HERE / "combined_client.py")]
         client += [f"{arm}={address}" for arm, address in arms.items()]
         result = session.run(*client, check=False, timeout=240)
         print(result.stdout, session.tail(80), sep="\n")

@@ -5,6 +5,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from franka_sim_mujoco.session import Session
 
@@ -58,3 +59,20 @@ def test_runs_and_stops_without_a_complaint(report, name):
         assert outcome["lifted"] < 0.005
     else:
         assert outcome["moved"] > CONTROLLERS[name]
+
+
+def test_a_python_example_moves_the_robot_by_its_launch_file(tmp_path):
+    launch = ["franka_example_controllers", "python_cartesian_circle_example_controller.launch", "sim:=true"]
+    launch += ["robot_ip:=127.0.7.3", "rviz:=false", "max_update_time:=1.0", "max_starting_time:=10.0"]
+    with Session(*launch, log=tmp_path / "launch.log") as session:
+        session.wait_for_master()
+        command = ["/usr/bin/python3", str(HERE / "python_example_client.py"), "4.0"]
+        client = session.run(*command, check=False, timeout=120)
+        assert client.returncode == 0, f"{client}\n{session.tail(60)}"
+        session.check()
+    positions = np.array(json.loads(client.stdout))
+    x, y, z = (positions - positions[0]).T
+    radius = 0.05  # [m] python_controllers.yaml
+    np.testing.assert_allclose(np.hypot(y - radius, z), radius, atol=1e-4)
+    np.testing.assert_allclose(x, 0.0, atol=1e-4)
+    assert max(y) > 1.9 * radius

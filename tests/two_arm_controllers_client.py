@@ -19,7 +19,7 @@ from visualization_msgs.msg import InteractiveMarkerFeedback
 
 CONTROL_PORT = 1340  # of a simulated robot
 LEFT_FROM_RIGHT = np.array([0.0, 1.0, 0.0])  # [m] base of the left arm in the right one's: dual_panda_example
-DRAG, STEPS = np.array([0.03, 0.0, 0.04]), 20  # [m]
+DRAG, STEPS, DRAG_PERIOD = np.array([0.03, 0.0, 0.04]), 20, 0.1  # [m], [s]
 
 
 class Arms:
@@ -40,6 +40,12 @@ class Arms:
     def moving(self):
         modes = [self.last[name].robot_mode for name in self.names if name in self.last]
         return modes == [FrankaState.ROBOT_MODE_MOVE] * 2
+
+    def wait(self, seconds):
+        """Until so much of the robots' time has passed: a machine may be too slow for it."""
+        first = self.names[0]
+        end = self.last[first].time + seconds
+        wait_for(lambda: self.last[first].time >= end, f"The passing of {seconds} s")
 
     def speed(self):
         return max(abs(v) for name in self.names for v in self.last[name].dq)
@@ -83,7 +89,7 @@ def dual(robot):
         feedback.pose.position.x, feedback.pose.position.y, feedback.pose.position.z = x, y, z
         feedback.pose.orientation = begin.orientation
         hand.publish(feedback)
-        time.sleep(0.1)
+        arms.wait(DRAG_PERIOD)
 
     def offset():
         at = frames[-1].pose.position
@@ -113,14 +119,14 @@ def teleop(robot, leader_address):
     begin = [np.array(arms.last[name].q) for name in arms.names]
     with socket.create_connection((leader_address, CONTROL_PORT), 10.0) as connection:
         stream = connection.makefile("rw")
-        stream.write(f"push {robot}_link7 0 12 0 300\n")
+        stream.write("push leader_link7 0 12 0 300\n")
         stream.flush()
         answer = stream.readline().strip()
     moved = lambda: [  # noqa: E731
         float(np.abs(np.array(arms.last[name].q) - q).max()) for name, q in zip(arms.names, begin)
     ]
     wait_for(lambda: moved()[0] > 0.05, f"A motion of the pushed leader ({answer})")
-    time.sleep(0.5)
+    arms.wait(0.5)
     wait_for(lambda: moved()[1] > 0.05, "A motion of the follower")
     wait_for(lambda: error() < 1e-3 and arms.speed() < 0.05, "The follower's coming to the leader")
     leader, follower = moved()
