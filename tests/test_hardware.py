@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_control.launch as a user starts it, against a simulated robot over the control interface."""
+"""franka_control.launch as a user starts it, against simulated robots over the control interface."""
 
 import json
 from pathlib import Path
@@ -15,17 +15,18 @@ IDLE, MOVE = 1, 2
 CONTROLLERS = ["effort_joint_trajectory_controller", "position_joint_trajectory_controller"]
 
 
-@pytest.fixture(scope="module", params=["panda", "fr3"])
+LAUNCHES = {
+    "panda": ["franka_control", "franka_control.launch", "sim:=true", "robot:=panda"],
+    "fr3": ["franka_control", "franka_control.launch", "sim:=true", "robot:=fr3"],
+    "panda in a ROS world": [str(HERE / "data/hardware_in_a_world.launch"), "robot:=panda"],
+}
+
+
+@pytest.fixture(scope="module", params=LAUNCHES)
 def report(request, tmp_path_factory):
-    robot = request.param
+    robot = request.param.split()[0]
     log = tmp_path_factory.mktemp("hardware") / "launch.log"
-    launch = [
-        "franka_control",
-        "franka_control.launch",
-        "sim:=true",
-        f"robot:={robot}",
-        "robot_ip:=127.0.7.1",
-    ]
+    launch = [*LAUNCHES[request.param], "robot_ip:=127.0.7.1"]
     with Session(*launch, log=log) as session:
         session.wait_for_master()
         load = ["rosrun", "controller_manager", "controller_manager", "load", *CONTROLLERS]

@@ -253,7 +253,7 @@ void Host::waitInLockStep() {
   if (due || news || pace_.by_clock || Clock::now() - published_at_ >= kTick) {
     publishAll();
   }
-  starts_shown_ = 0;
+  starts_shown_ = due ? 1 : 0;
   const Clock::time_point begin = Clock::now();
   // Whoever answers takes a while; where nobody does, one look at the sockets is enough.
   if (due) {

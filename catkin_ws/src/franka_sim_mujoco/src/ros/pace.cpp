@@ -32,7 +32,8 @@ fci::Pace paceOf(double real_time_factor) {
                              std::to_string(kSlowestPace) + ".");
   }
   fci::Pace pace;
-  pace.lockstep = pace.flows = real_time_factor == 0.0;
+  pace.lockstep = pace.flows = true;
+  pace.by_clock = real_time_factor > 0.0;
   pace.factor = real_time_factor;
   return pace;
 }

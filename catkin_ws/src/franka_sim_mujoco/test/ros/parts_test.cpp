@@ -99,8 +99,8 @@ TEST(Pace, RefusesWhatIsNone) {
                               std::numeric_limits<double>::infinity()}) {
     EXPECT_TRUE(contains(sentence([&] { paceOf(factor); }), "is wrong: it must be 0")) << factor;
   }
-  EXPECT_TRUE(paceOf(0.0).flows);
-  EXPECT_FALSE(paceOf(kSlowestPace).lockstep);
+  EXPECT_FALSE(paceOf(0.0).by_clock);
+  EXPECT_TRUE(paceOf(kSlowestPace).by_clock);
 }
 
 double secondsFor(double factor, int ticks) {

@@ -12,8 +12,8 @@ namespace franka_sim_mujoco {
 /// requests are still served promptly.
 constexpr double kSlowestPace = 0.01;
 
-/// How the host keeps a real time factor; 0 means without waiting, but for the clients of robots
-/// in motion (docs/franka_sim.md).
+/// How the host keeps a real time factor; 0 means without heeding the clock. Clients of robots in
+/// motion are waited for in any case (docs/franka_sim.md).
 /// @throws std::runtime_error with a sentence when it is not finite, negative, or slower than
 /// kSlowestPace but not 0
 fci::Pace paceOf(double real_time_factor);

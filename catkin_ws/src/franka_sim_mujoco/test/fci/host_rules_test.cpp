@@ -1,0 +1,177 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// When a host's time goes on, with a robot that does nothing but count.
+#include <franka_sim_mujoco/fci/host.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <vector>
+
+namespace franka_sim_mujoco::fci {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+/// A robot in a motion whose client answers some time after each state, or never.
+class CountingRobot : public HostedRobot {
+ public:
+  void observe() override { observed++; }
+  void actuate() override {
+    actuated++;
+    answered += moving && receiveCommand() ? 1 : 0;
+  }
+  void serve(bool /*stops_only*/) override { served++; }
+  void publish(std::uint64_t ticks, bool same_moment) override {
+    (same_moment ? repeated : published)++;
+    message_ids += ticks;
+    if (!same_moment) {
+      shown_at = Clock::now();
+    }
+  }
+  bool hasNews() const override { return false; }
+  bool receiveCommand() override { return answers && Clock::now() - shown_at >= delay; }
+  bool expectsCommand() const override { return moving; }
+  bool motionHasBegun() const override { return true; }
+  bool settling() const override { return false; }
+  bool handBusy() const override { return false; }
+  void addCommandDescriptor(std::vector<pollfd>& /*fds*/) const override {}
+  void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
+
+  bool moving{false};
+  bool answers{true};
+  milliseconds delay{0};
+  Clock::time_point shown_at;
+  std::uint64_t message_ids{0};
+  int observed{0}, actuated{0}, answered{0}, served{0}, published{0}, repeated{0};
+};
+
+class HostRules : public ::testing::Test {
+ protected:
+  void use(const Pace& pace) {
+    host.setPace(pace);
+    host.add(robot);
+  }
+  milliseconds timeOf(int ticks) {
+    const Clock::time_point begin = Clock::now();
+    for (int i = 0; i < ticks; i++) {
+      host.tick();
+    }
+    return std::chrono::duration_cast<milliseconds>(Clock::now() - begin);
+  }
+
+  int steps{0};
+  CountingRobot robot;
+  Host host{[this] { steps++; }, Pace{}};
+};
+
+Pace waiting(bool flows, bool by_clock) {
+  Pace pace;
+  pace.lockstep = true;
+  pace.flows = flows;
+  pace.by_clock = by_clock;
+  pace.silence = milliseconds(50);
+  return pace;
+}
+
+TEST_F(HostRules, RealTimeGoesOnWithoutAnAnswer) {
+  use(Pace{});
+  robot.moving = true;
+  robot.answers = false;
+  EXPECT_GE(timeOf(20), milliseconds(19));
+  EXPECT_EQ(20, steps);
+  EXPECT_EQ(20, robot.actuated);
+  EXPECT_EQ(0, robot.answered);
+}
+
+TEST_F(HostRules, APatientHostWaitsForEachAnswer) {
+  use(waiting(true, true));
+  robot.moving = true;
+  robot.delay = milliseconds(5);
+  EXPECT_GE(timeOf(20), milliseconds(100));
+  EXPECT_EQ(20, robot.answered);
+}
+
+TEST_F(HostRules, APatientHostIsNoFasterThanTheClock) {
+  use(waiting(true, true));
+  robot.moving = true;
+  EXPECT_GE(timeOf(50), milliseconds(49));
+  EXPECT_EQ(50, robot.answered);
+  robot.moving = false;
+  EXPECT_GE(timeOf(50), milliseconds(49));
+  EXPECT_EQ(100, robot.published) << "who looks on sees each millisecond";
+}
+
+TEST_F(HostRules, APatientHostGivesUpASilentClientAndWaitsForItAgainWhenItSpeaks) {
+  use(waiting(true, true));
+  robot.moving = true;
+  robot.answers = false;
+  EXPECT_GE(timeOf(1), milliseconds(50));
+  EXPECT_LT(timeOf(20), milliseconds(20 * 50)) << "the silence is waited for once";
+  EXPECT_EQ(0, robot.answered);
+  robot.answers = true;
+  timeOf(2);
+  robot.delay = milliseconds(10);
+  EXPECT_GE(timeOf(3), milliseconds(30));
+}
+
+TEST_F(HostRules, TimeThatFlowsHeedsNoClockBetweenMotions) {
+  use(waiting(true, false));
+  timeOf(5000);
+  EXPECT_EQ(5000, steps);
+  EXPECT_LT(robot.published, 5000) << "states go out at the wall's pace";
+}
+
+TEST_F(HostRules, ATickAtOnceHeedsNoClockButWaitsForTheClient) {
+  Pace slow;
+  slow.factor = 0.001;
+  use(slow);
+  const Clock::time_point begin = Clock::now();
+  host.tickAtOnce();
+  EXPECT_LT(Clock::now() - begin, milliseconds(900));
+  robot.moving = true;
+  robot.delay = milliseconds(20);
+  host.tickAtOnce();
+  EXPECT_EQ(1, robot.answered);
+  EXPECT_EQ(2, steps);
+}
+
+TEST_F(HostRules, AWorldThatStandsStillIsShownWithoutATick) {
+  use(waiting(true, true));
+  host.standStill();
+  EXPECT_EQ(1U, robot.message_ids) << "states of a robot at rest count on";
+  robot.moving = true;
+  host.standStill();
+  EXPECT_EQ(1U, robot.message_ids) << "the clock of a motion stands still";
+  EXPECT_EQ(2, robot.repeated);
+  EXPECT_EQ(2, robot.served);
+  EXPECT_EQ(0, steps);
+  EXPECT_EQ(0, robot.observed);
+}
+
+TEST_F(HostRules, WhoWasRemovedIsLeftAlone) {
+  CountingRobot other;
+  use(waiting(true, false));
+  host.add(other);
+  timeOf(1);
+  host.remove(robot);
+  timeOf(1);
+  EXPECT_EQ(1, robot.observed);
+  EXPECT_EQ(2, other.observed);
+  host.remove(other);
+  EXPECT_TRUE(host.empty());
+  timeOf(1);
+  EXPECT_EQ(3, steps);
+}
+
+TEST_F(HostRules, InLockStepAPushLetsTheWorldRunForItsTimeAndUntilAllRests) {
+  use(waiting(false, false));
+  host.letRun(50);
+  timeOf(150);  // 100 more for what it set in motion
+  EXPECT_EQ(150, steps);
+}
+
+}  // namespace
+
+}  // namespace franka_sim_mujoco::fci
