@@ -23,8 +23,8 @@ PATIENCE = 120  # wall seconds
 WINDOW_WIDTH = 1200  # of the simulation and of rviz
 STONE_WIDTH = 0.032  # [m] between the fingers
 
-# What may be said: of the stop; by Debian's joint_state_publisher, which after a stall of the machine publishes
-# twice at one moment of the simulation.
+# What may be said: of the stop; by Debian's joint_state_publisher, which after a stall of the machine
+# publishes twice at one moment of the simulation.
 LAWFUL = ["panda: user stop (pressed|released)", "TF_REPEATED_DATA"]
 
 
