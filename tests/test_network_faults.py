@@ -12,9 +12,10 @@ machine are no faults of their own; the rest runs in lock-step. The clients of o
 import os
 import signal
 import struct
+import subprocess
 import sys
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 
 import pytest
 from fci_proxy import (
@@ -30,7 +31,7 @@ from fci_proxy import (
     stalling,
     truncated,
 )
-from fci_session import client_process, simulated
+from fci_session import client_process, go_first, go_with_all, simulated
 from fci_wire import (
     COMMUNICATION,
     CONNECT,
@@ -86,7 +87,7 @@ def stations(stack: ExitStack, network: str, pace: str, kinds) -> list[Station]:
 def all_idle(request):
     """One failure is not followed by another one's."""
     yield
-    for name in ("slow", "stepped"):
+    for name in ("slow", "stepped", "patient"):
         for station in request.node.funcargs.get(name, []):
             if station.client.process.poll() is None and "Reflex" in station.sim.ask("state"):
                 station.client.tell("connect", address=station.proxy.address)
@@ -112,6 +113,13 @@ def stepped():
     with ExitStack() as stack:
         kinds = [("panda", "panda"), ("pylibfranka", "fr3"), ("pyfranka", "panda")]
         yield stations(stack, "127.0.24", "lockstep", kinds)
+
+
+@pytest.fixture(scope="module")
+def patient():
+    """By the clock, but waiting for whoever is late."""
+    with ExitStack() as stack:
+        yield stations(stack, "127.0.27", "patient", [("panda", "panda"), ("pyfranka", "fr3")])
 
 
 def run(group, commands=None, states=None, seed=1, seconds=SECONDS, amplitude=AMPLITUDE, **task):
@@ -625,6 +633,44 @@ def test_five_cycles_frozen_are_survived(slow):
 @pytest.mark.parametrize("cycles", [50, 500] if LONG else [50])
 def test_more_than_twenty_cycles_frozen_end_the_motion(slow, cycles):
     check_lost(slow, freeze(slow, cycles * TICK), slowest(300 + cycles))
+
+
+# Programs that compute, and one that takes pages of memory and gives them back.
+HOGS = ["while True: pass"] * 2 * os.cpu_count() + ["while True: bytearray(1 << 26)"]
+
+
+@contextmanager
+def starved(group):
+    """Clients without privileges on a machine that does everything else as well."""
+    hogs = [subprocess.Popen([sys.executable, "-c", program]) for program in HOGS]
+    for station in group:
+        go_with_all(station.client.process.pid)
+    try:
+        yield
+    finally:
+        for station in group:
+            go_first(station.client.process.pid)
+        for hog in hogs:
+            hog.kill()
+            hog.wait()
+
+
+def test_a_starved_client_of_a_patient_robot_loses_nothing(patient):
+    with starved(patient):
+        results = run(patient)
+    for station, result in zip(patient, results):
+        assert result["outcome"] == "ok", result
+        assert min(station.proxy.rates[101:]) == 1.0
+
+
+def test_a_starved_client_goes_on_or_is_told_why_not(slow):
+    with starved(slow):
+        results = run(slow)
+    for station, result in zip(slow, results):
+        if result["outcome"] != "ok":
+            assert LOST in result["outcome"], result
+            recover([station])
+    assert all(result["outcome"] == "ok" for result in run(slow, seconds=0.2, amplitude=0.0))
 
 
 def test_lock_step_waits_for_a_frozen_client(stepped):

@@ -76,8 +76,8 @@ def robot():
         yield robot
 
 
-def one(master):
-    return master.node("franka_control", "franka_control_node", ONE[1:])
+def one(master, *through):
+    return master.node("franka_control", "franka_control_node", ONE[1:], through)
 
 
 def combined(master):
@@ -253,6 +253,25 @@ def test_a_node_whose_controller_runs_ends_when_interrupted(master):
         assert robot.ask("state").startswith("Idle"), "The motion did not end with the node."
 
 
+# Neither root nor a member of the group realtime.
+UNPRIVILEGED = ("setpriv", "--inh-caps=-sys_nice,-ipc_lock", "--bounding-set=-sys_nice,-ipc_lock")
+
+
+def test_a_node_without_privileges_moves_where_it_need_not_enforce_real_time(master):
+    with moving(master, UNPRIVILEGED) as (node, robot):
+        assert robot.ask("state").startswith("Move"), node.output
+
+
+def test_a_node_without_privileges_says_why_it_does_not_move_where_it_must(master):
+    master.set(ONE + "/realtime_config", "enforce")
+    with moving(master, UNPRIVILEGED) as (node, robot):
+        assert node.says("RealtimeConfig::kIgnore"), node.output
+        assert "realtime" in node.output
+        assert robot.ask("state").startswith("Idle")
+        assert node.process.poll() is None
+        assert node.interrupt() < IN_TIME
+
+
 def test_a_motion_outlives_the_master(tmp_path, urdf):
     with ros_nodes.master(tmp_path) as own, moving(prepared(own, urdf)) as (node, robot):
         own.stop()
@@ -284,19 +303,19 @@ def woken_at_last(robot):
 
 
 @contextmanager
-def one_with_robot(master, pace="patient"):
-    with simulated("panda", OTHER, pace, "--no-hand") as robot, one(master) as node:
+def one_with_robot(master, pace="patient", through=()):
+    with simulated("panda", OTHER, pace, "--no-hand") as robot, one(master, *through) as node:
         assert node.says("is ready"), node.output
         yield node, robot
 
 
 @contextmanager
-def moving(master):
+def moving(master, through=()):
     """A node with a controller that holds the arm."""
     master.set(ONE + "/robot_ip", OTHER)
     for name, parameters in configured("default_controllers.yaml", arm_id="panda").items():
         master.set("/" + name, parameters)
-    with one_with_robot(master, "lockstep") as (node, robot):
+    with one_with_robot(master, "lockstep", through) as (node, robot):
         spawn = ["rosrun", "controller_manager", "controller_manager", "spawn"]
         spawned = master.run(*spawn, "effort_joint_trajectory_controller")
         assert "Started" in spawned.stdout, f"{spawned}\n{node.output}"

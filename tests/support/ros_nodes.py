@@ -110,13 +110,13 @@ class Master:
             self.server.deleteParam("/test", name)
 
     @contextmanager
-    def node(self, package: str, kind: str, name: str):
-        """Starts a node; when the test is done with it, it is no more."""
+    def node(self, package: str, kind: str, name: str, through: tuple[str, ...] = ()):
+        """Starts a node, if need be through a command; when the test is done with it, it is no more."""
         self._nodes += 1
         log = self.folder / f"{name}_{self._nodes}.txt"
         with open(log, "w", encoding="utf-8") as out:
             process = subprocess.Popen(
-                [executable(package, kind), f"__name:={name}"],
+                [*through, executable(package, kind), f"__name:={name}"],
                 env=self.environment,
                 stdin=subprocess.DEVNULL,
                 stdout=out,
