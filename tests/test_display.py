@@ -21,7 +21,7 @@ def simulation(log, *arguments: str) -> Session:
 
 def test_window_shows_the_scene(screen, tmp_path):
     with simulation(tmp_path / "launch.log") as session:
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 180
         while colours(tmp_path / "screen.png") < 200:
             session.check()
             assert time.monotonic() < deadline, f"the window stayed empty:\n{session.tail()}"

@@ -4,6 +4,7 @@
 
 import json
 import re
+import subprocess
 import time
 from pathlib import Path
 
@@ -24,8 +25,8 @@ WINDOW_WIDTH = 1200  # of the simulation and of rviz
 STONE_WIDTH = 0.032  # [m] between the fingers
 
 # What may be said: of the stop; by Debian's joint_state_publisher, which after a stall of the machine
-# publishes twice at one moment of the simulation.
-LAWFUL = ["panda: user stop (pressed|released)", "TF_REPEATED_DATA"]
+# publishes twice at one moment of the simulation; by Debian's rviz, which looks for an optional package.
+LAWFUL = ["panda: user stop (pressed|released)", "TF_REPEATED_DATA", "no such package media_export"]
 
 
 def rviz_is_drawn(session, picture: Path) -> bool:
@@ -87,7 +88,15 @@ def test_rviz_shows_the_robot_and_nobody_complains(seen):
     complaints = [
         line
         for line in seen["log"].splitlines()
-        if re.search(r"\[ ?(WARN|ERROR|FATAL)\]|Traceback", line)
+        if re.search(r"\[ ?(WARN|ERROR|FATAL)\]|\[rospack\] Error|Traceback", line)
         and not any(re.search(lawful, line) for lawful in LAWFUL)
     ]
     assert not complaints
+
+
+def test_the_launch_file_tells_its_arguments():
+    line = "roslaunch franka_gazebo panda.launch --ros-args"
+    told = subprocess.run(["bash", "-c", line], text=True, capture_output=True, timeout=60)
+    assert told.returncode == 0, told.stderr
+    for name in ("arm_id", "controller", "initial_joint_positions", "use_gripper", "world", "x", "yaw"):
+        assert re.search(rf"^ +{name} \(default", told.stdout, re.M), f"{name} in {told.stdout}"

@@ -41,7 +41,7 @@ def test_nothing_drifts(report):
 
 def test_memory_and_descriptors_stay(report):
     memory, files = zip(*report["footprints"][SETTLING:])
-    assert memory[-1] - memory[0] < 2.0, f"{memory[0]:.1f} MB have grown to {memory[-1]:.1f} MB."
+    assert memory[-1] - memory[0] < 0.5, f"{memory[0]:.1f} MB have grown to {memory[-1]:.1f} MB."
     assert max(files) == min(files)
 
 
