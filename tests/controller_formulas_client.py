@@ -34,13 +34,13 @@ MOTIONS = [
 ]
 OTHERS = ["model", "cartesian_impedance", "force"]
 START = [0, -np.pi / 4, 0, -3 * np.pi / 4, 0, np.pi / 2, np.pi / 4]
-FIELDS = ["q", "q_d", "dq", "dq_d", "tau_J", "tau_J_d", "O_T_EE", "O_T_EE_d", "elbow_d", "time", "robot_mode"]
+FIELDS = ["q", "q_d", "dq", "dq_d", "tau_J_d", "O_T_EE", "O_T_EE_d", "elbow_d", "time", "robot_mode"]
 LOAD = ["m_total", "F_x_Ctotal", "I_total"]
 IDLE, STRICT = FrankaState.ROBOT_MODE_IDLE, 2
 WAIT = 60.0  # [s] of the wall
 REST = 1e-5  # [rad/s]
 SHIFT, PUSH = [0.05, -0.04, -0.06], [0.0, 4.0, 0.0]  # [m], [N]
-PUSHED = 30.0  # [s]: the null space comes to rest slowly
+PUSH_LASTS = 30.0  # [s]: the null space comes to rest slowly
 # The fingers end so far beyond the end effector, and so far above the block at first [m].
 TIP, GAP = 0.0584 + 0.04525 + 0.0185 / 2 - 0.1034, 1e-4
 PRESSES = [  # what the force controller is told in its first and its second run
@@ -76,12 +76,13 @@ class Arm:
         self.arm_id, self.states = arm_id, []
         topic = "/franka_state_controller/franka_states"
         rospy.Subscriber(topic, FrankaState, self.states.append, queue_size=10000, buff_size=1 << 24)
-        self._wait(lambda: self.states, "A first state")
+        self.wait(lambda: self.states, "A first state")
         call("/gazebo/pause_physics", Empty)
         self.step(0.1)
 
     @staticmethod
-    def _wait(condition, what, limit=WAIT):
+    def wait(condition, what, limit=WAIT):
+        """For what does not need the simulation's time to pass."""
         end = time.monotonic() + limit
         while not condition():
             assert time.monotonic() < end, f"{what} did not come within {limit} s."
@@ -171,12 +172,16 @@ def refused_beside(arm, running):
 
 
 def lead(arm):
-    """Leads the hand of a running impedance controller, then pushes it; returns where it comes to rest."""
+    """Leads the hand of a running impedance controller, then pushes it.
+
+    Returns where it comes to rest, and the states from the push's begin to after its end.
+    """
     begin = arm.step(0.5)[-1]
     wanted = pose_of(begin)
     wanted[:3, 3] += SHIFT
     topic = f"/{full('cartesian_impedance')}/equilibrium_pose"
-    hand = rospy.Publisher(topic, PoseStamped, queue_size=1, latch=True)
+    hand = rospy.Publisher(topic, PoseStamped, queue_size=1)
+    arm.wait(hand.get_num_connections, "The controller's interest in an equilibrium")
     x, y, z = wanted[:3, 3]
     message = PoseStamped()
     message.header.frame_id = arm.arm_id + "_link0"
@@ -189,8 +194,8 @@ def lead(arm):
     count = len(arm.states)
     point = Point(*pose_of(reached)[:3, 3])
     push = {"body": arm.arm_id + "_hand", "force": Vector3(*PUSH), "at_point": True, "point": point}
-    call("/gazebo/push_body", PushBody, **push, ticks=round(1000 * PUSHED))
-    pushed = arm.step(PUSHED - 0.1)[-1]
+    call("/gazebo/push_body", PushBody, **push, ticks=round(1000 * PUSH_LASTS))
+    pushed = arm.step(PUSH_LASTS - 0.1)[-1]
     arm.step(1.0)
     hand.unregister()
     poses = {"wanted": wanted, "reached": pose_of(reached), "pushed": pose_of(pushed)}
@@ -231,7 +236,7 @@ def read_model(arm, lines):
     """What the model example prints next, and the state it prints it for."""
     begin = len(lines)
     state = arm.step(1.5)[-1]
-    arm._wait(lambda: any("joint_zero_jacobian" in line for line in lines[begin:]), "The model's print")
+    arm.wait(lambda: any("joint_zero_jacobian" in line for line in lines[begin:]), "The model's print")
     printed = {}
     for line in lines[begin:]:
         name, _, numbers = line.partition(":")
