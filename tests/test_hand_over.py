@@ -12,7 +12,7 @@ from PIL import Image
 HERE = Path(__file__).resolve().parent
 LIFT = 0.08  # [m]
 MOVE = 2
-SEEDS, SEEDS_IN_SHORT = range(1, 21), range(1, 2)
+SEEDS, SEEDS_IN_SHORT = range(1, 11), range(1, 2)
 
 
 @pytest.fixture(scope="module")

@@ -12,6 +12,8 @@ HERE = Path(__file__).resolve().parent
 ROUNDS, ROUNDS_IN_SHORT = 1000, 20  # of 3.6 s
 SETTLING = 10  # rounds: all connections are open once the first reflex has been recovered from
 
+pytestmark = pytest.mark.timeout(1800)  # the long form takes 5 to 15 minutes
+
 
 @pytest.fixture(scope="module")
 def report(tmp_path_factory, long_run):
@@ -20,7 +22,7 @@ def report(tmp_path_factory, long_run):
         session.wait_for_master()
         rounds = str(ROUNDS if long_run else ROUNDS_IN_SHORT)
         client = ["/usr/bin/python3", str(HERE / "simulation_soak_client.py"), rounds]
-        result = session.run(*client, check=False, timeout=850 if long_run else 300)
+        result = session.run(*client, check=False, timeout=1700 if long_run else 300)
         print(result.stdout, result.stderr, session.tail(60), sep="\n")
         assert result.returncode == 0, f"{result.stderr}\n{session.tail(60)}"
         session.check()

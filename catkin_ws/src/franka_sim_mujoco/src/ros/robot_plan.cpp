@@ -89,7 +89,8 @@ std::string resolveUri(const std::string& uri) {
   }
   const std::size_t slash = uri.find('/', kPackage.size());
   if (slash == std::string::npos) {
-    return "";  // no file; rospack would print errors about names such as `sun`, which are no packages
+    return "";  // no file; rospack would print errors about names such as `sun`, which are no
+                // packages
   }
   const std::string package = uri.substr(kPackage.size(), slash - kPackage.size());
   const std::string folder = ros::package::getPath(package);
