@@ -334,8 +334,10 @@ def pushed(robot, person, topics, duration=PUSHED):
         topics.forget()
         person.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {duration}")
         over = robot.state.time + 1e-3 * duration + 0.5
-        deadline = time.monotonic() + 4 * PATIENCE  # the robot waits for each answer
-        while robot.state.time < over and time.monotonic() < deadline:
+        deadline = time.monotonic() + 8 * PATIENCE  # the robot waits for each answer
+        while robot.state.time < over:
+            if time.monotonic() > deadline:
+                raise RuntimeError("The robot's time hardly passes: the push is not over.")
             time.sleep(0.01)
         states = [s for _, s in sorted(topics.kept["franka_states"].items())]
         felt = [s for s in states if abs(s.O_F_ext_hat_K[2]) > 0.8 * abs(PUSH[2])]
@@ -364,6 +366,7 @@ def soft_joints(robot, person, services, topics, diagnosis):
     report["contacts"] = [any(last.cartesian_contact), any(last.joint_contact), last.robot_mode]
     report["contact_before"] = any(before.cartesian_contact)
     report["diagnosis"] = diagnosis.shows("Robot", "Ready", Mode="Move")
+    report["response"] = diagnosis.says("Robot", lambda _, v: int(v["Commands since the last report"]) > 0)
     report["topics"] = topics.compare(20)
     refused = {"set_joint_impedance": {"joint_stiffness": [3000.0] * 7}}
     refused["set_cartesian_impedance"] = {"cartesian_stiffness": SOFT_HAND}

@@ -87,7 +87,7 @@ def main():
     os.kill(pid, signal.SIGCONT)
     report["after_silence"] = comes_back(robot, reconnects)
 
-    Person(address).does(f"push panda_link7 {PUSH}")
+    Person(address).does(f"push {sys.argv[1]}_link7 {PUSH}")
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     os.kill(pid, signal.SIGSTOP)
     robot.ask_recovery()

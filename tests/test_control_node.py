@@ -157,6 +157,10 @@ def test_diagnostics_tell_how_it_is(robot, report):
     for phase, mode in (("idle", "Idle"), ("soft_joints", "Move")):
         level, hardware, values = report[phase]["diagnosis"]
         assert (level, hardware, values["Mode"]) == (OK, robot, mode)
+    _, _, values = report["soft_joints"]["response"]
+    longest = float(values["From a state to its command, longest [ms]"])
+    assert 0.0 < float(values["From a state to its command, mean [ms]"]) <= longest
+    assert float(values["Latest state behind the promptest [ms]"]) > 0.0
     level, _, values = report["reflex"]["diagnosis"]
     assert level == ERROR and values["Mode"] == "Reflex"
     assert "cartesian_reflex" in values["Current errors"]

@@ -16,22 +16,31 @@ SUCCEEDED = 3
 ADDRESS = "127.0.7.4"
 
 
-@pytest.fixture(scope="module", params=["false", "true"], ids=["told_to_connect", "connects_by_itself"])
+CASES = {
+    "told_to_connect": ("panda", "false"),
+    "connects_by_itself": ("panda", "true"),
+    "fr3 told_to_connect": ("fr3", "false"),
+    "fr3 connects_by_itself": ("fr3", "true"),
+}
+
+
+@pytest.fixture(scope="module", params=CASES.values(), ids=CASES)
 def report(request, tmp_path_factory, long_run):
-    reconnect, folder = request.param, tmp_path_factory.mktemp("gone")
-    if reconnect == "true" and not long_run:
-        pytest.skip("the same once more, without being told: ./franka test --long")
+    (kind, reconnect), folder = request.param, tmp_path_factory.mktemp("gone")
+    if request.param != CASES["told_to_connect"] and not long_run:
+        pytest.skip("the same once more, without being told, and with an FR3: ./franka test --long")
     parameters = folder / "controllers.yaml"
     config = SOURCE / "franka_example_controllers/config/franka_example_controllers.yaml"
-    parameters.write_text(config.read_text().replace("$(arg arm_id)", "panda"))
+    parameters.write_text(config.read_text().replace("$(arg arm_id)", kind))
     executable = subprocess.run(
         ["catkin_find", "--first-only", "--libexec", "franka_sim_mujoco", "franka_sim"],
         text=True,
         capture_output=True,
         check=True,
     ).stdout.strip()
-    command = [executable, "--robot", "panda", "--no-hand", "--ip", ADDRESS, "--pace", "patient"]
+    command = [executable, "--robot", kind, "--no-hand", "--ip", ADDRESS, "--pace", "patient"]
     launch = ["franka_control", "franka_control.launch", "load_gripper:=false", f"robot_ip:={ADDRESS}"]
+    launch += [f"robot:={kind}"]
     launch += ["realtime_config:=ignore", "connect_timeout:=30", f"reconnect:={reconnect}"]
     robot = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     try:
@@ -42,7 +51,7 @@ def report(request, tmp_path_factory, long_run):
             loaded = session.run(*load, "cartesian_impedance_example_controller", check=False, timeout=90)
             assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
             client = ["/usr/bin/python3", str(HERE / "robot_gone_client.py")]
-            client += ["panda", str(robot.pid), reconnect, *command]
+            client += [kind, str(robot.pid), reconnect, *command]
             result = session.run(*client, check=False, timeout=240)
             print(result.stdout, session.tail(80), sep="\n")
             assert result.returncode == 0, f"{result}\n{session.tail(60)}"

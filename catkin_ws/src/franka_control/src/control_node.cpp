@@ -225,7 +225,7 @@ void ControlNode::readIdleRobot() {
   if (!franka_hw_.connected()) {
     return;
   }
-  const franka::RobotState state = franka_hw_.robot().readOnce();
+  const franka::RobotState state = franka_hw_.readPatiently();
   franka_hw_.update(state);
   robot_health_->state(state);
 }
@@ -290,7 +290,7 @@ void ControlNode::setError(bool has_error) {
 
 void ControlNode::robotLost(const std::string& what) {
   const std::lock_guard<std::mutex> lock(connection_mutex_);
-  ROS_ERROR_STREAM("franka_control_node: the robot is lost. " << what << reconnection_.outlook());
+  ROS_ERROR_STREAM("franka_control_node: " << reconnection_.report(what));
   connected_ = false;
   lost_ = true;
   // What ran when it was lost must not move it when it is back, unless somebody says so.

@@ -14,6 +14,8 @@
 namespace franka_hw {
 
 FrankaCombinableHW::~FrankaCombinableHW() {
+  connect_server_.shutdown();  // waits for a call under way
+  disconnect_server_.shutdown();
   ending_ = true;
   controller_active_ = false;
   if (control_loop_thread_.joinable()) {
@@ -80,7 +82,7 @@ void FrankaCombinableHW::lose(const std::string& what) {
   if (!connected()) {
     return;  // given up by somebody meanwhile
   }
-  ROS_ERROR_STREAM(arm_id_ << ": the robot is lost. " << what << reconnection_.outlook());
+  ROS_ERROR_STREAM(arm_id_ << ": " << reconnection_.report(what));
   setError(true);
   lost_ = true;
   withdrawRobot();
@@ -239,8 +241,9 @@ void FrankaCombinableHW::watchRobot() {
 void FrankaCombinableHW::readIdleRobot() {
   try {
     const std::lock_guard<std::mutex> lock(robot_mutex_);
-    if (robot_) {
-      states_.write({robot_->readOnce(), ResponseTimes::Clock::now()});
+    if (robot_ && initialized_) {
+      const franka::RobotState state = readPatiently();
+      states_.write({state, ResponseTimes::Clock::now()});
     }
   } catch (const franka::Exception& error) {
     lose(error.what());

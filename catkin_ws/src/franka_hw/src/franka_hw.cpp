@@ -23,6 +23,8 @@ constexpr double kLimitReportPeriod = 5.0;
 constexpr double kLimitCheckPeriod = 0.5;
 // Between two attempts to reach a robot that is starting. [s]
 constexpr double kConnectPeriod = 0.2;
+// How often a robot that rests is asked for a state before it counts as gone.
+constexpr int kReadAttempts = 3;
 
 }  // namespace
 
@@ -193,6 +195,18 @@ void FrankaHW::setupFrankaModelInterface(franka::RobotState& robot_state) {
 }
 
 // --- state and commands --------------------------------------------------------------------------
+
+franka::RobotState FrankaHW::readPatiently() {
+  for (int left = kReadAttempts - 1;; left--) {
+    try {
+      return robot().readOnce();
+    } catch (const franka::NetworkException&) {
+      if (left == 0 || !ros::ok()) {
+        throw;
+      }
+    }
+  }
+}
 
 void FrankaHW::update(const franka::RobotState& robot_state) {
   robot_state_libfranka_ = robot_state;

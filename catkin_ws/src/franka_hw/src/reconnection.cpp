@@ -39,9 +39,15 @@ void Reconnection::attempt(const std::string& robot, const std::function<void()>
   last_attempt_ = ros::WallTime::now();
 }
 
-const char* Reconnection::outlook() const {
-  return wanted_ ? " Trying to connect again every second."
-                 : " Call the service connect when it is back.";
+std::string Reconnection::report(const std::string& what) const {
+  const bool silent = what.find("Timeout") != std::string::npos;
+  return "the robot is lost. " + what +
+         (silent
+              ? " It has sent no states for a second or more: it is switched off, there is no way "
+                "to it, or, if it is a simulated one, its computer had no time for it."
+              : "") +
+         (wanted_ ? " Trying to connect again every second."
+                  : " Call the service connect when it is back.");
 }
 
 }  // namespace franka_hw

@@ -11,10 +11,9 @@ namespace franka_hw {
 
 namespace {
 
-// Who only reads a state holds the robot for a millisecond or two, longer where the machine is busy
-// with other work. Whoever moves it without saying so (a loop of a user's own) is found out by
-// this.
-constexpr std::chrono::milliseconds kPatience{200};
+// Who only reads a state holds the robot for a millisecond or two, and longer where the machine is
+// busy with other work or the robot silent.
+constexpr std::chrono::milliseconds kPatience{500};
 
 /// The robot for a short operation. @throws franka::InvalidOperationException while it is moving.
 std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
@@ -22,10 +21,15 @@ std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   std::unique_lock<std::mutex> lock(robot_mutex, std::try_to_lock);
   while (!lock.owns_lock()) {
-    if (RobotInMotion::holds(robot_mutex) || std::chrono::steady_clock::now() > deadline) {
+    if (RobotInMotion::holds(robot_mutex)) {
       throw franka::InvalidOperationException(
           "The robot cannot be configured while a controller commands it. Stop that controller "
           "(rosservice call /controller_manager/switch_controller), then try again.");
+    }
+    if (std::chrono::steady_clock::now() > deadline) {
+      throw franka::InvalidOperationException(
+          "The robot cannot be configured now: it is silent, or something else keeps it busy. See "
+          "that it answers and nothing moves it, then try again.");
     }
     std::this_thread::sleep_for(RobotWanted::kMoment);
     lock.try_lock();

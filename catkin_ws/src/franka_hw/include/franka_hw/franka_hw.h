@@ -103,6 +103,12 @@ class FrankaHW : public hardware_interface::RobotHW {
   virtual void control(
       const std::function<bool(const ros::Time&, const ros::Duration&)>& ros_callback);
 
+  /// The next state of a robot that rests, for whoever holds robotMutex(). One that is silent for
+  /// longer than libfranka waits is waited for three times as long: a computer that is busy with
+  /// other work may leave a simulated robot without time for a second and more.
+  /// @throws franka::NetworkException when it is gone
+  franka::RobotState readPatiently();
+
   /// Takes a robot state over that was read outside of control().
   virtual void update(const franka::RobotState& robot_state);
 

@@ -24,8 +24,8 @@ class Reconnection {
   /// @param robot its name, for the warning
   void attempt(const std::string& robot, const std::function<void()>& connect);
 
-  /// What comes next, for the sentence that reports the loss.
-  const char* outlook() const;
+  /// That the robot is lost, why, and what comes next. @param what libfranka says of it
+  std::string report(const std::string& what) const;
 
  private:
   bool wanted_{false};

@@ -227,7 +227,8 @@ TEST_F(Losing, ALostArmIsNamedAndTheOtherIsThereForEverybody) {
       robot_.get<franka_hw::FrankaStateInterface>()->getHandle("right_robot").getRobotState();
   const std::uint64_t time = right.time.toMSec();
   EXPECT_TRUE(cycleUntil([&] { return right.time.toMSec() > time + 20; })) << "states go on";
-  EXPECT_FALSE(ros::service::exists(left_.robot_nh.resolveName("set_load"), false));
+  const std::string gone = left_.robot_nh.resolveName("set_load");
+  EXPECT_TRUE(cycleUntil([&] { return !ros::service::exists(gone, false); }));
   franka_msgs::SetLoad load;
   ASSERT_TRUE(ros::service::call(right_.robot_nh.resolveName("set_load"), load));
   EXPECT_TRUE(load.response.success) << load.response.error;

@@ -65,6 +65,33 @@ TEST_F(Connection, OfARobotThatGoesAwayEndsTheMotionWithASentence) {
   EXPECT_TRUE(loop.switchTo({}, {"JT"}));
 }
 
+TEST_F(Connection, OutlivesASilenceOfARestingRobot) {
+  const franka::Timeouts usual = franka::timeouts();
+  franka::Timeouts timeouts = usual;
+  timeouts.state = std::chrono::seconds(1);
+  franka::setTimeouts(timeouts);
+  robot_.disconnect();
+  robot_.connect();
+  franka::setTimeouts(usual);
+  arm_.robot.script([](auto& script) { script.sends_states = false; });
+  std::thread wakes([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    arm_.robot.script([](auto& script) { script.sends_states = true; });
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_NO_THROW(robot_.readPatiently());
+  EXPECT_GT(std::chrono::steady_clock::now() - begin, timeouts.state);
+  wakes.join();
+
+  arm_.robot.script([](auto& script) { script.sends_states = false; });
+  EXPECT_THROW(
+      {
+        robot_.readPatiently();  // what was sent before
+        robot_.readPatiently();
+      },
+      franka::NetworkException);
+}
+
 TEST_F(Connection, RunsTheServicesOfARestingRobot) {
   franka_hw::ServiceContainer services;
   franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
