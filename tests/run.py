@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every test of the built workspace and closes with one line, `N passed, N failed`.
 
-Four kinds, in this order: style, gtest (two at a time), rostest (one at a time: they keep time), and
+Four kinds, in this order: style, gtest and rostest (as many at a time as there are processors), and
 pytest (`test/test_*.py` of each package, then `tests/`). Cases are counted from the result files, since
 catkin's own summary counts some twice. Called by `./franka test`, which provides the environment.
 """
@@ -66,9 +66,9 @@ def run(title: str, command: list[str], **options) -> int:
     return code
 
 
-def run_ctest(kind: str, names: list[str], parallel: int) -> None:
+def run_ctest(kind: str, names: list[str]) -> None:
     pattern = f"_ctest_({'|'.join(names)})_{kind}" if names else f"_ctest_.*_{kind}"
-    command = ["ctest", "-R", pattern, f"-j{parallel}", "--timeout", "600", "--output-on-failure"]
+    command = ["ctest", "-R", pattern, f"-j{os.cpu_count() or 2}", "--timeout", "600", "--output-on-failure"]
     run(kind, command, cwd=BUILD)
 
 
@@ -105,8 +105,8 @@ def main() -> int:
     style_failed = not arguments.packages and run("style", [sys.executable, str(TOP / "tests" / "style.py")])
     pytest_broken = 0
     if wanted or not arguments.packages:
-        run_ctest("gtest", wanted, os.cpu_count() or 2)
-        run_ctest("rostest", wanted, 1)
+        run_ctest("gtest", wanted)
+        run_ctest("rostest", wanted)
         tests = [
             p
             for n, folder in known.items()

@@ -106,8 +106,8 @@ fci::Pace toPace(const std::string& text) {
   char* end = nullptr;
   pace.factor = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !(pace.factor >= 0.001 && pace.factor <= 100.0)) {
-    throw std::invalid_argument("--pace " + text +
-                                ": give realtime, patient, lockstep, or a factor from 0.001 to 100.");
+    throw std::invalid_argument(
+        "--pace " + text + ": give realtime, patient, lockstep, or a factor from 0.001 to 100.");
   }
   return pace;
 }
