@@ -7,6 +7,8 @@ Times `t` are seconds since a controller's start (n,). Poses are those of the en
 
 import numpy as np
 
+ACCELERATION_TIME = 2.0  # [s] until joint_impedance's circle is up to speed
+
 
 def joint_position(t, start):
     """Joint positions (n, 7) [rad]; the fifth joint goes the other way."""
@@ -49,7 +51,7 @@ def elbow(t, start):
     return start + np.pi / 10 * (1 - np.cos(np.pi * t / 5))
 
 
-def joint_impedance(t, start, radius=0.1, highest=0.15, acceleration_time=2.0):
+def joint_impedance(t, start, radius=0.1, highest=0.15, acceleration_time=ACCELERATION_TIME):
     """Poses (n, 4, 4) [m] on a circle that begins with a steady acceleration."""
     gaining = np.minimum(t, acceleration_time)
     angle = highest * (gaining**2 / (2 * acceleration_time) + (t - gaining)) / radius

@@ -11,6 +11,7 @@
 #include <franka_msgs/SetLoad.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/arm_services.h>
+#include <franka_sim_mujoco/ros/service_answer.h>
 #include <ros/console.h>
 #include <ros/service.h>
 #include <std_srvs/SetBool.h>
@@ -84,35 +85,40 @@ ArmServices::~ArmServices() {
 }
 
 template <typename Service>
-void ArmServices::offer(const std::string& name,
+void ArmServices::offer(ros::NodeHandle& node, const std::string& name,
                         std::function<void(const typename Service::Request&)> handler) {
   using Request = typename Service::Request;
   using Response = typename Service::Response;
   const boost::function<bool(Request&, Response&)> callback =
       [this, name, handler](Request& request, Response& response) {
-        try {
-          between_ticks_([&] { handler(request); });
-          response.success = true;
-        } catch (const std::exception& error) {
-          ROS_ERROR_NAMED(kLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), error.what());
-          response.success = false;
-          response.error = error.what();
-        }
+        answer(
+            response, [&] { handler(request); },
+            [&](const char* sentence) {
+              ROS_ERROR_NAMED(kLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), sentence);
+            });
         return true;
       };
-  servers_.push_back(control_node_.advertiseService<Request, Response>(name, callback));
+  servers_.push_back(node.advertiseService<Request, Response>(name, callback));
+}
+
+template <typename Service>
+void ArmServices::offerBetweenTicks(const std::string& name,
+                                    std::function<void(const typename Service::Request&)> handler) {
+  offer<Service>(control_node_, name, [this, handler](const typename Service::Request& request) {
+    between_ticks_([&] { handler(request); });
+  });
 }
 
 // --- configuration -------------------------------------------------------------------------------
 
 void ArmServices::offerFrames() {
-  offer<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
+  offerBetweenTicks<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
     check(arm_.unit().setEE(toArray<16>(request.NE_T_EE)), std::string("NE_T_EE") + kNotATransform);
   });
-  offer<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
+  offerBetweenTicks<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
     check(arm_.unit().setK(toArray<16>(request.EE_T_K)), std::string("EE_T_K") + kNotATransform);
   });
-  offer<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
+  offerBetweenTicks<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
     const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
                                     toArray<9>(request.load_inertia)};
     check(arm_.unit().setLoad(load),
@@ -122,7 +128,7 @@ void ArmServices::offerFrames() {
 }
 
 void ArmServices::offerCollisionBehavior() {
-  offer<franka_msgs::SetForceTorqueCollisionBehavior>(
+  offerBetweenTicks<franka_msgs::SetForceTorqueCollisionBehavior>(
       "set_force_torque_collision_behavior", [this](const auto& request) {
         const CollisionThresholds thresholds =
             checked({toArray<7>(request.lower_torque_thresholds_nominal),
@@ -132,7 +138,7 @@ void ArmServices::offerCollisionBehavior() {
                     "");
         check(arm_.unit().setCollisionBehavior(thresholds, thresholds), kNotThresholds);
       });
-  offer<franka_msgs::SetFullCollisionBehavior>(
+  offerBetweenTicks<franka_msgs::SetFullCollisionBehavior>(
       "set_full_collision_behavior", [this](const auto& request) {
         const CollisionThresholds acceleration =
             checked({toArray<7>(request.lower_torque_thresholds_acceleration),
@@ -151,11 +157,13 @@ void ArmServices::offerCollisionBehavior() {
 }
 
 void ArmServices::offerImpedances() {
-  offer<franka_msgs::SetJointImpedance>("set_joint_impedance", [this](const auto& request) {
-    check(arm_.unit().setJointImpedance(toArray<7>(request.joint_stiffness)),
-          "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
-  });
-  offer<franka_msgs::SetCartesianImpedance>("set_cartesian_impedance", [this](const auto& request) {
+  offerBetweenTicks<franka_msgs::SetJointImpedance>(
+      "set_joint_impedance", [this](const auto& request) {
+        check(arm_.unit().setJointImpedance(toArray<7>(request.joint_stiffness)),
+              "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
+      });
+  offerBetweenTicks<
+      franka_msgs::SetCartesianImpedance>("set_cartesian_impedance", [this](const auto& request) {
     check(arm_.unit().setCartesianImpedance(toArray<6>(request.cartesian_stiffness)),
           "cartesian_stiffness must hold three numbers from 10 to 3000 N/m and three from 1 to 300 "
           "Nm/rad.");
@@ -165,73 +173,35 @@ void ArmServices::offerImpedances() {
 // --- hands on the robot --------------------------------------------------------------------------
 
 void ArmServices::offerUserStop() {
-  using Request = std_srvs::SetBool::Request;
-  using Response = std_srvs::SetBool::Response;
-  const boost::function<bool(Request&, Response&)> callback = [this](Request& request,
-                                                                     Response& response) {
-    try {
-      between_ticks_([&] { arm_.setUserStop(request.data); });
-      response.success = true;
-      ROS_WARN_NAMED(kLog,
-                     request.data ? "%s: user stop pressed: commands of controllers have no effect"
-                                  : "%s: user stop released: call franka_control/error_recovery to "
-                                    "connect the controllers again",
-                     arm_id_.c_str());
-    } catch (const std::exception& error) {
-      response.success = false;
-      response.message = error.what();
-    }
-    return true;
-  };
-  servers_.push_back(control_node_.advertiseService<Request, Response>("set_user_stop", callback));
+  offer<std_srvs::SetBool>(control_node_, "set_user_stop", [this](const auto& request) {
+    between_ticks_([&] { arm_.setUserStop(request.data); });
+    ROS_WARN_NAMED(kLog,
+                   request.data ? "%s: user stop pressed: commands of controllers have no effect"
+                                : "%s: user stop released: call franka_control/error_recovery to "
+                                  "connect the controllers again",
+                   arm_id_.c_str());
+  });
 }
 
 void ArmServices::offerConnection(const std::string& name, bool connects) {
-  using Request = std_srvs::Trigger::Request;
-  using Response = std_srvs::Trigger::Response;
-  const boost::function<bool(Request&, Response&)> callback = [this, connects](Request& /*request*/,
-                                                                               Response& response) {
-    try {
-      between_ticks_([&] {
-        if (arm_.connected() == connects) {
-          throw std::runtime_error(connects ? "The arm is connected already."
-                                            : "The arm is disconnected already.");
-        }
-        if (arm_.setConnected(connects) != RequestStatus::kSuccess) {
-          throw std::runtime_error(
-              "A controller commands the arm: stop it (controller_manager/switch_controller) "
-              "before disconnecting.");
-        }
-      });
-      response.success = true;
-    } catch (const std::exception& error) {
-      response.success = false;
-      response.message = error.what();
+  offerBetweenTicks<std_srvs::Trigger>(name, [this, connects](const auto& /*request*/) {
+    if (arm_.connected() == connects) {
+      throw std::runtime_error(connects ? "The arm is connected already."
+                                        : "The arm is disconnected already.");
     }
-    return true;
-  };
-  servers_.push_back(control_node_.advertiseService<Request, Response>(name, callback));
+    if (arm_.setConnected(connects) != RequestStatus::kSuccess) {
+      throw std::runtime_error(
+          "A controller commands the arm: stop it (controller_manager/switch_controller) "
+          "before disconnecting.");
+    }
+  });
 }
 
 // --- another configuration of the joints ---------------------------------------------------------
 
 void ArmServices::offerConfiguration() {
-  using Request = franka_msgs::SetJointConfiguration::Request;
-  using Response = franka_msgs::SetJointConfiguration::Response;
-  const std::string name = "set_franka_model_configuration";
-  const boost::function<bool(Request&, Response&)> callback = [this, name](Request& request,
-                                                                           Response& response) {
-    try {
-      placeJoints(request);
-      response.success = true;
-    } catch (const std::exception& error) {
-      ROS_ERROR_NAMED(kLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), error.what());
-      response.success = false;
-      response.error = error.what();
-    }
-    return true;
-  };
-  servers_.push_back(node_.advertiseService<Request, Response>(name, callback));
+  offer<franka_msgs::SetJointConfiguration>(node_, "set_franka_model_configuration",
+                                            [this](const auto& request) { placeJoints(request); });
 }
 
 void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request& request) {

@@ -166,10 +166,11 @@ class InterfacesTest(unittest.TestCase):
         self.assertAlmostEqual(highest, 2 * 0.2 * math.pi / 16, delta=1e-4)
 
     def test_velocity_joint_interface(self):
+        before = self.arm.state().q_d
         states = self.arm.run("joint_velocity_example_controller", 9)
         self.follows(states)
         self.assertAlmostEqual(max(state.dq_d[3] for state in states), 0.1, delta=1e-4)
-        moved = max(state.q_d[3] for state in states) - states[0].q_d[3]
+        moved = max(state.q_d[3] for state in states) - before[3]
         self.assertAlmostEqual(moved, 0.1 / 2 * 8, delta=2e-3)  # the mean velocity, 8 s long
 
     def test_pose_cartesian_interface(self):

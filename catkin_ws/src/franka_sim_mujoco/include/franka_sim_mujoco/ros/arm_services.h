@@ -35,8 +35,11 @@ class ArmServices {
 
  private:
   template <typename Service>
-  void offer(const std::string& name,
+  void offer(ros::NodeHandle& node, const std::string& name,
              std::function<void(const typename Service::Request&)> handler);
+  template <typename Service>
+  void offerBetweenTicks(const std::string& name,
+                         std::function<void(const typename Service::Request&)> handler);
   void offerFrames();
   void offerCollisionBehavior();
   void offerImpedances();

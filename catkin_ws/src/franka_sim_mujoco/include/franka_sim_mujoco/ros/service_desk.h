@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/ros/service_answer.h>
 #include <ros/advertise_service_options.h>
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <std_srvs/SetBool.h>
-#include <std_srvs/Trigger.h>
 
 #include <functional>
 #include <string>
@@ -35,15 +34,11 @@ class ServiceDesk {
     auto options = ros::AdvertiseServiceOptions::create<Service>(
         name,
         [handler, name](typename Service::Request& request, typename Service::Response& response) {
-          try {
-            handler(request, response);
-            response.success = true;
-          } catch (const std::exception& error) {
-            ROS_WARN_NAMED("franka_sim_mujoco", "%s: %s", name.c_str(), error.what());
-            response = typename Service::Response();
-            response.success = false;
-            setText(response, error.what());
-          }
+          answer(
+              response, [&] { handler(request, response); },
+              [&](const char* sentence) {
+                ROS_WARN_NAMED("franka_sim_mujoco", "%s: %s", name.c_str(), sentence);
+              });
           return true;
         },
         ros::VoidConstPtr(), &queue_);
@@ -53,17 +48,6 @@ class ServiceDesk {
   void offerEmpty(const std::string& name, std::function<void()> action);
 
  private:
-  template <typename Response>
-  static void setText(Response& response, const char* text) {
-    response.error = text;
-  }
-  static void setText(std_srvs::SetBool::Response& response, const char* text) {
-    response.message = text;
-  }
-  static void setText(std_srvs::Trigger::Response& response, const char* text) {
-    response.message = text;
-  }
-
   ros::NodeHandle node_;
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> servers_;
