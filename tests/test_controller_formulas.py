@@ -23,6 +23,7 @@ FORCE_ERROR = 0.05  # share of the largest
 RECORDS_A_SECOND = 30
 PERIOD = 0.035  # [s] between two recorded states, at the longest
 LAG = 0.01  # [s] of the 100 Hz filter between a controller and the robot, several times
+SETTLING = 0.2  # [s] around a step of the acceleration
 STIFFNESS, NULLSPACE_STIFFNESS = (200.0, 10.0), 0.5  # compliance_param.cfg
 PUSH = np.array([0.0, 4.0, 0.0])  # [N] the client's
 ROTOR_INERTIA = 0.1 * np.eye(7)  # [kg m^2] physics.yaml
@@ -128,9 +129,11 @@ def test_joint_impedance_pulls_the_arm_along_a_circle(recorded):
     states.led_by(formulas.joint_impedance, "O_T_EE_d")
     torques = formulas.joint_impedance_torques(states.q_d - states.q, states.dq_d - states.dq)
     accelerations = np.gradient(states.dq, states.time, axis=0)
-    # Differences say nothing where the acceleration has a step, as when the circle is up to speed.
-    steady = np.abs(states.time - states.time[states.moving][0] - formulas.ACCELERATION_TIME) > 3 * PERIOD
-    some = np.flatnonzero(states.moving & steady)[2:-2:5]
+    # Differences say nothing where the acceleration has a step: at the start, and when
+    # the circle is up to speed.
+    time = states.time - states.time[states.moving][0]
+    steady = (time > SETTLING) & (np.abs(time - formulas.ACCELERATION_TIME) > SETTLING)
+    some = np.flatnonzero(states.moving & steady)[:-2:5]
     needed = [(rigid_arm.mass(states.q[i], states.bodies) + ROTOR_INERTIA) @ accelerations[i] for i in some]
     assert max(share(torques[some] - needed, of=needed)) < FORCE_ERROR
     commanded = torques[some] + states.coriolis(some)
