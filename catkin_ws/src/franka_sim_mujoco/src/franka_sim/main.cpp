@@ -85,7 +85,7 @@ void serve(const Options& options) {
     viewer.emplace(world, mutex);
   }
 
-  if (!options.pace.lockstep) {
+  if (!options.pace.lockstep || options.pace.by_clock) {
     preferThisThread();
   }
   for (const ServedArm& arm : arms) {
