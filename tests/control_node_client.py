@@ -12,54 +12,27 @@ import sys
 import time
 
 import numpy as np
+import rigid_arm
 import rospy
 import tf2_ros
 from controller_manager_msgs.srv import SwitchController
 from diagnosis import Diagnosis
 from franka_msgs.msg import FrankaState
-from franka_msgs.srv import (
-    SetCartesianImpedance,
-    SetEEFrame,
-    SetForceTorqueCollisionBehavior,
-    SetFullCollisionBehavior,
-    SetJointImpedance,
-    SetKFrame,
-    SetLoad,
-)
 from geometry_msgs.msg import WrenchStamped
 from recovery_client import PATIENCE, Person, Robot
 from sensor_msgs.msg import JointState
+from setters import SETTERS
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
 ARM, ADDRESS = sys.argv[1:3]
 CONTROLLER = "position_joint_trajectory_controller"
-SETTERS = {
-    "set_joint_impedance": SetJointImpedance,
-    "set_cartesian_impedance": SetCartesianImpedance,
-    "set_EE_frame": SetEEFrame,
-    "set_K_frame": SetKFrame,
-    "set_force_torque_collision_behavior": SetForceTorqueCollisionBehavior,
-    "set_full_collision_behavior": SetFullCollisionBehavior,
-    "set_load": SetLoad,
-}
 PUSH = [0.0, 0.0, -8.0]  # at the seventh link [N]
 PUSHED, LONG_PUSHED, BRIEFLY = 1000, 5000, 50  # [ms]
 WIDE = {"torque": [60.0] * 7, "force": [60.0] * 6}  # thresholds that nothing here reaches [Nm], [N, Nm]
 SOFT_JOINTS = [600.0] * 7  # [Nm/rad]
 SOFT_HAND = [800.0, 800.0, 800.0, 60.0, 60.0, 60.0]  # [N/m], [Nm/rad]
-
-# Where each joint stands in the link before it: position [m], rotation about x [rad].
-CHAIN = [
-    ((0, 0, 0.333), 0),
-    ((0, 0, 0), -np.pi / 2),
-    ((0, -0.316, 0), np.pi / 2),
-    ((0.0825, 0, 0), np.pi / 2),
-    ((-0.0825, 0.384, 0), -np.pi / 2),
-    ((0, 0, 0), np.pi / 2),
-    ((0.088, 0, 0), np.pi / 2),
-]
 
 
 def transform(position=(0, 0, 0), about_x=0.0, about_z=0.0):
@@ -71,27 +44,10 @@ def transform(position=(0, 0, 0), about_x=0.0, about_z=0.0):
     return matrix
 
 
-def link7(q):
-    """Pose of the seventh link in the base, from the description's table."""
-    pose = np.eye(4)
-    for (position, about_x), angle in zip(CHAIN, q):
-        pose = pose @ transform(position, about_x, angle)
-    return pose
-
-
-def flange(q):
-    return link7(q) @ transform((0, 0, 0.107))
-
-
 def torques_of_push(q):
-    """J^T F at the origin of the seventh link, J by central differences [Nm]."""
-    step, torques = 1e-6, []
-    for i in range(7):
-        aside = np.zeros(7)
-        aside[i] = step
-        difference = link7(q + aside)[:3, 3] - link7(q - aside)[:3, 3]
-        torques.append(difference @ PUSH / (2 * step))
-    return np.array(torques)
+    """J^T F at the origin of the seventh link [Nm]."""
+    links = rigid_arm.poses(q)
+    return rigid_arm.jacobian(links, links[7, :3, 3])[:3].T @ PUSH
 
 
 def matrix(columns):
@@ -122,7 +78,7 @@ def apart(a, b):
 
 def shown_pose_is_apart(state):
     """How far a state's O_T_EE is from what its joints and frames say."""
-    pose = flange(state.q) @ matrix(state.F_T_NE) @ matrix(state.NE_T_EE)
+    pose = rigid_arm.poses(state.q)[rigid_arm.FLANGE] @ matrix(state.F_T_NE) @ matrix(state.NE_T_EE)
     return apart(matrix(state.O_T_EE), pose)
 
 

@@ -26,30 +26,13 @@ from controller_manager_msgs.srv import (  # noqa: E402
 )
 from fci_session import memory_of  # noqa: E402
 from franka_msgs.msg import FrankaState  # noqa: E402
-from franka_msgs.srv import (  # noqa: E402
-    SetCartesianImpedance,
-    SetEEFrame,
-    SetForceTorqueCollisionBehavior,
-    SetFullCollisionBehavior,
-    SetJointImpedance,
-    SetKFrame,
-    SetLoad,
-)
 from recovery_client import Robot  # noqa: E402
+from setters import SETTERS  # noqa: E402
 from std_msgs.msg import Bool  # noqa: E402
 from std_srvs.srv import Trigger  # noqa: E402
 
 MOVING = "effort_joint_trajectory_controller"
 LOOKING = "franka_state_controller"
-SETTERS = {
-    "set_joint_impedance": SetJointImpedance,
-    "set_cartesian_impedance": SetCartesianImpedance,
-    "set_EE_frame": SetEEFrame,
-    "set_K_frame": SetKFrame,
-    "set_force_torque_collision_behavior": SetForceTorqueCollisionBehavior,
-    "set_full_collision_behavior": SetFullCollisionBehavior,
-    "set_load": SetLoad,
-}
 STATES = "/franka_state_controller/franka_states"
 SMALL = 2048  # receive buffer of who never reads [B]
 
@@ -218,7 +201,7 @@ def main():
     report["aborts"], report["errors"], report["modes"] = robot.aborts, sorted(errors), sorted(modes)
     switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
     report["stopped"] = switch(stop_controllers=[MOVING], strictness=2, timeout=10.0).ok
-    answer = rospy.ServiceProxy("/franka_control/set_load", SetLoad)(load_inertia=[0.0] * 9)
+    answer = rospy.ServiceProxy("/franka_control/set_load", SETTERS["set_load"])(load_inertia=[0.0] * 9)
     report["set_afterwards"] = [answer.success, answer.error]
     print(json.dumps(report))
 

@@ -122,3 +122,29 @@ def test_our_own_devel_space_is_no_original():
     assert (
         in_script("stand_ins_to_leave_out", CMAKE_PREFIX_PATH=str(TOP / "catkin_ws" / "devel")).split() == []
     )
+
+
+def build_that_ends_with(message: str, tmp_path: Path) -> str:
+    """What the script says of a build whose first attempt fails; its second one tells the number of jobs."""
+    (tmp_path / "out").mkdir()
+    return in_script(
+        f"top={tmp_path}; jobs=2; once() {{"
+        f" [ -e $top/failed ] && {{ echo $jobs >$top/jobs; return; }};"
+        f" touch $top/failed; echo '{message}'; return 1; }};"
+        "building once 2>&1 && cat $top/jobs || echo given up"
+    )
+
+
+def test_a_compiler_that_crashes_is_run_once_more(tmp_path):
+    said = build_that_ends_with("a.h:919:5: internal compiler error: Segmentation fault", tmp_path)
+    assert "going on with 2 at a time" in said and said.endswith("\n2\n")
+
+
+def test_a_compiler_that_was_killed_is_given_all_memory(tmp_path):
+    said = build_that_ends_with("g++: fatal error: Killed signal terminated program cc1plus", tmp_path)
+    assert "going on with 1 at a time" in said and said.endswith("\n1\n")
+
+
+def test_an_error_of_the_sources_is_not_tried_again(tmp_path):
+    said = build_that_ends_with("a.cpp:3: error: expected a sentence", tmp_path)
+    assert said.endswith("given up\n") and "expected a sentence" in said

@@ -4,6 +4,10 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include <iomanip>
+#include <sstream>
+#include <string>
+
 namespace franka_control {
 
 namespace {
@@ -14,23 +18,11 @@ using diagnostic_msgs::DiagnosticStatus;
 constexpr double kPoorSuccessRate = 0.95;
 
 std::string modeName(franka::RobotMode mode) {
-  switch (mode) {
-    case franka::RobotMode::kIdle:
-      return "Idle";
-    case franka::RobotMode::kMove:
-      return "Move";
-    case franka::RobotMode::kGuiding:
-      return "Guiding";
-    case franka::RobotMode::kReflex:
-      return "Reflex";
-    case franka::RobotMode::kUserStopped:
-      return "User stopped";
-    case franka::RobotMode::kAutomaticErrorRecovery:
-      return "Automatic error recovery";
-    case franka::RobotMode::kOther:
-      break;
-  }
-  return "Other";
+  std::stringstream text;
+  std::string name;
+  text << mode;
+  text >> std::quoted(name);
+  return name;
 }
 
 }  // namespace

@@ -204,7 +204,10 @@ TEST_F(VacuumGripperOnTheNetwork, VacuumsHoldsAndDropsAPart) {
   const franka::VacuumGripper gripper = client();
   EXPECT_EQ(gripper.serverVersion(), 1);
   change([](VacuumGripperUnit& unit) { unit.setPart(true); });
-  EXPECT_TRUE(gripper.vacuum(50, 5s));
+  using Profile = franka::VacuumGripper::ProductionSetupProfile;
+  for (const Profile profile : {Profile::kP3, Profile::kP2, Profile::kP1, Profile::kP0}) {
+    EXPECT_TRUE(gripper.vacuum(50, 5s, profile)) << "they make no difference";
+  }
   EXPECT_TRUE(becomes(gripper, [](const franka::VacuumGripperState& state) {
     return state.part_present && state.in_control_range && !state.part_detached &&
            state.vacuum >= 500 && state.vacuum <= 510 && state.actual_power == 20 &&

@@ -271,6 +271,22 @@ TEST_F(SdfWorldTest, includesAndMeshesAreFound) {
   EXPECT_DOUBLE_EQ(world.bodyPose("second").position[2], 0.5);
 }
 
+TEST_F(SdfWorldTest, meshesOfKindsThatCannotBeReadAreNamed) {
+  write("crate/model.config",
+        "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
+  write("crate/model.sdf",
+        "<sdf version='1.6'><model name='crate'><link name='link'>"
+        "<visual name='collada'><geometry><mesh><uri>model://crate/a.dae</uri></mesh></geometry>"
+        "</visual><visual name='ascii'><geometry><mesh><uri>model://crate/b.stl</uri></mesh>"
+        "</geometry></visual></link></model></sdf>");
+  write("crate/a.dae", "<COLLADA version='1.4.1'/>");
+  write("crate/b.stl", "solid b\nendsolid b\n");
+  World world(file("<include><uri>model://crate</uri></include>"));
+  EXPECT_THAT(world.unsupported(), HasSubstr("a.dae"));
+  EXPECT_THAT(world.unsupported(), HasSubstr("b.stl"));
+  EXPECT_THAT(world.unsupported(), HasSubstr("binary STL and OBJ files can be read"));
+}
+
 TEST_F(SdfWorldTest, whatNobodySimulatesIsNamedInOneSentence) {
   World world(file(
       "<plugin name='wind_maker' filename='libw.so'/>" +

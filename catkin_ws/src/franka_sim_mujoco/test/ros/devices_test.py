@@ -109,6 +109,11 @@ class DevicesTest(unittest.TestCase):
 
     def test_the_lift_lifts_the_arm_no_faster_than_it_may(self):
         self.lift_to(0.0)
+        # The arm controller of another test may only just have been stopped.
+        self.robot.when(
+            lambda _: self.arm[-1].robot_mode != MOVE and max(map(abs, self.arm[-1].dq)) < 1e-5,
+            "The arm to rest",
+        )
         before = self.arm[-1]
         states = self.lift_to(0.3)
         speeds = [state["lift"][1] for state in states]
@@ -149,6 +154,8 @@ class DevicesTest(unittest.TestCase):
             # The lift's start and stop are accelerations that no control unit knows of.
             self.assertLess(np.abs(np.array(state.q) - state.q_d).max(), 5e-3)
         self.assertGreater(np.ptp([state.q_d[0] for state in states]), 0.01)
+        # To the arm they are a push, of which states show at least the end; at rest they show 1e-6 N.
+        self.assertGreater(max(abs(state.O_F_ext_hat_K[2]) for state in states), 1e-3)
 
     def test_velocities(self):
         self.robot.command("head_velocity", 0.5)
