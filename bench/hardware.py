@@ -37,7 +37,14 @@ print(json.dumps({"messages": len(seen), "missing": sum(s - 1 for s in steps), "
 def hardware(seconds: float = 60.0) -> None:
     """`seconds` of torque control in real time, with all publishers on."""
     print("franka_control_node and the gripper node with a simulated robot in real time")
-    launch = ["franka_control", "franka_control.launch", "sim:=true", "robot:=panda", "robot_ip:=127.0.42.1"]
+    launch = [
+        "franka_control",
+        "franka_control.launch",
+        "sim:=true",
+        "robot:=panda",
+        "robot_ip:=127.0.42.1",
+        "pace:=realtime",
+    ]
     manager = ["rosrun", "controller_manager", "controller_manager"]
     with (
         tempfile.TemporaryDirectory() as folder,
