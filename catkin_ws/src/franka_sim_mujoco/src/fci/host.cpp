@@ -47,8 +47,10 @@ timespec toTimespec(std::chrono::nanoseconds duration) noexcept {
 
 }  // namespace
 
-Host::Host(std::function<void()> step, const Pace& pace)
-    : step_(std::move(step)), spin_(std::thread::hardware_concurrency() > 1) {
+Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare)
+    : step_(std::move(step)),
+      prepare_(std::move(prepare)),
+      spin_(std::thread::hardware_concurrency() > 1) {
   setPace(pace);
   // Wake-ups are otherwise gathered within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -97,6 +99,7 @@ void Host::tick() {
     }
   } else {
     publishAll();
+    prepare_();
     waitInRealTime();
   }
   for (const Guest& guest : guests_) {
@@ -255,6 +258,7 @@ void Host::waitInLockStep() {
   }
   starts_shown_ = due ? 1 : 0;
   const Clock::time_point begin = Clock::now();
+  prepare_();
   // Whoever answers takes a while; where nobody does, one look at the sockets is enough.
   if (due) {
     awaitSwiftAnswers(begin);

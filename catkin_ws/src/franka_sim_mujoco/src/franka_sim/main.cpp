@@ -63,14 +63,20 @@ void serve(const Options& options) {
   }
   std::mutex mutex;
   const bool viewed = options.viewer;
+  // Without a window the world belongs to this thread alone.
+  const auto lock = [&mutex, viewed] {
+    return viewed ? std::unique_lock<std::mutex>(mutex) : std::unique_lock<std::mutex>();
+  };
   fci::Host host(
-      [&world, &mutex, viewed] {
-        // Without a window the world belongs to this thread alone.
-        const auto lock =
-            viewed ? std::unique_lock<std::mutex>(mutex) : std::unique_lock<std::mutex>();
+      [&world, lock] {
+        const auto locked = lock();
         world.step();
       },
-      options.pace);
+      options.pace,
+      [&world, lock] {
+        const auto locked = lock();
+        world.prepareStep();
+      });
   std::deque<fci::LineServer> lines;
   for (ServedArm& arm : arms) {
     host.add(arm.robot());

@@ -132,6 +132,8 @@ bool World::hasHand(const std::string& robot, const std::string& arm_id) const {
 
 void World::step() noexcept { impl_->step(); }
 
+void World::prepareStep() noexcept { impl_->prepareStep(); }
+
 std::uint64_t World::ticks() const noexcept { return impl_->ticks; }
 
 double World::time() const noexcept { return static_cast<double>(impl_->ticks) * kTick; }
@@ -227,20 +229,9 @@ void World::pushAt(const std::string& body, const std::array<double, 3>& point,
 
 std::vector<Contact> World::contacts() const {
   std::vector<Contact> result;
-  for (int c = 0; c < impl_->data->ncon; ++c) {
-    const mjContact& contact = impl_->data->contact[c];
-    if (contact.efc_address < 0) {
-      continue;
-    }
-    double local[6];
-    double force[3];
-    mj_contactForce(impl_->model.get(), impl_->data.get(), c, local);
-    // Rows of `frame` are the contact's axes; the first points from geom 1 to geom 2.
-    mju_rotVecMatT(force, local, contact.frame);
-    result.push_back({impl_->geom_links[contact.geom1],
-                      impl_->geom_links[contact.geom2],
-                      {contact.pos[0], contact.pos[1], contact.pos[2]},
-                      {force[0], force[1], force[2]}});
+  for (const GeomContact& contact : impl_->contacts()) {
+    result.push_back({impl_->geom_links[contact.geom1], impl_->geom_links[contact.geom2],
+                      contact.position, contact.force});
   }
   return result;
 }

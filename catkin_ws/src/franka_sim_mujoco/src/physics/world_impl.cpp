@@ -105,6 +105,9 @@ void World::Impl::index() {
   view = {model.get(), data.get(), &motor_side};
   kinematics_fresh = false;
   kept_qpos.assign(model->nq, 0.0);
+  preparation.fit(*model);
+  contacts_kept = false;
+  kept_contacts.reserve(model->nconmax);
   frames.clear();
   for (int b = 0; b < model->nbody; ++b) {
     frames[nameOf(*model, mjOBJ_BODY, b)] = {b, Eigen::Isometry3d::Identity()};
@@ -274,7 +277,7 @@ void World::Impl::step() noexcept {
     for (auto& [joint, drive] : drives) {
       drive->prepare(substep + 1, kSubsteps);
     }
-    mj_step(model.get(), data.get());
+    preparation.step(*model, data.get());
     motor_side.addSubstep(*model, *data);
   }
   motor_side.finishTick(*model, *data, kSubsteps, kTick);
@@ -282,7 +285,37 @@ void World::Impl::step() noexcept {
     retirePushes();
   }
   kinematics_fresh = false;
+  contacts_kept = false;
   ++ticks;
+}
+
+void World::Impl::prepareStep() noexcept {
+  contacts();
+  contacts_kept = true;
+  preparation.prepare(*model, data.get());
+  kinematics_fresh = true;
+}
+
+const std::vector<GeomContact>& World::Impl::contacts() noexcept {
+  if (contacts_kept) {
+    return kept_contacts;
+  }
+  kept_contacts.clear();
+  for (int c = 0; c < data->ncon; ++c) {
+    const mjContact& contact = data->contact[c];
+    if (contact.efc_address < 0) {
+      continue;
+    }
+    double local[6];
+    mj_contactForce(model.get(), data.get(), c, local);
+    GeomContact& kept = kept_contacts.emplace_back();
+    kept.geom1 = contact.geom1;
+    kept.geom2 = contact.geom2;
+    std::copy_n(contact.pos, 3, kept.position.begin());
+    // Rows of `frame` are the contact's axes; the first points from geom 1 to geom 2.
+    mju_rotVecMatT(kept.force.data(), local, contact.frame);
+  }
+  return kept_contacts;
 }
 
 void World::Impl::reset() {
@@ -296,6 +329,8 @@ void World::Impl::reset() {
   }
   pushes.clear();
   motor_side.reset(*data);
+  preparation.drop();
+  contacts_kept = false;
   kinematics_fresh = false;
   ticks = 0;
 }

@@ -5,6 +5,7 @@
 #include <franka_sim_mujoco/physics/world.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "physics/mjcf_world.h"
 #include "physics/motor_side.h"
 #include "physics/plants.h"
+#include "physics/step_preparation.h"
 
 namespace franka_sim_mujoco {
 
@@ -25,6 +27,12 @@ struct Push {
   Eigen::Vector3d point;          ///< MuJoCo body frame [m]
   Eigen::Vector3d force, torque;  ///< world axes [N] [Nm]
   std::uint64_t ticks_left;
+};
+
+/// A contact in a step, with the force that acted on the second geom.
+struct GeomContact {
+  int geom1, geom2;
+  std::array<double, 3> position, force;  ///< world axes [m] [N]
 };
 
 /// A link or body by its name: a MuJoCo body and the fixed pose in it.
@@ -52,6 +60,10 @@ struct World::Impl {
   std::vector<std::string> geom_links;  ///< per geom, the link or body shown in contacts
   std::vector<Push> pushes;
   std::uint64_t ticks{0};
+  physics::StepPreparation preparation;
+  // Contacts of the last step, once those of the step to come have taken their place in the data.
+  bool contacts_kept{false};
+  std::vector<GeomContact> kept_contacts;
   bool kinematics_fresh{false};
   std::vector<double> kept_qpos;  ///< room for a copy, so that looking allocates nothing
   std::string visual_mjcf;        ///< for pictures; written when first asked for
@@ -69,6 +81,8 @@ struct World::Impl {
   /// @throws std::runtime_error when a body of that name is there
   void checkNewBody(const std::string& body, const std::string& of) const;
   void step() noexcept;
+  void prepareStep() noexcept;
+  const std::vector<GeomContact>& contacts() noexcept;  ///< of the last step
   void reset();
   std::uint64_t hash() const noexcept;
 

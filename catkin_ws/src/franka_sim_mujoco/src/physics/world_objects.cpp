@@ -159,6 +159,8 @@ struct Snapshot::Content {
   physics::DataPtr data;
   physics::MotorSide motor_side;
   std::vector<Push> pushes;
+  bool contacts_kept;
+  std::vector<GeomContact> contacts;
   std::vector<double> eq_data;
   std::vector<unsigned char> eq_active;
   std::array<double, 3> gravity;
@@ -177,6 +179,8 @@ Snapshot World::snapshot() const {
   }
   content->motor_side = impl_->motor_side;
   content->pushes = impl_->pushes;
+  content->contacts_kept = impl_->contacts_kept;
+  content->contacts = impl_->kept_contacts;
   content->eq_data.assign(model.eq_data, model.eq_data + mjNEQDATA * model.neq);
   content->eq_active.assign(model.eq_active, model.eq_active + model.neq);
   content->gravity = gravity();
@@ -203,6 +207,9 @@ void World::restore(const Snapshot& snapshot) {
   std::copy(content->eq_active.begin(), content->eq_active.end(), model.eq_active);
   impl_->motor_side = content->motor_side;
   impl_->pushes = content->pushes;
+  impl_->preparation.drop();
+  impl_->contacts_kept = content->contacts_kept;
+  impl_->kept_contacts = content->contacts;
   impl_->ticks = content->ticks;
   impl_->kinematics_fresh = false;
   for (auto& [key, arm] : impl_->arms) {

@@ -79,7 +79,9 @@ class Service {
 class Host {
  public:
   /// @param step advances the world by one millisecond.
-  Host(std::function<void()> step, const Pace& pace);
+  /// @param prepare does ahead what it can of that, before answers to a state are waited for.
+  Host(
+      std::function<void()> step, const Pace& pace, std::function<void()> prepare = [] {});
 
   /// Must outlive the host, or be removed.
   void add(HostedRobot& robot);
@@ -133,6 +135,7 @@ class Host {
   bool stopped() const;
 
   std::function<void()> step_;
+  std::function<void()> prepare_;
   Pace pace_;
   std::vector<Guest> guests_;
   std::vector<Service*> services_;

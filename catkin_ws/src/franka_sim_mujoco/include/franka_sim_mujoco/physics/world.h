@@ -122,6 +122,9 @@ class World {
 
   /// One tick of 1 ms.
   void step() noexcept;
+  /// Does ahead what of the next tick is certain already, for a moment when there is nothing else
+  /// to do. It changes neither what anybody sees nor what comes.
+  void prepareStep() noexcept;
   std::uint64_t ticks() const noexcept;  ///< since the start; reset() sets it to 0
   double time() const noexcept;          ///< [s]
 
