@@ -53,6 +53,7 @@ sim_test(physics_test
     test/physics/mjcf_world_test.cpp
     test/physics/model_agreement_test.cpp
     test/physics/renderer_test.cpp
+    test/physics/sdf_meshes_test.cpp
     test/physics/sdf_world_test.cpp
     test/physics/urdf_robot_test.cpp
     test/physics/world_objects_test.cpp

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "physics/kept_files.h"
+
 namespace franka_sim_mujoco::physics {
 namespace {
 
@@ -14,20 +16,37 @@ constexpr const char* kFileName = "merged.xml";
 /// loop.
 void ignoreWarning(const char* /*message*/) {}
 
+/// Files in memory that a text may name.
+class Files {
+ public:
+  Files() { mj_defaultVFS(files_.get()); }
+  ~Files() { mj_deleteVFS(files_.get()); }
+  Files(const Files&) = delete;
+  Files& operator=(const Files&) = delete;
+  mjVFS* get() { return files_.get(); }
+
+ private:
+  /// The struct holds a table of two thousand file names: too large for a stack.
+  std::unique_ptr<mjVFS> files_{new mjVFS};
+};
+
 }  // namespace
 
 ModelPtr compile(const std::string& mjcf, const std::string& what) {
   mju_user_warning = ignoreWarning;
-  // The struct holds a table of two thousand file names: too large for a stack.
-  const std::unique_ptr<mjVFS> files(new mjVFS);
-  mj_defaultVFS(files.get());
+  Files files;
   if (mj_makeEmptyFileVFS(files.get(), kFileName, static_cast<int>(mjcf.size())) != 0) {
     throw std::runtime_error(what + ": there is not enough memory to compile it.");
   }
-  std::memcpy(files->filedata[mj_findFileVFS(files.get(), kFileName)], mjcf.data(), mjcf.size());
+  std::memcpy(files.get()->filedata[mj_findFileVFS(files.get(), kFileName)], mjcf.data(),
+              mjcf.size());
+  try {
+    lendKeptFiles(mjcf, files.get());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(what + ": " + error.what());
+  }
   char error[1000] = "";
   ModelPtr model(mj_loadXML(kFileName, files.get(), error, sizeof error));
-  mj_deleteVFS(files.get());
   if (!model) {
     throw std::runtime_error(what + ": MuJoCo refuses it: " + error);
   }

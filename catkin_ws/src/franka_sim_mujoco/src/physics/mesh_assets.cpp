@@ -34,33 +34,24 @@ std::string lowerExtension(const std::string& path) {
   return extension;
 }
 
-/// Empty when fine, else what is wrong with an STL file: MuJoCo reads binary ones only.
-std::string stlProblem(const std::string& path) {
+/// MuJoCo reads STL files without words only.
+bool isBinaryStl(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const auto size = static_cast<std::int64_t>(file.tellg());
   char header[84];
   file.seekg(0);
   if (size < 84 || !file.read(header, sizeof header)) {
-    return "it is too short for a binary STL file";
+    return false;
   }
   std::uint32_t faces = 0;
   std::memcpy(&faces, header + 80, sizeof faces);
-  if (size != 84 + 50 * static_cast<std::int64_t>(faces)) {
-    return "it is no binary STL file (ASCII STL cannot be read) or it is cut off";
-  }
-  if (faces == 0 || faces > kMostFaces) {
-    return "it has " + std::to_string(faces) + " faces; 1 to " + std::to_string(kMostFaces) +
-           " can be read";
-  }
-  return {};
+  return faces > 0 && faces <= kMostFaces && size == 84 + 50 * static_cast<std::int64_t>(faces);
 }
 
-std::string meshProblem(const std::string& path) {
+/// Whether MuJoCo reads it as it is, which is quicker than to make something of it first.
+bool isReady(const std::string& path) {
   const std::string extension = lowerExtension(path);
-  if (extension == "stl") {
-    return stlProblem(path);
-  }
-  return extension == "obj" ? std::string() : "only binary STL and OBJ files can be read";
+  return isFile(path) && (extension == "obj" || (extension == "stl" && isBinaryStl(path)));
 }
 
 /// `.../meshes/visual/x.dae` -> `.../meshes/mujoco/visual/x/`; empty when not below `meshes`.
@@ -102,7 +93,7 @@ std::vector<MeshPart> readIndex(const std::string& folder) {
     if (rgba.size() == 4) {
       part.rgba = {rgba[0], rgba[1], rgba[2], rgba[3]};
     }
-    if (!isFile(part.file) || !meshProblem(part.file).empty()) {
+    if (!isReady(part.file)) {
       return {};
     }
     parts.push_back(part);
@@ -118,11 +109,18 @@ std::vector<MeshPart> visualParts(const std::string& uri, const ResourceResolver
     return {};
   }
   const std::string folder = convertedFolder(path);
-  std::vector<MeshPart> parts = folder.empty() ? std::vector<MeshPart>() : readIndex(folder);
-  if (parts.empty() && isFile(path) && meshProblem(path).empty()) {
-    parts.push_back({path, std::nullopt});
+  const std::vector<MeshPart> parts = folder.empty() ? std::vector<MeshPart>() : readIndex(folder);
+  if (!parts.empty()) {
+    return parts;
   }
-  return parts;
+  if (isReady(path)) {
+    return {{path, std::nullopt}};
+  }
+  try {
+    return loadMeshToDraw({path}).parts;
+  } catch (const std::runtime_error&) {
+    return {};
+  }
 }
 
 std::string collisionFile(const std::string& uri, const ResourceResolver& resolve,
@@ -134,12 +132,14 @@ std::string collisionFile(const std::string& uri, const ResourceResolver& resolv
                                            : "is not there (looked for " + path + ")") +
                              "; install the meshes or make the URDF without them.");
   }
-  const std::string problem = meshProblem(path);
-  if (!problem.empty()) {
-    throw std::runtime_error(where + ": the collision mesh " + path +
-                             " cannot be used: " + problem + ".");
+  if (isReady(path)) {
+    return path;
   }
-  return path;
+  try {
+    return loadMeshToCollide({path}).file;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(where + ": " + error.what() + ".");
+  }
 }
 
 }  // namespace franka_sim_mujoco::physics

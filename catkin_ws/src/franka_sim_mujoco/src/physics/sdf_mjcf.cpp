@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "physics/contact_settings.h"
-#include "physics/mesh_assets.h"
+#include "physics/mesh_loader.h"
 #include "physics/mjcf_inertial.h"
 #include "physics/xml_util.h"
 
@@ -200,21 +200,13 @@ class SdfWriter {
     const bool moves = moving_[link];
     const std::string name = names_[link] + "/collision_" + std::to_string((*count)++);
     if (shape.kind == Kind::kPlane && moves) {
-      scene_.unsupported.insert("collision '" + shape.name + "' of '" + scene_.links[link].name +
-                                "': a plane that moves");
+      note("collision", shape, link, "a plane that moves");
       return;
     }
     XMLElement* geom = append(body, "geom");
-    if (shape.kind == Kind::kMesh) {
-      try {
-        const ResourceResolver as_it_is = [](const std::string& file) { return file; };
-        setMesh(geom, collisionFile(shape.mesh, as_it_is, "mesh"), shape.scale);
-      } catch (const std::runtime_error& error) {
-        scene_.unsupported.insert("collision '" + shape.name + "' of '" + scene_.links[link].name +
-                                  "': " + error.what());
-        body->DeleteChild(geom);
-        return;
-      }
+    if (shape.kind == Kind::kMesh && !setSolidMesh(shape, link, geom)) {
+      body->DeleteChild(geom);
+      return;
     }
     geom->SetAttribute("name", name.c_str());
     setShape(shape, in_body, geom);
@@ -229,6 +221,27 @@ class SdfWriter {
     geom->SetAttribute("margin", "0");
     geom->SetAttribute("gap", "0");
     geom->SetAttribute("group", "3");
+  }
+
+  /// @returns whether it can be had; `unsupported` says why not
+  bool setSolidMesh(const SdfShape& shape, int link, XMLElement* geom) {
+    try {
+      const SolidMesh mesh = loadMeshToCollide(shape.mesh);
+      setMesh(geom, mesh.file);
+      if (!mesh.is_convex) {
+        note("collision", shape, link,
+             "of the mesh " + shape.mesh.file + " others touch the convex hull");
+      }
+      return true;
+    } catch (const std::runtime_error& error) {
+      note("collision", shape, link, error.what());
+      return false;
+    }
+  }
+
+  void note(const std::string& kind, const SdfShape& shape, int link, const std::string& what) {
+    scene_.unsupported.insert(kind + " '" + shape.name + "' of '" + scene_.links[link].name +
+                              "': " + what);
   }
 
   /// A contact of impedance d between something fixed and mass m pushes with
@@ -253,24 +266,27 @@ class SdfWriter {
     if (shape.kind != Kind::kMesh) {
       XMLElement* geom = append(body, "geom");
       setShape(shape, in_body, geom);
-      setLook(shape.rgba, geom);
+      setLook(shape.rgba.value_or(kGrey), shape.opacity, geom);
       return;
     }
-    const auto parts = visualParts(shape.mesh, [](const std::string& file) { return file; });
-    if (parts.empty()) {
-      scene_.unsupported.insert("visual '" + shape.name + "' of '" + scene_.links[link].name +
-                                "': the mesh " + shape.mesh +
-                                " (binary STL and OBJ files can be read)");
-    }
-    for (const MeshPart& part : parts) {
-      XMLElement* geom = append(body, "geom");
-      setMesh(geom, part.file, shape.scale);
-      setShape(shape, in_body, geom);
-      setLook(part.rgba.value_or(shape.rgba), geom);
+    try {
+      const DrawnMesh mesh = loadMeshToDraw(shape.mesh);
+      for (const MeshPart& part : mesh.parts) {
+        XMLElement* geom = append(body, "geom");
+        setMesh(geom, part.file);
+        setShape(shape, in_body, geom);
+        setLook(shape.rgba.value_or(part.rgba.value_or(kGrey)), shape.opacity, geom);
+      }
+      if (mesh.is_textured && !shape.rgba) {
+        note("visual", shape, link, "textures of the mesh " + shape.mesh.file);
+      }
+    } catch (const std::runtime_error& error) {
+      note("visual", shape, link, error.what());
     }
   }
 
-  static void setLook(const std::array<double, 4>& rgba, XMLElement* geom) {
+  static void setLook(std::array<double, 4> rgba, double opacity, XMLElement* geom) {
+    rgba[3] *= opacity;
     geom->SetAttribute("contype", "0");
     geom->SetAttribute("conaffinity", "0");
     geom->SetAttribute("group", "2");
@@ -305,17 +321,15 @@ class SdfWriter {
     }
   }
 
-  void setMesh(XMLElement* geom, const std::string& file, const Eigen::Vector3d& scale) {
-    const std::string key = file + " " + toText(scale);
-    auto known = meshes_.find(key);
+  void setMesh(XMLElement* geom, const std::string& file) {
+    auto known = meshes_.find(file);
     if (known == meshes_.end()) {
       const std::string name =
           scene_.models.front().name + "/mesh_" + std::to_string(meshes_.size());
       XMLElement* mesh = append(assets_, "mesh");
       mesh->SetAttribute("name", name.c_str());
       mesh->SetAttribute("file", file.c_str());
-      mesh->SetAttribute("scale", toText(scale).c_str());
-      known = meshes_.emplace(key, name).first;
+      known = meshes_.emplace(file, name).first;
     }
     geom->SetAttribute("mesh", known->second.c_str());
   }

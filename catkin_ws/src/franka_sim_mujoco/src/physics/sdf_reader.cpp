@@ -140,6 +140,7 @@ class Reader {
         shape->name = visual.Name();
         shape->pose = poseOf(visual) * shape->pose;
         shape->rgba = readColour(visual, what, &scene_.unsupported);
+        shape->opacity = 1 - visual.Transparency();
         result.visuals.push_back(*shape);
       }
     }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/mesh_loader.h"
 #include "physics/urdf_robot.h"
 
 namespace franka_sim_mujoco::physics {
@@ -23,18 +24,21 @@ struct SdfSurface {
   int bitmask{1};                 ///< two surfaces touch where these share a bit
 };
 
+/// What has no colour of its own is drawn so.
+inline constexpr std::array<double, 4> kGrey{{0.7, 0.7, 0.7, 1}};
+
 struct SdfShape {
   enum class Kind { kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kPlane, kMesh };
   Kind kind{Kind::kBox};
   std::string name;
   Eigen::Vector3d size{Eigen::Vector3d::Zero()};  ///< box: edges; ball: r; cylinder, capsule: r,
                                                   ///< length; ellipsoid: radii; plane: edges [m]
-  std::string mesh;                               ///< file
-  Eigen::Vector3d scale{Eigen::Vector3d::Ones()};
+  MeshSource mesh;
   Eigen::Isometry3d pose{
-      Eigen::Isometry3d::Identity()};              ///< in the link; a plane's z is its normal
-  SdfSurface surface;                              ///< of a collision
-  std::array<double, 4> rgba{{0.7, 0.7, 0.7, 1}};  ///< of a visual
+      Eigen::Isometry3d::Identity()};         ///< in the link; a plane's z is its normal
+  SdfSurface surface;                         ///< of a collision
+  std::optional<std::array<double, 4>> rgba;  ///< of a visual that says one
+  double opacity{1};                          ///< of a visual
 };
 
 struct SdfLight {

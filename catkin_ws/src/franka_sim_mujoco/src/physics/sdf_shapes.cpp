@@ -61,16 +61,14 @@ std::optional<SdfShape> readMesh(const sdf::Mesh& mesh, const SdfFiles& files,
   shape.kind = Kind::kMesh;
   const std::filesystem::path from(mesh.FilePath());
   const bool is_file = from.has_parent_path() && from.is_absolute();
-  shape.mesh = files.find(mesh.Uri(), is_file ? from.parent_path().string() : "");
-  if (shape.mesh.empty()) {
+  shape.mesh.file = files.find(mesh.Uri(), is_file ? from.parent_path().string() : "");
+  if (shape.mesh.file.empty()) {
     unsupported->insert(what + ": the mesh '" + mesh.Uri() + "' was not found");
     return std::nullopt;
   }
-  if (!mesh.Submesh().empty()) {
-    unsupported->insert(what + ": one submesh of a mesh");
-    return std::nullopt;
-  }
-  shape.scale = {mesh.Scale().X(), mesh.Scale().Y(), mesh.Scale().Z()};
+  shape.mesh.scale = {mesh.Scale().X(), mesh.Scale().Y(), mesh.Scale().Z()};
+  shape.mesh.submesh = mesh.Submesh();
+  shape.mesh.center = !mesh.Submesh().empty() && mesh.CenterSubmesh();
   return shape;
 }
 
@@ -164,29 +162,26 @@ SdfSurface readSurface(const sdf::ElementPtr& collision, const std::string& what
   return surface;
 }
 
-std::array<double, 4> readColour(const sdf::Visual& visual, const std::string& what,
-                                 std::set<std::string>* unsupported) {
-  std::array<double, 4> rgba{0.7, 0.7, 0.7, 1};
+std::optional<std::array<double, 4>> readColour(const sdf::Visual& visual, const std::string& what,
+                                                std::set<std::string>* unsupported) {
   const sdf::Material* material = visual.Material();
-  if (material != nullptr) {
-    const ignition::math::Color& diffuse = material->Diffuse();
-    rgba = {diffuse.R(), diffuse.G(), diffuse.B(), diffuse.A()};
-    const std::string script = material->ScriptName();
-    if (!script.empty()) {
-      const auto known = plainMaterials().find(script.substr(script.rfind('/') + 1));
-      if (known != plainMaterials().end()) {
-        rgba = {known->second[0], known->second[1], known->second[2], 1};
-      } else {
-        rgba = {0.7, 0.7, 0.7, 1};
-        unsupported->insert(what + ": the material '" + script + "' (it is drawn grey)");
-      }
-    }
-    if (material->PbrMaterial() != nullptr) {
-      unsupported->insert(what + ": textures of a <pbr> material");
-    }
+  if (material == nullptr) {
+    return std::nullopt;
   }
-  rgba[3] *= 1 - visual.Transparency();
-  return rgba;
+  if (material->PbrMaterial() != nullptr) {
+    unsupported->insert(what + ": textures of a <pbr> material");
+  }
+  const std::string script = material->ScriptName();
+  if (script.empty()) {
+    const ignition::math::Color& diffuse = material->Diffuse();
+    return std::array<double, 4>{diffuse.R(), diffuse.G(), diffuse.B(), diffuse.A()};
+  }
+  const auto known = plainMaterials().find(script.substr(script.rfind('/') + 1));
+  if (known == plainMaterials().end()) {
+    unsupported->insert(what + ": the material '" + script + "' (it is drawn grey)");
+    return kGrey;
+  }
+  return std::array<double, 4>{known->second[0], known->second[1], known->second[2], 1};
 }
 
 }  // namespace franka_sim_mujoco::physics

@@ -28,8 +28,9 @@ std::optional<SdfShape> readShape(const sdf::Geometry& geometry, const SdfFiles&
 /// Friction and contact parameters of a <collision>.
 SdfSurface readSurface(const sdf::ElementPtr& collision, const std::string& what,
                        std::set<std::string>* unsupported);
-/// A visual's one colour: its diffuse colour, or that of a plain material of Gazebo's.
-std::array<double, 4> readColour(const sdf::Visual& visual, const std::string& what,
-                                 std::set<std::string>* unsupported);
+/// A visual's one colour: its diffuse colour, or that of a plain material of Gazebo's. Nothing when
+/// it has no material.
+std::optional<std::array<double, 4>> readColour(const sdf::Visual& visual, const std::string& what,
+                                                std::set<std::string>* unsupported);
 
 }  // namespace franka_sim_mujoco::physics

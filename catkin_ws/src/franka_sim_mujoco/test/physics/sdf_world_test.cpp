@@ -2,17 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SDF worlds and models against closed forms: what a text says is what MuJoCo moves.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 
-#include "physics/compile.h"
-#include "physics/world_impl.h"
-#include "test_support.h"
+#include "sdf_test.h"
 
 namespace franka_sim_mujoco::test {
 namespace {
@@ -42,39 +36,7 @@ std::string ground(double mu) {
          friction(mu) + "</collision></link></model>";
 }
 
-class SdfWorldTest : public ::testing::Test {
- protected:
-  SdfWorldTest() {
-    char name[] = "/tmp/franka_sim_sdf_XXXXXX";
-    folder_ = mkdtemp(name);
-  }
-  ~SdfWorldTest() override {
-    const int status = std::system(("rm -rf " + folder_).c_str());
-    (void)status;
-  }
-  std::string write(const std::string& name, const std::string& text) {
-    const std::string path = folder_ + "/" + name;
-    const int status = std::system(("mkdir -p " + path.substr(0, path.rfind('/'))).c_str());
-    (void)status;
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
-  std::string file(const std::string& content, const std::string& version = "1.6") {
-    return write("test.world", "<?xml version='1.0'?><!-- a world --><sdf version='" + version +
-                                   "'><world name='w'>" + content + "</world></sdf>");
-  }
-  std::string folder_;
-};
-
-int bodyId(World& world, const std::string& name) {
-  return mj_name2id(world.impl().model.get(), mjOBJ_BODY, name.c_str());
-}
-
-void run(World& world, int ticks) {
-  for (int i = 0; i < ticks; ++i) {
-    world.step();
-  }
-}
+class SdfWorldTest : public SdfTest {};
 
 TEST_F(SdfWorldTest, theTwoStoneWorldsAreOne) {
   World sdf(std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world/stone.sdf");
@@ -269,22 +231,6 @@ TEST_F(SdfWorldTest, includesAndMeshesAreFound) {
   EXPECT_LT(world.bodyPose("first").position[2], 0.2);
   EXPECT_GT(world.bodyPose("first").position[2], -0.01);
   EXPECT_DOUBLE_EQ(world.bodyPose("second").position[2], 0.5);
-}
-
-TEST_F(SdfWorldTest, meshesOfKindsThatCannotBeReadAreNamed) {
-  write("crate/model.config",
-        "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
-  write("crate/model.sdf",
-        "<sdf version='1.6'><model name='crate'><link name='link'>"
-        "<visual name='collada'><geometry><mesh><uri>model://crate/a.dae</uri></mesh></geometry>"
-        "</visual><visual name='ascii'><geometry><mesh><uri>model://crate/b.stl</uri></mesh>"
-        "</geometry></visual></link></model></sdf>");
-  write("crate/a.dae", "<COLLADA version='1.4.1'/>");
-  write("crate/b.stl", "solid b\nendsolid b\n");
-  World world(file("<include><uri>model://crate</uri></include>"));
-  EXPECT_THAT(world.unsupported(), HasSubstr("a.dae"));
-  EXPECT_THAT(world.unsupported(), HasSubstr("b.stl"));
-  EXPECT_THAT(world.unsupported(), HasSubstr("binary STL and OBJ files can be read"));
 }
 
 TEST_F(SdfWorldTest, whatNobodySimulatesIsNamedInOneSentence) {
