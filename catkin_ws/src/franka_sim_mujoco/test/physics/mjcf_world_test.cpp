@@ -157,7 +157,8 @@ TEST_F(MjcfWorldTest, missingCollisionMeshIsNamed) {
   description.resolve = [this](const std::string&) { return folder_ + "/a.stl"; };
   expectSentence([&] { world.addRobot(description); }, {"a.stl", "is not there"});
   write("a.stl", "solid ascii\nendsolid\n" + std::string(200, ' '));
-  expectSentence([&] { world.addRobot(description); }, {"'panda_link5'", "a.stl", "cannot be read"});
+  expectSentence([&] { world.addRobot(description); },
+                 {"'panda_link5'", "a.stl", "cannot be read"});
   EXPECT_TRUE(world.robots().empty());
 }
 
