@@ -14,32 +14,14 @@ from pathlib import Path
 
 import pytest
 from fci_session import running
+from genuine_clients import client_python
 from stalls import in_time
 
-TOP = Path(__file__).resolve().parent.parent
 CLIENTS = Path(__file__).resolve().parent / "support" / "genuine"
-PACKAGES = {
-    "panda": ["panda-python==1.1.1", "requests", "websockets", "numpy"],
-    "pylibfranka": ["pylibfranka==0.21.3", "numpy"],
-}
 FLOOR = """<mujoco><worldbody>
   <light pos="0 0 3"/>
   <geom name="block" type="box" size="0.3 0.3 0.05" pos="0.4 0 {height}"/>
 </worldbody></mujoco>"""
-
-
-def client_python(name: str) -> Path:
-    folder = TOP / "out" / "genuine" / name
-    python, stamp = folder / "bin" / "python", folder / "installed"
-    if not (stamp.exists() and stamp.read_text() == " ".join(PACKAGES[name])):
-        subprocess.run(["/usr/bin/python3", "-m", "venv", "--clear", folder], check=True, timeout=120)
-        subprocess.run(
-            [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PACKAGES[name]],
-            check=True,
-            timeout=600,
-        )
-        stamp.write_text(" ".join(PACKAGES[name]))
-    return python
 
 
 def run_session(client: str, script: str, address: str) -> dict:

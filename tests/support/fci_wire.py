@@ -94,7 +94,7 @@ def move_request(version: int, controller: int, generator: int) -> bytes:
 
 
 class Client:
-    """One client. Give `with_states=False` for one that only speaks over TCP."""
+    """One client."""
 
     def __init__(self, address: str, version: int, port: int = PORT):
         self.version, self.next_id, self.robot = version, 0, None
@@ -191,3 +191,10 @@ class Client:
         _, reply = self.reply()
         assert reply[0] == 0, f"The recovery was answered with status {reply[0]}."
         return self.state_until(lambda state: state.mode == IDLE)
+
+
+def connected(sim) -> Client:
+    """A new client of a simulated robot."""
+    client = Client(sim.address, sim.version)
+    assert client.connect() == (0, sim.version)
+    return client

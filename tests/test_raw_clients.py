@@ -1,0 +1,276 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a bad program does to a robot: wrong bytes, half connections, crashes, answers that come late.
+
+Cells 3, 4 and 5 of the project's table of faults, by a client that goes byte by byte (fci_wire).
+"""
+
+import os
+import struct
+import time
+
+import pytest
+from fci_session import simulated
+from fci_wire import (
+    COMMUNICATION,
+    CONNECT,
+    EXTERNAL,
+    IDLE,
+    JOINT_IMPEDANCE,
+    JOINT_POSITION,
+    LAYOUTS,
+    MOVE,
+    REFLEX,
+    STOP,
+    Client,
+    command,
+    connected,
+    move_request,
+)
+from stations import LOST
+
+LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
+
+
+@pytest.fixture(autouse=True)
+def idle(request):
+    """One failure is not followed by another one's."""
+    yield
+    for name in ("raw", "slow_raw"):
+        sim = request.node.funcargs.get(name)
+        if sim is not None and "Reflex" in sim.ask("state"):
+            with connected(sim) as client:
+                client.recover()
+
+
+@pytest.fixture(scope="module", params=["panda", "fr3"])
+def raw(request):
+    """A robot in lock-step for clients that go byte by byte."""
+    address = {"panda": "127.0.25.1", "fr3": "127.0.25.2"}[request.param]
+    with simulated(request.param, address, "lockstep") as sim:
+        yield sim
+
+
+def steps(client, state, count, q, finish=False):
+    """Answers `count` states with the same positions. @returns the last state."""
+    for i in range(count):
+        last = finish and i == count - 1
+        client.send(command(client.version, state.message_id, q, finished=last))
+        state = client.state()
+    return state
+
+
+DAMAGE = {
+    # What the command carries, and the error of a Panda and of an FR3 (whose system names the range itself).
+    "NaN": (float("nan"), 13, 13),
+    "infinite": (float("inf"), 13, 13),
+    "huge": (1e300, 12, 0),
+    "flipped exponent": (struct.unpack("<d", struct.pack("<Q", 1 << 62 | 1 << 55))[0], 12, 0),
+}
+
+
+@pytest.mark.parametrize("kind", DAMAGE)
+def test_damaged_numbers_end_the_motion_with_the_generators_error(raw, kind):
+    value, *expected = DAMAGE[kind]
+    with connected(raw) as client:
+        state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
+        q = state.joints("q_d")
+        state = steps(client, state, 50, q)
+        client.send(command(raw.version, state.message_id, (*q[:3], value, *q[4:])))
+        state = client.state_until(lambda state: state.mode != MOVE)
+        assert state.mode == REFLEX
+        assert state.reasons == [expected[raw.version == 10]]
+        assert client.reply()[1][0] == LAYOUTS[raw.version].reflex
+        resting = client.recover()
+        assert resting.errors == []
+        # Not a bit of it has reached the arm.
+        assert max(abs(a - b) for a, b in zip(resting.joints("q"), q)) < 1e-4
+
+
+def test_the_smallest_numbers_are_numbers(raw):
+    with connected(raw) as client:
+        state = client.start(EXTERNAL, 1 if raw.version < 10 else 4)
+        for i in range(100):
+            client.send(
+                command(raw.version, state.message_id, (5e-324,) * 7, (-5e-324,) * 7, finished=i == 99)
+            )
+            state = client.state()
+        assert state.mode == IDLE, state.reasons
+        assert client.reply()[1][0] == 0
+
+
+def test_a_command_of_another_version_is_none(raw):
+    other = 5 if raw.version == 10 else 10
+    with connected(raw) as client:
+        state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
+        q = state.joints("q_d")
+        state = steps(client, state, 20, q)
+        wrong = list(q)
+        wrong[0] += 0.5
+        for i in range(30):
+            client.send(command(other, state.message_id, wrong))
+            client.send(command(raw.version, state.message_id, q, finished=i == 29))
+            state = client.state()
+        assert state.mode == IDLE, state.reasons
+
+
+@pytest.mark.parametrize("version", [0, 1, 2, 4, 6, 11, 65535])
+def test_other_versions_are_told_the_robots_own(raw, version):
+    if (3 if raw.version == 5 else 6) <= version <= raw.version:
+        pytest.skip("This robot speaks that version.")
+    with Client(raw.address, raw.version) as client:
+        assert client.connect(version) == (1, raw.version)
+
+
+def test_requests_may_come_byte_by_byte(raw):
+    with Client(raw.address, raw.version) as client:
+        port = struct.pack("<HH", raw.version, client.udp.getsockname()[1])
+        for message in (
+            client.message(CONNECT, port),
+            client.message(1, move_request(raw.version, JOINT_IMPEDANCE, JOINT_POSITION)),
+        ):
+            for i in range(len(message)):
+                client.tcp.sendall(message[i : i + 1])
+            _, reply = client.reply()
+        assert reply[0] == 1
+        client.state_until(lambda state: state.mode == MOVE)
+        state = client.state()
+        steps(client, state, 10, state.joints("q_d"), finish=True)
+        assert client.reply()[1][0] == 0
+
+
+def test_replies_carry_the_requests_number_whatever_it_is(raw):
+    with connected(raw) as client:
+        for identity in (7, 0, 4294967295, 7):
+            client.next_id = identity
+            client.request(STOP)
+            assert client.reply()[0] == identity
+
+
+@pytest.mark.parametrize("header", [(99, 0, 12), (1, 0, 11), (1, 0, 4294967295), (2, 0, 4000), (2, 0, 13)])
+def test_what_cannot_be_understood_ends_the_connection_not_the_robot(raw, header):
+    with connected(raw) as client:
+        client.tcp.sendall(struct.pack("<III", *header) + bytes(max(0, min(header[2], 4000) - 12)))
+        assert client.ended()
+    connected(raw).close()
+
+
+def test_a_program_that_crashes_in_the_middle_of_a_reply_makes_room(raw):
+    for _ in range(20):
+        client = Client(raw.address, raw.version)
+        client.request(CONNECT, struct.pack("<HH", raw.version, client.udp.getsockname()[1]))
+        client.reset()
+    with connected(raw) as client:
+        assert client.state().mode == IDLE
+
+
+def test_a_crash_in_a_motion_ends_it(raw):
+    client = connected(raw)
+    state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
+    steps(client, state, 50, state.joints("q_d"))
+    client.reset()
+    begin = time.monotonic()
+    while not raw.ask("state").startswith("Reflex"):
+        assert time.monotonic() - begin < 5.0, raw.ask("state")
+    assert LOST in raw.ask("state")
+    with connected(raw) as client:
+        assert client.state_until(lambda state: True).reasons == [COMMUNICATION]
+        client.recover()
+
+
+def test_a_second_client_is_turned_away_and_disturbs_nobody(raw):
+    with connected(raw) as client:
+        state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
+        q = state.joints("q_d")
+        for _ in range(10):
+            state = steps(client, state, 20, q)
+            try:
+                with Client(raw.address, raw.version) as second:
+                    second.request(CONNECT, struct.pack("<HH", raw.version, 1))
+                    assert second.ended(5.0)
+            except ConnectionError:
+                pass  # turned away sooner still
+        state = steps(client, state, 2, q, finish=True)
+        assert state.mode == IDLE
+
+
+def test_who_connects_and_says_nothing_makes_room(raw):
+    if raw.robot != "panda" and not LONG:
+        pytest.skip("The same for every robot; both in the long form.")
+    with Client(raw.address, raw.version) as silent:
+        assert silent.ended(10.0)
+    connected(raw).close()
+
+
+def test_connecting_again_and_again_leaks_nothing(raw):
+    for _ in range(20):
+        connected(raw).close()
+    descriptors, memory = raw.descriptors(), raw.memory()
+    for _ in range(1000 if LONG else 200):
+        with connected(raw) as client:
+            client.state()
+    with connected(raw):
+        pass
+    begin = time.monotonic()
+    while raw.descriptors() > descriptors:
+        assert time.monotonic() - begin < 10.0, "Descriptors are left open."
+    assert raw.memory() - memory < 0.5
+
+
+@pytest.fixture(scope="module")
+def slow_raw():
+    """A Panda at a tenth of the wall's speed, for a client in slow motion."""
+    with simulated("panda", "127.0.25.3", "0.1") as sim:
+        yield sim
+
+
+def test_who_is_always_one_cycle_late_is_stopped(slow_raw):
+    with connected(slow_raw) as client:
+        before = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
+        q = before.joints("q_d")
+        before = steps(client, before, 20, q)
+        for _ in range(40):
+            state = client.state()
+            client.send(command(5, before.message_id, q))
+            before = state
+            if state.mode != MOVE:
+                break
+        assert state.mode == REFLEX and state.reasons == [COMMUNICATION]
+        assert client.reply()[1][0] == LAYOUTS[5].reflex
+        client.recover()
+
+
+@pytest.mark.parametrize("own", [True, False])
+def test_resuming_after_a_pause(raw, own):
+    """Who goes on from its own last command jumps; who begins again at q_d and dq_d does not."""
+    speed, ramp, pause = 0.2, 100, 10
+    with connected(raw) as client:
+        state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
+        q, v = list(state.joints("q_d")), 0.0
+
+        def step():
+            q[5] += v * 1e-3
+            client.send(command(raw.version, state.message_id, q))
+            return client.state()
+
+        for i in range(ramp + 5):
+            v = speed * min(1.0, (i + 1) / ramp)  # 2 rad/s^2
+            state = step()
+        raw.ask(f"lose {pause}")
+        for _ in range(pause):
+            client.send(command(raw.version, state.message_id, q))
+            state = client.state()
+        for _ in range(20):
+            if not own:
+                q = list(state.joints("q_d"))  # where the robot has gone meanwhile, at the same speed
+            state = step()
+            if state.mode != MOVE:
+                break
+        if own:
+            assert state.mode == REFLEX and set(state.reasons) <= {13, 14, 15}, state.reasons
+            assert client.reply()[1][0] == LAYOUTS[raw.version].reflex
+            client.recover()
+        else:
+            assert state.mode == MOVE, state.reasons
+            client.request(STOP)
+            client.state_until(lambda state: state.mode == IDLE)
