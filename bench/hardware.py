@@ -8,7 +8,8 @@ from pathlib import Path
 
 from franka_sim_mujoco.session import Session
 from processes import resident, wait_running
-from report import figure
+from report import figure, print_stalls
+from stalls import Stalls
 
 CONTROLLER = "effort_joint_trajectory_controller"
 
@@ -57,12 +58,14 @@ def hardware(seconds: float = 60.0) -> None:
         session.run("rosparam", "set", "/franka_state_controller/publish_rate", "1000")
         session.run(*manager, "spawn", "franka_state_controller", CONTROLLER, timeout=60)
         wait_running(session, CONTROLLER)
-        heard = session.run("/usr/bin/python3", "-c", LISTENER, str(seconds), timeout=seconds + 60).stdout
+        with Stalls() as stalls:
+            heard = session.run("/usr/bin/python3", "-c", LISTENER, str(seconds), timeout=seconds + 60).stdout
         heard = json.loads(heard.strip().splitlines()[-1])
         title = f"{seconds:.0f} s of torque control"
         figure(f"{title}: least control_command_success_rate", heard["least"], "", 0.99, at_least=True)
         figure(f"{title}: mean control_command_success_rate", heard["mean"], "", 0.999, at_least=True)
         figure(f"{title}: FrankaStates at 1 kHz", heard["messages"] / seconds, "Hz", 999, at_least=True)
         figure(f"{title}: milliseconds without a FrankaState", heard["missing"], "", 0)
+        print_stalls(stalls)
         figure("franka_control_node: resident memory", resident(session, b"franka_control_node"), "MB", 60)
         figure("franka_gripper_node: resident memory", resident(session, b"franka_gripper_node"), "MB", 80)

@@ -61,6 +61,7 @@ COUNTERS = [
     Counter("franka_hw_bench", "switchToFirstCommand", "p50_ms", "ms"),
     Counter("libfranka_client_bench", "roundTrip/5", "p50_ratio", "x", 1.5),
     Counter("libfranka_client_bench", "roundTrip/5", "p999_us", "us", 300),
+    Counter("libfranka_client_bench", "barePingPong/5", "p999_us", "us"),
     Counter("libfranka_client_bench", "roundTrip/10", "p50_ratio", "x", 1.5),
     Counter("libfranka_client_bench", "roundTrip/10", "p999_us", "us", 300),
     Counter("realtime_publisher_bench", "publishTick", "cpu_percent", "%"),

@@ -4,9 +4,10 @@
 
 import json
 import subprocess
-import sys
 
-from report import TOP, executables, figure
+from fci_session import simulated
+from report import TOP, executables, figure, print_stalls
+from stalls import Stalls
 
 ZERO_TORQUES = """
 import sys, time
@@ -53,9 +54,6 @@ def genuine_client(library: str, address: str) -> float | None:
 
 
 def fci() -> None:
-    sys.path.insert(0, str(TOP / "tests" / "support"))
-    from fci_session import simulated
-
     print("The simulated robot on the network (franka_sim)")
     for robot, library in (("panda", "panda"), ("fr3", "pylibfranka")):
         with simulated(robot, "127.0.27.1", "lockstep") as sim:
@@ -74,4 +72,6 @@ def fci() -> None:
                 figure(f"{title}: times real time, {library}", max(speeds), "x", 10, at_least=True)
             figure(f"{robot}: resident memory", sim.memory(), "MB", 80)
     with simulated("panda", "127.0.27.2", "realtime") as sim:
-        figure("commands lost in 60 s at 1 kHz", bench_client(sim.address, 60)["lost"], "", 0)
+        with Stalls() as stalls:
+            figure("commands lost in 60 s at 1 kHz", bench_client(sim.address, 60)["lost"], "", 0)
+        print_stalls(stalls)

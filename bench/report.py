@@ -23,3 +23,9 @@ def figure(text: str, value: float, unit: str, goal: float | None = None, at_lea
         if not met:
             failures.append(text)
     print(line, flush=True)
+
+
+def print_stalls(stalls) -> None:
+    """What the machine did to a thread that only sleeps: the reference of what goes by the clock."""
+    figure("meanwhile a bare thread was woken up more than 1 ms late", stalls.late, "times")
+    figure("its longest delay", 1e3 * stalls.worst, "ms")

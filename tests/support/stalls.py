@@ -15,10 +15,13 @@ TRIES = 3
 
 
 class Stalls:
-    """Measures, with the priority of a robot's client, how late a thread wakes up at the worst."""
+    """Measures, with the priority of a robot's client, how late a thread wakes up.
+
+    `worst` is the longest delay [s], `late` counts those of more than a period.
+    """
 
     def __enter__(self):
-        self.worst, self._ended = 0.0, threading.Event()
+        self.worst, self.late, self._ended = 0.0, 0, threading.Event()
         self._thread = threading.Thread(target=self._watch)
         self._thread.start()
         return self
@@ -32,7 +35,9 @@ class Stalls:
         while not self._ended.is_set():
             begin = time.monotonic()
             time.sleep(PERIOD)
-            self.worst = max(self.worst, time.monotonic() - begin - PERIOD)
+            delay = time.monotonic() - begin - PERIOD
+            self.worst = max(self.worst, delay)
+            self.late += delay > PERIOD
 
 
 def in_time(attempt, is_good):

@@ -5,6 +5,7 @@
 #include <franka/exception.h>
 #include <franka/gripper.h>
 #include <franka/robot.h>
+#include <franka_core/fci/texts.h>
 #include <franka_core/robot_versions.h>
 
 #include <chrono>
@@ -38,23 +39,7 @@ constexpr double kGoodLateness = 0.5;
 constexpr double kTooManyDegrees = 70.0;
 
 const char* modeName(franka::RobotMode mode) {
-  switch (mode) {
-    case franka::RobotMode::kIdle:
-      return "Idle";
-    case franka::RobotMode::kMove:
-      return "Move";
-    case franka::RobotMode::kGuiding:
-      return "Guiding";
-    case franka::RobotMode::kReflex:
-      return "Reflex";
-    case franka::RobotMode::kUserStopped:
-      return "User stopped";
-    case franka::RobotMode::kAutomaticErrorRecovery:
-      return "Automatic error recovery";
-    case franka::RobotMode::kOther:
-      break;
-  }
-  return "Other";
+  return franka_core::fci::modeName(static_cast<franka_core::RobotMode>(mode));
 }
 
 /// What has to be done before this robot can be controlled; empty: nothing.

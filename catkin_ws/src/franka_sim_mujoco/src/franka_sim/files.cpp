@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files.h"
 
+#include <franka_sim_mujoco/physics/resource_uri.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -43,19 +45,6 @@ std::string packageFile(const std::string& package, const std::string& file) {
   return "";
 }
 
-std::string resolveUri(const std::string& uri) {
-  static const std::string kPackage = "package://", kFile = "file://";
-  if (uri.compare(0, kFile.size(), kFile) == 0) {
-    return uri.substr(kFile.size());
-  }
-  if (uri.compare(0, kPackage.size(), kPackage) != 0) {
-    return uri;
-  }
-  const std::size_t slash = uri.find('/', kPackage.size());
-  if (slash == std::string::npos) {
-    return "";
-  }
-  return packageFile(uri.substr(kPackage.size(), slash - kPackage.size()), uri.substr(slash + 1));
-}
+std::string resolveUri(const std::string& uri) { return fileOfUri(uri, packageFile); }
 
 }  // namespace franka_sim_mujoco

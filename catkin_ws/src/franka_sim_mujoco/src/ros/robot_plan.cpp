@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/physics/resource_uri.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
 #include <franka_sim_mujoco/ros/physics_config.h>
@@ -80,21 +81,10 @@ JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& urdf_
 }  // namespace
 
 std::string resolveUri(const std::string& uri) {
-  static const std::string kPackage = "package://", kFile = "file://";
-  if (uri.compare(0, kFile.size(), kFile) == 0) {
-    return uri.substr(kFile.size());
-  }
-  if (uri.compare(0, kPackage.size(), kPackage) != 0) {
-    return uri;
-  }
-  const std::size_t slash = uri.find('/', kPackage.size());
-  if (slash == std::string::npos) {
-    return "";  // no file; rospack would print errors about names such as `sun`, which are no
-                // packages
-  }
-  const std::string package = uri.substr(kPackage.size(), slash - kPackage.size());
-  const std::string folder = ros::package::getPath(package);
-  return folder.empty() ? "" : folder + uri.substr(slash);
+  return fileOfUri(uri, [](const std::string& package, const std::string& file) {
+    const std::string folder = ros::package::getPath(package);
+    return folder.empty() ? folder : folder + "/" + file;
+  });
 }
 
 RobotPlan planRobot(const SpawnOrder& order) {

@@ -1,37 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/robot_state.h>
+#include <franka_core/fci/texts.h>
 
 #include "json.h"
 
 namespace franka {
 
-namespace {
-
-const char* nameOf(RobotMode mode) {
-  switch (mode) {
-    case RobotMode::kOther:
-      return "Other";
-    case RobotMode::kIdle:
-      return "Idle";
-    case RobotMode::kMove:
-      return "Move";
-    case RobotMode::kGuiding:
-      return "Guiding";
-    case RobotMode::kReflex:
-      return "Reflex";
-    case RobotMode::kUserStopped:
-      return "User stopped";
-    case RobotMode::kAutomaticErrorRecovery:
-      return "Automatic error recovery";
-  }
-  return "Unknown";
-}
-
-}  // namespace
-
 std::ostream& operator<<(std::ostream& ostream, RobotMode robot_mode) {
-  return ostream << "\"" << nameOf(robot_mode) << "\"";
+  const auto mode = static_cast<franka_core::RobotMode>(robot_mode);
+  return ostream << "\"" << franka_core::fci::modeName(mode) << "\"";
 }
 
 std::ostream& operator<<(std::ostream& ostream, const RobotState& robot_state) {
