@@ -48,12 +48,40 @@ def window_of(title: str) -> int | None:
     return int(found.group(1), 16) if found else None
 
 
-def move_window(window: int, x: int, y: int) -> None:
-    """There is no window manager: new windows cover each other in the upper left corner."""
+def children_of(window: int) -> list[tuple[int, int, int, int]]:
+    """Left, top, width and height on the screen of all windows in a window, the topmost first."""
+    command = ["xwininfo", "-id", str(window), "-tree"]
+    tree = subprocess.run(command, text=True, capture_output=True, timeout=30).stdout
+    places = re.findall(r"^ +0x.* (\d+)x(\d+)\+\S+ +\+(\d+)\+(\d+)$", tree, re.M)
+    found = [(int(x), int(y), int(width), int(height)) for width, height, x, y in places]
+    return sorted(found, key=lambda place: place[1])
+
+
+@contextmanager
+def _display():
+    """Xlib and a connection."""
     x11 = ctypes.CDLL("libX11.so.6")
     x11.XOpenDisplay.restype = ctypes.c_void_p
     display = ctypes.c_void_p(x11.XOpenDisplay(None))
     assert display, "There is no display."
-    x11.XMoveWindow(display, ctypes.c_ulong(window), x, y)
+    yield x11, display
     x11.XSync(display, 0)
     x11.XCloseDisplay(display)
+
+
+def move_window(window: int, x: int, y: int) -> None:
+    """There is no window manager: new windows cover each other in the upper left corner."""
+    with _display() as (x11, display):
+        x11.XMoveWindow(display, ctypes.c_ulong(window), x, y)
+
+
+def drag(x: int, y: int, to_x: int) -> None:
+    """The left button goes down at a place, the pointer goes along the line, the button goes up."""
+    xtest = ctypes.CDLL("libXtst.so.6")  # x11-utils brings it
+    with _display() as (_, display):
+        xtest.XTestFakeMotionEvent(display, -1, x, y, ctypes.c_ulong(0))
+        xtest.XTestFakeButtonEvent(display, 1, 1, ctypes.c_ulong(0))
+        for step in range(1, 11):
+            here = round(x + (to_x - x) * step / 10)
+            xtest.XTestFakeMotionEvent(display, -1, here, y, ctypes.c_ulong(20))  # ms later
+        xtest.XTestFakeButtonEvent(display, 1, 0, ctypes.c_ulong(20))

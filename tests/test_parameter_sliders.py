@@ -1,0 +1,157 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The sliders that stand in for rqt, moved with a mouse on a virtual screen, and the arm that obeys them."""
+
+import json
+import re
+import subprocess
+import time
+
+import pytest
+from fci_session import ask
+from franka_sim_mujoco.session import Session
+from PIL import Image
+from screen import children_of, drag, virtual_screen, window_of
+
+ADDRESS = "127.0.7.7"
+CONTROLLER = "cartesian_impedance_example_controller"
+SERVER = f"/{CONTROLLER}/dynamic_reconfigure_compliance_param_node"
+PATIENCE = 90.0  # for whatever should happen soon, on a busy machine [s]
+SCALE_WIDTH, BORDER, KNOB = 364, 3, 30  # of the panel's sliders; [px]
+WAY = SCALE_WIDTH - 2 * BORDER - KNOB  # of the knob's middle [px]
+ABOVE_BOTTOM = 12  # where the knob is [px]
+STIFFEST = 400.0  # [N/m]
+PUSH = 8.0  # [N]
+
+
+def wait_for(session, condition, what):
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        session.check()
+        assert time.monotonic() < deadline, f"{what}: not within {PATIENCE} s\n{session.tail(40)}"
+        time.sleep(0.1)
+
+
+class Panel:
+    """What a person sees of the sliders and does with them."""
+
+    def __init__(self, folder):
+        self._picture = folder / "panel.png"
+
+    @staticmethod
+    def scales():
+        window = window_of("Parameters")
+        return [place for place in children_of(window) if place[2] == SCALE_WIDTH] if window else []
+
+    def shows(self, number, most):
+        """The value at which a slider's knob stands: it is brighter than what it slides in."""
+        subprocess.run(["import", "-window", "root", str(self._picture)], check=True, timeout=30)
+        x, y, _, height = self.scales()[number]
+        with Image.open(self._picture) as picture:
+            left, top = x + BORDER, y + height - ABOVE_BOTTOM
+            line = picture.convert("L").crop((left, top, left + WAY + KNOB, top + 1))
+            bright = [place + 0.5 for place, grey in enumerate(line.getdata()) if grey > 200]
+        middle = (min(bright) + max(bright)) / 2
+        return (middle - KNOB / 2) / WAY * most
+
+    def pull(self, number, value, to, most):
+        x, y, _, height = self.scales()[number]
+
+        def place(value):
+            return round(x + BORDER + KNOB / 2 + value / most * WAY)
+
+        drag(place(value), y + height - ABOVE_BOTTOM, place(to))
+
+
+class Robot:
+    """The simulated one, and the parameters of its controller."""
+
+    def __init__(self, session):
+        self._session = session
+        self._start = self._height()
+
+    @staticmethod
+    def _height():
+        return float(ask(ADDRESS, "where panda_link7").split()[2])
+
+    @staticmethod
+    def push():
+        """Straight up along the end effector's axis, for longer than the test lasts."""
+        ask(ADDRESS, f"push panda_link7 0 0 {PUSH} 900000")
+
+    def yields(self, distance):
+        """Waits until it stays where a spring would be."""
+        since = []
+
+        def stays():
+            if abs(self._height() - self._start - distance) > 0.03 * distance:
+                since.clear()
+            since.append(0)
+            return len(since) > 10
+
+        wait_for(self._session, stays, f"a push of {PUSH} N moves the arm by {distance} m")
+
+    def parameters(self):
+        told = self._session.run("rosrun", "dynamic_reconfigure", "dynparam", "get", SERVER).stdout
+        return {name: float(value) for name, value in re.findall(r"'(\w+_stiffness)': ([\d.]+)", told)}
+
+    def set(self, **values):
+        self._session.run("rosrun", "dynamic_reconfigure", "dynparam", "set", SERVER, json.dumps(values))
+
+    def controller(self, *words):
+        command = ["rosrun", "controller_manager", "controller_manager", *words, CONTROLLER]
+        self._session.run(*command, timeout=PATIENCE, check=False)  # one that stands stops no more
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory):
+    """The example with its panel and its robot, as the launch file starts them."""
+    folder = tmp_path_factory.mktemp("sliders")
+    launch = ["franka_example_controllers", f"{CONTROLLER}.launch", "sim:=true", "rqt:=true", "rviz:=false"]
+    launch += ["load_gripper:=false", f"robot_ip:={ADDRESS}"]
+    with virtual_screen(), Session(*launch, log=folder / "launch.log") as session:
+        session.wait_for_master()
+        panel = Panel(folder)
+        wait_for(session, lambda: len(panel.scales()) == 3, "three sliders")
+        wait_for(session, lambda: "Started controllers: cartesian" in session.tail(100), "a controller")
+        yield session, panel, Robot(session)
+        assert "could not be set" not in session.tail(1000)
+
+
+def test_a_slider_makes_the_arm_stiffer(desk):
+    session, panel, robot = desk
+    assert robot.parameters()["translational_stiffness"] == 200.0
+    assert panel.shows(0, STIFFEST) == pytest.approx(200.0, abs=2.0)
+    robot.push()
+    robot.yields(PUSH / 200.0)
+    panel.pull(0, 200.0, 2 * STIFFEST, STIFFEST)
+    robot.yields(PUSH / STIFFEST)
+    assert robot.parameters()["translational_stiffness"] == STIFFEST
+    assert panel.shows(0, STIFFEST) == pytest.approx(STIFFEST, abs=2.0)
+
+
+def test_sliders_follow_what_others_set(desk):
+    session, panel, robot = desk
+    robot.set(translational_stiffness=120.0, rotational_stiffness=20.04)
+    wait_for(session, lambda: abs(panel.shows(0, STIFFEST) - 120.0) < 2.0, "the slider moves")
+    assert panel.shows(1, 30.0) == pytest.approx(20.04, abs=0.2)
+    # A slider that follows sets nothing, not even to what it can show.
+    assert robot.parameters()["rotational_stiffness"] == 20.04
+
+
+def test_a_stopped_controller_keeps_its_sliders(desk):
+    session, panel, robot = desk
+    robot.controller("stop")
+    panel.pull(2, 0.5, 50.0, 100.0)
+    wait_for(session, lambda: abs(robot.parameters()["nullspace_stiffness"] - 50.0) < 1.0, "the new value")
+
+
+def test_sliders_go_and_come_with_their_controller(desk):
+    session, panel, robot = desk
+    robot.controller("stop")
+    robot.controller("unload")
+    wait_for(session, lambda: not panel.scales(), "the sliders go")
+    robot.controller("load")
+    wait_for(session, lambda: len(panel.scales()) == 3, "the sliders come back")
+    panel.pull(0, panel.shows(0, STIFFEST), -STIFFEST, STIFFEST)
+    wait_for(session, lambda: robot.parameters()["translational_stiffness"] == 0.0, "the new value")
