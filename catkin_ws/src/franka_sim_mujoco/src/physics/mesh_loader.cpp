@@ -17,6 +17,7 @@ namespace {
 constexpr double kSheet = 1e-4;  ///< of a flat mesh to look at [m]
 /// Of a flat mesh to collide with [m]: nothing may fall through between two steps.
 constexpr double kPlate = 0.01;
+constexpr int kMostOfHull = 2000;  ///< vertices: 0.2 s for MuJoCo to find the hull
 /// MuJoCo takes bodies below 1e-15 m^3 for nothing; a body fills a part of its box.
 constexpr double kLeastBox = 1e-13;  ///< [m^3]
 
@@ -80,7 +81,9 @@ SolidMesh makeSolid(const MeshSource& source) {
                              "scale (" +
                              toText(source.scale) + ") right?");
   }
-  return {keepFile(toMsh(mesh), ".msh"), isConvex(mesh)};
+  const bool is_convex = isConvex(mesh);
+  keepOutermost(kMostOfHull, &mesh);
+  return {keepFile(toMsh(mesh), ".msh"), is_convex};
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ struct SolidMesh {
 /// file that has not changed is read once. Any thread.
 /// @throws std::runtime_error with a sentence that names the file and what is wrong.
 DrawnMesh loadMeshToDraw(const MeshSource& source);
-/// The same to collide with: all colours in one. A flat mesh gets a body behind its front.
+/// The same to collide with: the outermost points of all colours, of which MuJoCo takes the hull. A
+/// flat mesh gets a body behind its front.
 /// @throws std::runtime_error also when the mesh has no extent to speak of.
 SolidMesh loadMeshToCollide(const MeshSource& source);
 

@@ -5,15 +5,18 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 
 namespace franka_sim_mujoco::physics {
 namespace {
 
 /// Below this part of its length a surface is flat: ten times the resolution of its numbers.
 constexpr double kFlat = 1e-6;
-constexpr double kConvexTolerance = 0.01;  ///< of the longest extent
+constexpr double kConvexTolerance = 0.01;             ///< of the longest extent
+constexpr double kGoldenAngle = 2.39996322972865332;  ///< pi (3 - sqrt 5)
 /// Faces times vertices that `isConvex` looks at: some milliseconds.
 constexpr std::size_t kMostComparisons = 4000000;
 
@@ -149,6 +152,32 @@ bool isConvex(const TriangleMesh& mesh) {
     }
   }
   return true;
+}
+
+void keepOutermost(int most, TriangleMesh* mesh) {
+  mesh->faces.clear();
+  if (mesh->vertices.size() <= static_cast<std::size_t>(most)) {
+    return;
+  }
+  const Eigen::Map<const Eigen::Matrix3Xf> points(mesh->vertices.front().data(), 3,
+                                                  static_cast<Eigen::Index>(mesh->vertices.size()));
+  std::set<Eigen::Index> kept;
+  for (int i = 0; i < most; ++i) {
+    // Evenly over a ball: equal steps in height, turned by the golden angle each time.
+    const double height = 1 - (2 * i + 1.0) / most;
+    const double radius = std::sqrt(1 - height * height), angle = i * kGoldenAngle;
+    const Eigen::RowVector3f direction(static_cast<float>(radius * std::cos(angle)),
+                                       static_cast<float>(radius * std::sin(angle)),
+                                       static_cast<float>(height));
+    Eigen::Index farthest = 0;
+    (direction * points).maxCoeff(&farthest);
+    kept.insert(farthest);
+  }
+  std::vector<Eigen::Vector3f> vertices;
+  for (const Eigen::Index index : kept) {
+    vertices.push_back(points.col(index));
+  }
+  mesh->vertices = std::move(vertices);
 }
 
 std::string toMsh(const TriangleMesh& mesh) {

@@ -33,7 +33,12 @@ Eigen::Vector3d extents(const TriangleMesh& mesh);
 /// Whether the surface is that of its convex hull, within 1 % of its size. Of large meshes some of
 /// the faces are looked at.
 bool isConvex(const TriangleMesh& mesh);
-/// In MuJoCo's own binary format (.msh), without normals and texture coordinates.
+/// Leaves the faces out, and of more than `most` vertices those that reach farthest in `most`
+/// directions: enough for a hull, which MuJoCo finds in a time that grows with their square. Of a
+/// ball 2000 miss 0.2 % of the radius.
+void keepOutermost(int most, TriangleMesh* mesh);
+/// In MuJoCo's own binary format (.msh), without normals and texture coordinates. Of one
+/// without faces it takes the hull.
 std::string toMsh(const TriangleMesh& mesh);
 
 }  // namespace franka_sim_mujoco::physics

@@ -434,6 +434,32 @@ TEST(TriangleMeshTest, flatOnesGetABackBehindTheirFront) {
   EXPECT_EQ(body.vertices.size(), 4u);
 }
 
+TEST(TriangleMeshTest, fewOfManyPointsMakeNearlyTheSameHull) {
+  TriangleMesh ball;
+  constexpr int kRings = 200;
+  for (int i = 0; i <= kRings; ++i) {
+    for (int j = 0; j < kRings; ++j) {
+      const double t = M_PI * i / kRings, p = 2 * M_PI * j / kRings;
+      ball.vertices.emplace_back(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t));
+      ball.vertices.push_back(0.999F * ball.vertices.back());
+    }
+  }
+  TriangleMesh few = ball;
+  keepOutermost(2000, &few);
+  EXPECT_LE(few.vertices.size(), 2000u);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3f direction = Eigen::Vector3f::Random().normalized();
+    float reach = 0;
+    for (const Eigen::Vector3f& vertex : few.vertices) {
+      reach = std::max(reach, vertex.dot(direction));
+    }
+    EXPECT_GT(reach, 0.998F);
+  }
+  TriangleMesh body = tetrahedron();
+  keepOutermost(2000, &body);
+  EXPECT_EQ(body.vertices.size(), 4u);
+}
+
 TEST(TriangleMeshTest, hollowsAreSeen) {
   TriangleMesh mesh = tetrahedron();
   EXPECT_TRUE(isConvex(mesh));
