@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Two arms hand a bar over; prints for each go what became of it as JSON.
 
-Run by test_hand_over.py with the interpreter that ROS uses. Arguments: a folder for a picture, seeds.
+Run by test_hand_over.py with the interpreter that ROS uses. Arguments: the kind of robot, a folder for a
+picture, seeds.
 """
 
 import json
@@ -142,11 +143,11 @@ def hand_over(one: Side, two: Side, scene: Scene, seed: int, folder: Path | None
 
 
 def main():
-    folder, seeds = Path(sys.argv[1]), [int(seed) for seed in sys.argv[2:]]
+    robot, folder, seeds = sys.argv[1], Path(sys.argv[2]), [int(seed) for seed in sys.argv[3:]]
     rospy.init_node("hand_over")
     wait_until(lambda: rospy.get_time() > 0, "the simulation's clock")
     scene = Scene()
-    one, two = Side("panda_1", scene, -1.0), Side("panda_2", scene, 1.0)
+    one, two = Side(f"{robot}_1", scene, -1.0), Side(f"{robot}_2", scene, 1.0)
     begin = rospy.get_time()
     goes = [hand_over(one, two, scene, seed, folder if seed == seeds[0] else None) for seed in seeds]
     modes, errors = sorted(one.modes | two.modes), sorted(one.errors | two.errors)

@@ -15,13 +15,16 @@ MOVE = 2
 SEEDS, SEEDS_IN_SHORT = range(1, 11), range(1, 2)
 
 
-@pytest.fixture(scope="module")
-def report(tmp_path_factory, long_run):
-    folder = tmp_path_factory.mktemp("hand_over")
-    with Session(str(HERE / "data" / "hand_over.launch"), log=folder / "launch.log") as session:
+@pytest.fixture(scope="module", params=["panda", "fr3"])
+def report(request, tmp_path_factory, long_run):
+    robot, folder = request.param, tmp_path_factory.mktemp("hand_over")
+    if robot == "fr3" and not long_run:
+        pytest.skip("the long form has FR3s too")
+    launch = [str(HERE / "data" / "hand_over.launch"), f"robot:={robot}"]
+    with Session(*launch, log=folder / "launch.log") as session:
         session.wait_for_master()
         seeds = [str(seed) for seed in (SEEDS if long_run else SEEDS_IN_SHORT)]
-        client = ["/usr/bin/python3", str(HERE / "hand_over_client.py"), str(folder), *seeds]
+        client = ["/usr/bin/python3", str(HERE / "hand_over_client.py"), robot, str(folder), *seeds]
         result = session.run(*client, check=False, timeout=800)
         print(result.stdout, result.stderr, session.tail(60), sep="\n")
         assert result.returncode == 0, f"{result.stderr}\n{session.tail(60)}"
