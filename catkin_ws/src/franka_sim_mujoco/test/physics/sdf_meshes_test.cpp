@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Meshes of SDF worlds and of robots: where they stand, how they look, and what is wrong with them.
-#include <franka_sim_mujoco/physics/renderer.h>
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
