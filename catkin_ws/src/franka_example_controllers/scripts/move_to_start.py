@@ -4,6 +4,7 @@
 """Moves the arm to where the example controllers begin, by a joint trajectory controller."""
 
 import sys
+import threading
 
 import actionlib
 import rospy
@@ -17,6 +18,7 @@ from trajectory_msgs.msg import JointTrajectoryPoint
 
 SHORTEST = 0.5  # [s]
 WAIT = 30.0  # [s] for the controller and the joints
+POLL = 0.05  # [s]
 
 
 def fail(text):
@@ -37,6 +39,22 @@ def goal_for(pose, present, max_dq):
     return goal, point.time_from_start
 
 
+def run(client, goal, timeout):
+    """Sends a goal and waits for its end. @returns its handle, whether it has ended in time or not."""
+    # A SimpleActionClient complains of goals that a controller takes up at once.
+    ended = threading.Event()
+
+    def follow(handle):
+        if handle.get_comm_state() == actionlib.CommState.DONE:
+            ended.set()
+
+    handle = client.send_goal(goal, transition_cb=follow)
+    end = rospy.Time.now() + timeout
+    while not ended.wait(POLL) and rospy.Time.now() < end and not rospy.is_shutdown():
+        pass
+    return handle
+
+
 def main():
     rospy.init_node("move_to_start")
     pose = rospy.get_param("~joint_pose", None)
@@ -46,7 +64,7 @@ def main():
     if not isinstance(max_dq, (int, float)) or not max_dq > 0.0:
         return fail("the parameter max_dq must be a number above zero [rad/s].")
 
-    client = actionlib.SimpleActionClient("~follow_joint_trajectory", FollowJointTrajectoryAction)
+    client = actionlib.ActionClient("~follow_joint_trajectory", FollowJointTrajectoryAction)
     if not client.wait_for_server(rospy.Duration.from_sec(WAIT)):
         return fail(
             "no trajectory controller answers at "
@@ -64,13 +82,13 @@ def main():
 
     goal, duration = goal_for(pose, present, max_dq)
     rospy.loginfo("move_to_start: on the way, for %.1f s.", duration.to_sec())
-    client.send_goal(goal)
-    if not client.wait_for_result(duration + rospy.Duration.from_sec(WAIT)):
-        client.cancel_goal()
+    handle = run(client, goal, duration + rospy.Duration.from_sec(WAIT))
+    if handle.get_comm_state() != actionlib.CommState.DONE:
+        handle.cancel()
         return fail("the controller does not end; the goal was cancelled.")
-    result = client.get_result()
+    result = handle.get_result()
     if result is None or result.error_code != FollowJointTrajectoryResult.SUCCESSFUL:
-        reason = result.error_string if result else client.get_goal_status_text()
+        reason = result.error_string if result else handle.get_goal_status_text()
         return fail(f"the pose was not reached. {reason}")
     rospy.loginfo("move_to_start: arrived.")
     return 0

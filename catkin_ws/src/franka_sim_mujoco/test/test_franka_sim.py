@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from fci_session import program, start, stop
+from fci_wire import Client
 
 ROBOTS = Path(__file__).resolve().parents[1] / "robots"
 
@@ -53,6 +54,7 @@ def test_help_names_every_option():
         "--pace",
         "--world",
         "--hand",
+        "--linger",
         "--viewer",
         "--control-port",
     ):
@@ -69,6 +71,7 @@ def test_help_names_every_option():
         (["--pace", "0"], "a factor from"),
         (["--pace", "nan"], "a factor from"),
         (["--control-port", "70000"], "0 to 65535"),
+        (["--linger", "-1"], "seconds from 0 to 60"),
         (["--base", "1,2"], "three numbers"),
         (["--base", "1,2,3,4,5"], "three numbers"),
         (["--base", "1,2,x"], "three numbers"),
@@ -226,3 +229,38 @@ def test_quit_ends_it():
     with simulated("127.0.22.6") as (say, process):
         assert say("quit") == "ok"
         assert process.wait(10) == 0
+
+
+@pytest.fixture
+def lingering():
+    """Starts a robot with a client, tells it to end, and returns both."""
+    processes = []
+
+    def begin(seconds):
+        processes.append(start("--ip", "127.0.22.10", "--linger", str(seconds)))
+        client = Client("127.0.22.10", 5)
+        assert client.connect() == (0, 5)
+        processes[-1].terminate()
+        return processes[-1], client
+
+    yield begin
+    for process in processes:
+        process.kill()
+        process.wait()
+
+
+def test_clients_may_go_first(lingering):
+    process, client = lingering(30)
+    with client:
+        begin = time.monotonic()
+        while time.monotonic() - begin < 0.5:
+            client.state()
+        assert process.poll() is None
+    assert process.wait(10) == 0
+
+
+def test_who_does_not_go_is_left_in_the_end(lingering):
+    process, client = lingering(0.3)
+    with client:
+        assert process.wait(10) == 0
+        assert client.ended()

@@ -104,6 +104,11 @@ void SimRobot::publish(std::uint64_t ticks, bool same_moment) {
   }
 }
 
+bool SimRobot::hasClients() const {
+  return server_.hasClient() || (hand_ && hand_->server.hasClient()) ||
+         (vacuum_ && vacuum_->server.hasClient());
+}
+
 bool SimRobot::settling() const {
   const auto& dq = unit_.state().dq;
   return unit_.settling() ||

@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <deque>
@@ -17,6 +18,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "farewell.h"
 #include "files.h"
 #include "options.h"
 #include "person.h"
@@ -26,9 +28,9 @@
 namespace franka_sim_mujoco {
 namespace {
 
-std::atomic<bool> stop_requested{false};
+std::atomic<bool> end_requested{false};  // by a signal
 
-void requestStop(int /*signal*/) { stop_requested = true; }
+void requestEnd(int /*signal*/) { end_requested = true; }
 
 std::string worldFile(const std::string& name) {
   std::error_code error;
@@ -77,12 +79,15 @@ void serve(const Options& options) {
         const auto locked = lock();
         world.prepareStep();
       });
+  std::atomic<bool> ended{false};
+  Farewell farewell(end_requested, ended, std::chrono::duration<double>(options.linger), robots);
+  host.add(farewell);
   std::deque<fci::LineServer> lines;
   for (ServedArm& arm : arms) {
     host.add(arm.robot());
     if (arm.options().control_port != 0) {
       lines.emplace_back(arm.options().ip, arm.options().control_port);
-      addPersonCommands(lines.back(), {arm.robot(), robots, host, world, stop_requested});
+      addPersonCommands(lines.back(), {arm.robot(), robots, host, world, ended});
       host.add(lines.back());
     }
   }
@@ -99,7 +104,7 @@ void serve(const Options& options) {
                 arm.options().robot.c_str(), arm.options().ip.c_str(), arm.protocols().c_str());
   }
   std::fflush(stdout);
-  host.run(stop_requested);
+  host.run(ended);
 }
 
 }  // namespace
@@ -113,8 +118,8 @@ int main(int argc, char** argv) {
       std::fputs(kUsage, stdout);
       return 0;
     }
-    std::signal(SIGINT, requestStop);
-    std::signal(SIGTERM, requestStop);
+    std::signal(SIGINT, requestEnd);
+    std::signal(SIGTERM, requestEnd);
     serve(options);
     return 0;
   } catch (const std::invalid_argument& error) {

@@ -37,6 +37,7 @@ const char* const kUsage =
     "  --pace PACE         realtime, patient, lockstep, or a factor such as 0.5 (realtime)\n"
     "  --world FILE        the scene, MJCF: a file or the name of one that comes along, such as\n"
     "                      stone.xml (an empty world)\n"
+    "  --linger SECONDS    when told to end by a signal, wait so long for clients to go first (0)\n"
     "  --viewer            open a window\n"
     "  --help              this text\n";
 
@@ -110,6 +111,15 @@ fci::Pace toPace(const std::string& text) {
         "--pace " + text + ": give realtime, patient, lockstep, or a factor from 0.001 to 100.");
   }
   return pace;
+}
+
+double toSeconds(const std::string& text) {
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(seconds >= 0.0 && seconds <= 60.0)) {
+    throw std::invalid_argument("--linger " + text + ": give a number of seconds from 0 to 60.");
+  }
+  return seconds;
 }
 
 void checkArm(const ArmOptions& arm) {
@@ -196,6 +206,7 @@ Options readOptions(int argc, const char* const* argv) {
       {"--hand", [&](const std::string& value) { arm().tool = toTool(value); }},
       {"--control-port", [&](const std::string& value) { arm().control_port = toPort(value); }},
       {"--pace", [&](const std::string& value) { options.pace = toPace(value); }},
+      {"--linger", [&](const std::string& value) { options.linger = toSeconds(value); }},
       {"--world", [&](const std::string& value) { options.world = value; }},
   };
   const std::map<std::string, std::function<void()>> flags{

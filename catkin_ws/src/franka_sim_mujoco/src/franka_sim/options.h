@@ -34,6 +34,7 @@ struct Options {
   std::vector<ArmOptions> arms{1};
   std::string world;  ///< MJCF or SDF file, or the name of one that comes with the program
   fci::Pace pace;
+  double linger{0.0};  ///< how long clients may take to go first when the program is to end [s]
   bool viewer{false};
 };
 

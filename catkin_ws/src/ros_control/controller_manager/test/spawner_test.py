@@ -4,6 +4,7 @@
 """The spawner, from its arguments to its end."""
 
 import os
+import subprocess
 import sys
 import tempfile
 import time
@@ -17,6 +18,31 @@ from scripts_common import Manager, Running, wait_until
 from std_msgs.msg import Bool
 
 STRICT = 2
+
+# A controller manager that ends when it shall stop something, as one in the same launch file does.
+MORTAL_MANAGER = """
+import os
+import rospy
+from controller_manager_msgs.msg import ControllerState
+from controller_manager_msgs.srv import *
+
+def switch(request):
+    if request.stop_controllers:
+        os._exit(0)
+    rospy.set_param("/mortal/started", True)
+    return SwitchControllerResponse(ok=True)
+
+rospy.init_node("mortal_manager")
+running = [ControllerState(name="a", state="running")]
+for name, kind, answer in (
+    ("list_controllers", ListControllers, lambda _: ListControllersResponse(controller=running)),
+    ("load_controller", LoadController, lambda _: LoadControllerResponse(ok=True)),
+    ("unload_controller", UnloadController, lambda _: UnloadControllerResponse(ok=True)),
+    ("switch_controller", SwitchController, switch),
+):
+    rospy.Service("/mortal/controller_manager/" + name, kind, answer)
+rospy.spin()
+"""
 
 
 class SpawnerTest(unittest.TestCase):
@@ -200,6 +226,20 @@ class SpawnerTest(unittest.TestCase):
                 status, output = spawner.finish()
             self.assertEqual(2, status)
             self.assertIn("usage: spawner", output)
+
+    def test_a_manager_that_ends_at_the_same_time_is_no_trouble(self):
+        manager = subprocess.Popen([sys.executable, "-c", MORTAL_MANAGER])
+        try:
+            with Running("spawner", "--namespace", "/mortal", "a") as spawner:
+                wait_until(lambda: rospy.has_param("/mortal/started"), "never started")
+                status, output = spawner.interrupt()
+            self.assertEqual(0, status, output)
+            self.assertIn("has ended meanwhile", output)
+            self.assertNotIn("WARN", output)
+            self.assertEqual(0, manager.wait(10))
+        finally:
+            manager.kill()
+            manager.wait()
 
     def test_ends_in_time_when_the_loop_stands_still(self):
         with Running("spawner", "a") as spawner:

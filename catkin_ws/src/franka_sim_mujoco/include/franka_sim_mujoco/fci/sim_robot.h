@@ -64,6 +64,8 @@ class SimRobot final : public HostedRobot {
   bool motionHasBegun() const override { return server_.motionHasBegun(); }
   bool settling() const override;
   bool handBusy() const override;
+  /// Somebody is connected, to the arm or to the hand.
+  bool hasClients() const;
   void addDescriptors(std::vector<pollfd>& fds) const override;
   void addCommandDescriptor(std::vector<pollfd>& fds) const override {
     server_.addCommandDescriptor(fds);

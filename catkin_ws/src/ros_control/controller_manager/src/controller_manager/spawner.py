@@ -5,6 +5,7 @@
 import argparse
 import os
 import signal
+import socket
 import threading
 import time
 
@@ -28,6 +29,8 @@ STOP_TIMEOUT = 5.0  # [s]
 # The manager's own account of a failed load should stand above ours in the log.
 PAUSE_AFTER_FAILED_LOAD = 1.0  # [s]
 POLL_PERIOD = 0.1  # [s]
+# roslaunch ends all its nodes at once: so long a manager that breaks a call off may take to be gone.
+END_OF_MANAGER = 2.0  # [s]
 # How long a request to end from outside (rosnode kill) waits for the controllers to be taken away.
 LONGEST_END = 15.0  # [s]
 
@@ -172,6 +175,16 @@ def is_offered(service):
         return False
 
 
+def listens(service):
+    """Whether somebody is where the master says that the service is; without a word to anybody."""
+    try:
+        uri = rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
+        socket.create_connection(rospy.core.parse_rosrpc_uri(uri), POLL_PERIOD).close()
+        return True
+    except (rosgraph.MasterException, rospy.ROSException, OSError):
+        return False
+
+
 def wait_for_true(topic, timeout, ending):
     heard = []
     subscriber = rospy.Subscriber(topic, Bool, lambda message: heard.append(message.data))
@@ -274,7 +287,18 @@ class Spawner:
             self._stop([name for name in self.loaded if states.get(name) == "running"])
             self._unload([name for name in reversed(self.loaded) if name in states])
         except (rospy.ServiceException, rospy.ROSException) as error:
-            rospy.logwarn("Controllers could not be taken away: %s", error)
+            if self._manager_ends():
+                rospy.loginfo("The controller manager has ended meanwhile, its controllers with it")
+            else:
+                rospy.logwarn("Controllers could not be taken away: %s", error)
+
+    def _manager_ends(self):
+        end = time.monotonic() + END_OF_MANAGER
+        while listens(self._prefix + "list_controllers"):
+            if time.monotonic() > end:
+                return False
+            time.sleep(POLL_PERIOD)
+        return True
 
     def _stop(self, names):
         if not names:

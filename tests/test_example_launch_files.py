@@ -1,0 +1,69 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every launch file of the single-arm examples, with a simulated robot: it starts what it is named after,
+and from beginning to end nothing is complained of.
+"""
+
+import time
+from pathlib import Path
+
+import pytest
+import yaml
+from franka_sim_mujoco.session import Session
+
+EXAMPLES = Path(__file__).resolve().parent.parent / "catkin_ws/src/franka_example_controllers/launch"
+LAUNCH_FILES = sorted(path.name for path in EXAMPLES.glob("*_example_controller.launch"))
+# These need two arms: test_two_arm_controllers.
+TWO_ARMS = {
+    "dual_arm_cartesian_impedance_example_controller.launch",
+    "teleop_joint_pd_example_controller.launch",
+}
+WAIT = 60.0  # [s] on a busy machine
+LIST = ["rosservice", "call", "/controller_manager/list_controllers"]
+ROBOTS = ["panda", "fr3"]
+
+
+def launch(name: str, robot: str, folder: Path) -> Session:
+    given = ["sim:=true", f"robot:={robot}", "robot_ip:=127.0.52.1", "rviz:=false", "rqt:=false"]
+    return Session("franka_example_controllers", name, *given, log=folder / "launch.log")
+
+
+def complaints(session: Session) -> list[str]:
+    """Lines of the log that a person would worry about."""
+    marks = ("[ERROR]", "[WARN]", "[FATAL]", "[ WARN]", "Traceback", "process has died")
+    lines = [line for line in session.log.read_text().splitlines() if any(mark in line for mark in marks)]
+    return [line for line in lines if "rests on something horizontal" not in line]  # a force needs that
+
+
+def running(session: Session) -> set[str]:
+    answer = session.run(*LIST, check=False)
+    listed = yaml.safe_load(answer.stdout)["controller"] if answer.returncode == 0 else []
+    return {controller["name"] for controller in listed if controller["state"] == "running"}
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+@pytest.mark.parametrize("name", sorted(set(LAUNCH_FILES) - TWO_ARMS))
+def test_an_example_runs_that_was_launched(name, robot, tmp_path, long_run):
+    if robot != ROBOTS[LAUNCH_FILES.index(name) % 2] and not long_run:
+        pytest.skip("Launched for the other robot; for both in the long form.")
+    expected = {name.removesuffix(".launch"), "franka_state_controller"}
+    with launch(name, robot, tmp_path) as session:
+        session.wait_for_master()
+        begin = time.monotonic()
+        while not expected <= running(session):
+            session.check()
+            assert time.monotonic() - begin < WAIT, f"{running(session)}\n{session.tail(60)}"
+        time.sleep(1.0)  # of its work
+        assert expected <= running(session), session.tail(60)
+    assert complaints(session) == []
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_the_arm_moves_to_its_start(robot, tmp_path):
+    with launch("move_to_start.launch", robot, tmp_path) as session:
+        begin = time.monotonic()
+        while session.running():
+            assert time.monotonic() - begin < WAIT, session.tail(60)
+            time.sleep(0.1)
+        assert session.returncode() == 0, session.tail(60)
+    assert complaints(session) == []
