@@ -13,7 +13,7 @@ from franka_sim_mujoco.session import Session
 from PIL import Image
 from screen import children_of, drag, virtual_screen, window_of
 
-ADDRESS = "127.0.7.7"
+ADDRESS = "127.0.7.21"
 CONTROLLER = "cartesian_impedance_example_controller"
 SERVER = f"/{CONTROLLER}/dynamic_reconfigure_compliance_param_node"
 PATIENCE = 90.0  # for whatever should happen soon, on a busy machine [s]
