@@ -51,7 +51,7 @@ bool isBinaryStl(const std::string& path) {
 /// Whether MuJoCo reads it as it is, which is quicker than to make something of it first.
 bool isReady(const std::string& path) {
   const std::string extension = lowerExtension(path);
-  return isFile(path) && (extension == "obj" || (extension == "stl" && isBinaryStl(path)));
+  return extension == "obj" || (extension == "stl" && isBinaryStl(path));
 }
 
 /// `.../meshes/visual/x.dae` -> `.../meshes/mujoco/visual/x/`; empty when not below `meshes`.
@@ -93,7 +93,7 @@ std::vector<MeshPart> readIndex(const std::string& folder) {
     if (rgba.size() == 4) {
       part.rgba = {rgba[0], rgba[1], rgba[2], rgba[3]};
     }
-    if (!isReady(part.file)) {
+    if (!isFile(part.file) || !isReady(part.file)) {
       return {};
     }
     parts.push_back(part);
@@ -110,7 +110,7 @@ std::vector<MeshPart> visualParts(const std::string& uri, const ResourceResolver
   }
   const std::string folder = convertedFolder(path);
   const std::vector<MeshPart> parts = folder.empty() ? std::vector<MeshPart>() : readIndex(folder);
-  if (!parts.empty()) {
+  if (!parts.empty() || !isFile(path)) {
     return parts;
   }
   if (isReady(path)) {
