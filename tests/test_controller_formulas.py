@@ -14,7 +14,6 @@ import rigid_arm
 from franka_sim_mujoco.session import Session
 
 HERE = Path(__file__).resolve().parent
-CONFIG = HERE.parent / "catkin_ws/src/franka_example_controllers/config/franka_example_controllers.yaml"
 
 MOVE = 2
 JOINT_ERROR, POSE_ERROR = 1e-3, 5e-4  # [rad], [m] of what is measured
@@ -35,12 +34,10 @@ MAY_JOIN = {"model", "cartesian_impedance", "force"}  # a motion of the joints: 
 def run(request, long_run, tmp_path_factory):
     robot, folder = request.param, tmp_path_factory.mktemp("formulas")
     seconds = ["30", "3"] if long_run or robot == "panda" else ["6", "3"]
-    parameters, recording = folder / "controllers.yaml", folder / "recording.npz"
-    parameters.write_text(CONFIG.read_text().replace("$(arg arm_id)", robot))
+    recording = folder / "recording.npz"
     launch = ["franka_gazebo", f"{robot}.launch", "headless:=true", "real_time_factor:=0"]
     with Session(*launch, log=folder / "launch.log") as session:
         session.wait_for_master()
-        session.run("rosparam", "load", str(parameters))
         command = ["/usr/bin/python3", str(HERE / "controller_formulas_client.py"), robot, str(recording)]
         client = session.run(*command, *seconds, check=False, timeout=400)
         print(client.stderr)

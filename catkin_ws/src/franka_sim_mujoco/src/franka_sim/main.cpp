@@ -57,7 +57,7 @@ void preferThisThread() {
 }
 
 void serve(const Options& options) {
-  World world(worldFile(options.world));
+  World world(worldFile(options.world), resolveUri);
   std::deque<ServedArm> arms;
   std::vector<fci::SimRobot*> robots;
   for (const ArmOptions& arm : options.arms) {
