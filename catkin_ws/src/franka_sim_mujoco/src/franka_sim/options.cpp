@@ -35,7 +35,7 @@ const char* const kUsage =
     "                      0: nowhere); send the line help for all of them\n"
     "Of all:\n"
     "  --pace PACE         realtime, patient, lockstep, or a factor such as 0.5 (realtime)\n"
-    "  --world FILE        the scene, MJCF or SDF: a file, or the name of one that comes along, as\n"
+    "  --world FILE        the scene, MJCF or SDF: a file, or the name of one that comes along:\n"
     "                      stone.xml (an empty world)\n"
     "  --linger SECONDS    when told to end by a signal, wait so long for clients to go first (0)\n"
     "  --viewer            open a window\n"
