@@ -12,6 +12,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "state_publisher.h"
+
 namespace franka_control {
 
 namespace {
@@ -35,6 +37,9 @@ void fill(const std::array<double, kJoints>& position, const std::array<double, 
 }
 
 }  // namespace
+
+FrankaStateController::FrankaStateController() = default;
+FrankaStateController::~FrankaStateController() = default;
 
 bool FrankaStateController::init(hardware_interface::RobotHW* robot_hardware,
                                  ros::NodeHandle& root_node_handle,
@@ -106,7 +111,8 @@ void FrankaStateController::createPublishers(const ros::NodeHandle& root_node_ha
     using Realtime = std::remove_reference_t<decltype(*publisher)>;
     publisher = std::make_unique<Realtime>(node, topic, kQueueSize);
   };
-  advertise(franka_state_publisher_, controller_node_handle, "franka_states");
+  franka_state_publisher_ = std::make_unique<StatePublisher>(controller_node_handle,
+                                                             "franka_states", 1.0 / publish_rate_);
   advertise(transforms_publisher_, root_node_handle, "/tf");
   advertise(external_wrench_publisher_, controller_node_handle, "F_ext");
   advertise(joint_states_publisher_, controller_node_handle, "joint_states");
@@ -141,14 +147,14 @@ void FrankaStateController::update(const ros::Time& time, const ros::Duration& /
 }
 
 void FrankaStateController::publishFrankaState(const ros::Time& time) {
-  if (!franka_state_publisher_->trylock()) {
+  franka_msgs::FrankaState* message = franka_state_publisher_->next();
+  if (message == nullptr) {
     return;
   }
-  auto& message = franka_state_publisher_->msg_;
-  toMessage(state_handle_->getRobotState(), message);
-  message.header.seq = sequence_number_;
-  message.header.stamp = time;
-  franka_state_publisher_->unlockAndPublish();
+  toMessage(state_handle_->getRobotState(), *message);
+  message->header.seq = sequence_number_;
+  message->header.stamp = time;
+  franka_state_publisher_->handOver();
 }
 
 void FrankaStateController::publishTransforms(const ros::Time& time) {

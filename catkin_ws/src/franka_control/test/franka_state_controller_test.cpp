@@ -218,6 +218,32 @@ TEST_F(FrankaStateControllerTest, PublishesAtTheRateAskedFor) {
   }
 }
 
+TEST_F(FrankaStateControllerTest, LosesNoStateToAThreadThatIsLate) {
+  setParameters("panda");
+  node.setParam("publish_rate", 1000.0);
+  FakeRobot robot("panda");
+  FrankaStateController controller;
+  ASSERT_TRUE(initialise(controller, robot));
+  Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
+  ASSERT_TRUE(waitFor([&] { return states.isConnected(); }));
+
+  // Faster than any thread is woken up; then, with the machine's time, for long.
+  controller.starting(ros::Time(20.0));
+  constexpr unsigned kAtOnce = 60, kRounds = 20;
+  for (unsigned i = 1; i <= kRounds * kAtOnce; ++i) {
+    robot.state.q[0] = i;
+    controller.update(ros::Time(20 + i / 1000, i % 1000 * 1000000), kMillisecond);
+    if (i % kAtOnce == 0) {
+      ASSERT_TRUE(waitFor([&] { return states.count() == i; })) << states.count() << " of " << i;
+    }
+  }
+  const auto all = states.all();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ASSERT_EQ(static_cast<double>(i + 1), all[i].q[0]);
+    ASSERT_EQ(i, all[i].header.seq);
+  }
+}
+
 TEST_F(FrankaStateControllerTest, PublishesThirtyTimesASecondUnlessTold) {
   setParameters("panda");
   FakeRobot robot("panda");

@@ -5,7 +5,6 @@
 #include <controller_interface/multi_interface_controller.h>
 #include <franka_hw/franka_state_interface.h>
 #include <franka_hw/trigger_rate.h>
-#include <franka_msgs/FrankaState.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <realtime_tools/realtime_publisher.h>
 #include <ros/node_handle.h>
@@ -21,6 +20,8 @@
 
 namespace franka_control {
 
+class StatePublisher;
+
 /// Publishes the state of one arm; commands nothing, so it may run beside any other controller.
 ///
 /// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven) and `publish_rate`
@@ -29,11 +30,15 @@ namespace franka_control {
 /// them
 /// `/tf` from `<arm_id>_link8` over `_NE` and `_EE` to `_K`. Stamps are the time update() is given.
 ///
-/// update() runs in the 1 kHz loop: it neither allocates nor locks nor waits. What a publisher has
-/// not taken when the next message is due is dropped.
+/// update() runs in the 1 kHz loop: it neither allocates nor locks nor waits. Complete states wait
+/// for a thread that is late, up to 64 of them; the other messages are dropped when the last one
+/// has not been taken yet.
 class FrankaStateController
     : public controller_interface::MultiInterfaceController<franka_hw::FrankaStateInterface> {
  public:
+  FrankaStateController();
+  ~FrankaStateController() override;
+
   /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the
   /// robot has no state handle `<arm_id>_robot`.
   bool init(hardware_interface::RobotHW* robot_hardware, ros::NodeHandle& root_node_handle,
@@ -64,7 +69,7 @@ class FrankaStateController
   franka_hw::TriggerRate trigger_{publish_rate_, ros::Time()};
   std::uint32_t sequence_number_{0};
 
-  Publisher<franka_msgs::FrankaState> franka_state_publisher_;
+  std::unique_ptr<StatePublisher> franka_state_publisher_;
   Publisher<tf2_msgs::TFMessage> transforms_publisher_;
   Publisher<geometry_msgs::WrenchStamped> external_wrench_publisher_;
   Publisher<sensor_msgs::JointState> joint_states_publisher_;
