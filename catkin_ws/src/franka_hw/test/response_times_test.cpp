@@ -108,7 +108,9 @@ TEST_F(Times, LoseNothingBetweenTwoThreads) {
   }
   done = true;
   reads.join();
-  counted += times_.take().cycles;
+  const ResponseTimes::Report rest = times_.take();  // all, where the reader came late
+  counted += rest.cycles;
+  longest = std::max(longest, rest.longest);
   // A cycle that ends between the look at a report and its end belongs to none.
   EXPECT_LE(counted, kCycles);
   EXPECT_GT(counted, 0u);
