@@ -35,16 +35,23 @@ print(json.dumps({"messages": len(seen), "missing": sum(s - 1 for s in steps), "
 """
 
 
-def hardware(seconds: float = 60.0) -> None:
-    """`seconds` of torque control in real time, with all publishers on."""
-    print("franka_control_node and the gripper node with a simulated robot in real time")
+def hardware() -> None:
+    """A minute of torque control in real time, with all publishers on, and half a minute with a patient robot:
+    what is lost there the nodes lose, and not the robot.
+    """
+    for pace, seconds in (("realtime", 60.0), ("patient", 30.0)):
+        torque_control(pace, seconds)
+
+
+def torque_control(pace: str, seconds: float) -> None:
+    print(f"franka_control_node and the gripper node with a simulated robot (pace:={pace})")
     launch = [
         "franka_control",
         "franka_control.launch",
         "sim:=true",
         "robot:=panda",
         "robot_ip:=127.0.42.1",
-        "pace:=realtime",
+        f"pace:={pace}",
     ]
     manager = ["rosrun", "controller_manager", "controller_manager"]
     with (

@@ -15,8 +15,8 @@
 
 namespace franka_control {
 
-/// Publishes states of a 1 kHz loop, none of which is to be lost: kWaiting of them may wait for a
-/// machine that does not let the publishing thread run.
+/// Publishes states of a 1 kHz loop. kWaiting of them may wait for a machine that does not let the
+/// publishing thread run; later ones are lost then.
 ///
 /// One thread fills messages (`next`, `handOver`: no allocation, lock or system call), a thread of
 /// its own sends them in the same order.
