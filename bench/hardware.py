@@ -36,8 +36,9 @@ print(json.dumps({"messages": len(seen), "missing": sum(s - 1 for s in steps), "
 
 
 def hardware() -> None:
-    """A minute of torque control in real time, with all publishers on, and half a minute with a patient robot:
-    what is lost there the nodes lose, and not the robot.
+    """A minute of torque control in real time, with all publishers on; half a minute with a patient robot.
+
+    What is lost with the latter the nodes lose, and not the robot.
     """
     for pace, seconds in (("realtime", 60.0), ("patient", 30.0)):
         torque_control(pace, seconds)
