@@ -18,12 +18,13 @@ CONTROLLER = "effort_joint_trajectory_controller"
 LISTENER = """
 import json, struct, sys, time
 import rospy
+import rospy_connections
 times, rates = [], []
 def took(message):
     time_s, rate = struct.unpack("<dd", message._buff[-99:-83])
     times.append(time_s)
     rates.append(rate)
-rospy.init_node("listener")
+rospy_connections.init_node("listener")
 rospy.Subscriber("/franka_state_controller/franka_states", rospy.AnyMsg, took, tcp_nodelay=True)
 time.sleep(2.0)
 del times[:], rates[:]

@@ -106,10 +106,11 @@ def one_of_many(index: int) -> str:
 COUNT_PICTURES = """
 import sys, time
 import rospy
+import rospy_connections
 from franka_sim_mujoco.srv import SpawnObject
 from geometry_msgs.msg import Point, Pose, Quaternion
 from sensor_msgs.msg import Image
-rospy.init_node("viewer")
+rospy_connections.init_node("viewer")
 size, seconds = sys.argv[1].split("x"), float(sys.argv[2])
 eye = f'''<sdf version='1.6'><model name='eye'><static>true</static><link name='link'>
 <sensor name='cam' type='camera'><update_rate>1000</update_rate><camera><horizontal_fov>1.0</horizontal_fov>

@@ -12,6 +12,7 @@ import time
 
 import actionlib
 import rospy
+import rospy_connections
 from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryGoal
 from controller_manager_msgs.srv import SwitchController
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
@@ -101,7 +102,7 @@ def hit(arm, others):
 
 
 def main():
-    rospy.init_node("combined_client", anonymous=True)
+    rospy_connections.init_node("combined_client", anonymous=True)
     arms = [Arm(*argument.split("=")) for argument in sys.argv[1:]]
     report = {"states": waits(lambda: all(arm.state for arm in arms))}
     switch = rospy.ServiceProxy(f"{NODE}/controller_manager/switch_controller", SwitchController)

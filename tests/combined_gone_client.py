@@ -16,6 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
 
 import rospy  # noqa: E402
+import rospy_connections  # noqa: E402
 from combined_client import CONTROLLER, NODE, Arm, all_move, move, recovery, waits  # noqa: E402
 from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController  # noqa: E402
 from diagnosis import Diagnosis  # noqa: E402
@@ -124,7 +125,7 @@ def comes_back_by_itself(node, arm, other):
 
 
 def main():
-    rospy.init_node("combined_gone_client", anonymous=True)
+    rospy_connections.init_node("combined_gone_client", anonymous=True)
     options = [argument for argument in sys.argv[1:] if "=" not in argument]
     named = [argument.split("=") for argument in sys.argv[1:] if "=" in argument]
     arms = [Arm(name, address) for name, address, _ in named]

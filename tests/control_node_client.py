@@ -14,6 +14,7 @@ import time
 import numpy as np
 import rigid_arm
 import rospy
+import rospy_connections
 import tf2_ros
 from controller_manager_msgs.srv import SwitchController
 from diagnosis import Diagnosis
@@ -414,7 +415,7 @@ def connection(robot, services, diagnosis):
 
 
 def main():
-    rospy.init_node("control_node_client", anonymous=True)
+    rospy_connections.init_node("control_node_client", anonymous=True)
     topics, diagnosis, services = Topics(), Diagnosis("franka_control"), Services()
     robot, person = Robot(), Person(ADDRESS)
     robot.waits(lambda: True)

@@ -14,6 +14,7 @@ import time
 
 import numpy as np
 import rospy
+import rospy_connections
 from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
@@ -247,7 +248,7 @@ def read_model(arm, lines):
 
 def main():
     arm_id, output, *lengths = sys.argv[1:]
-    rospy.init_node("controller_formulas_client", anonymous=True, disable_rostime=True)
+    rospy_connections.init_node("controller_formulas_client", anonymous=True, disable_rostime=True)
     lines = []
     rospy.Subscriber("/rosout", Log, lambda log: lines.append(log.msg), queue_size=1000)
     arm, recording, report = Arm(arm_id), Recording(), {}

@@ -11,6 +11,7 @@ import time
 
 import actionlib
 import rospy
+import rospy_connections
 from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryGoal
 from controller_manager_msgs.srv import LoadController, SwitchController, UnloadController
 from franka_msgs.msg import FrankaState
@@ -27,7 +28,7 @@ def state():
 
 
 def main():
-    rospy.init_node("example_controllers_client", anonymous=True)
+    rospy_connections.init_node("example_controllers_client", anonymous=True)
     arm, names = sys.argv[1], sys.argv[2:]
     switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
     load = rospy.ServiceProxy("/controller_manager/load_controller", LoadController)

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import rospy
+import rospy_connections
 from franka_msgs.msg import FrankaState
 from franka_sim_mujoco.geometry import downwards, pose_of, rotation_vector, wrap, yaw_of
 from franka_sim_mujoco.pick_and_place import Arm, Gripper, Scene, wait_until
@@ -144,7 +145,7 @@ def hand_over(one: Side, two: Side, scene: Scene, seed: int, folder: Path | None
 
 def main():
     robot, folder, seeds = sys.argv[1], Path(sys.argv[2]), [int(seed) for seed in sys.argv[3:]]
-    rospy.init_node("hand_over")
+    rospy_connections.init_node("hand_over")
     wait_until(lambda: rospy.get_time() > 0, "the simulation's clock")
     scene = Scene()
     one, two = Side(f"{robot}_1", scene, -1.0), Side(f"{robot}_2", scene, 1.0)

@@ -11,6 +11,7 @@ import time
 
 import actionlib
 import rospy
+import rospy_connections
 from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryGoal
 from controller_manager_msgs.srv import ListControllers, SwitchController
 from franka_gripper.msg import MoveAction, MoveGoal
@@ -72,7 +73,7 @@ def switch(start, stop):
 
 
 def main():
-    rospy.init_node("hardware_client", anonymous=True)
+    rospy_connections.init_node("hardware_client", anonymous=True)
     arm = sys.argv[1]
     joints = [f"{arm}_joint{i}" for i in range(1, 8)]
     report = {"state_controller": wait_running("franka_state_controller")}

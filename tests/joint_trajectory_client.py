@@ -10,6 +10,7 @@ import time
 
 import actionlib
 import rospy
+import rospy_connections
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryGoal, JointTolerance
 from controller_manager_msgs.srv import SwitchController
@@ -94,7 +95,7 @@ def other_interfaces(home):
 
 
 def main():
-    rospy.init_node("joint_trajectory_client")
+    rospy_connections.init_node("joint_trajectory_client")
     client = action_of("effort")
     report = {}
     report["reached"] = outcome(client.send_goal(goal_to(TARGET, 4.0)), TARGET)

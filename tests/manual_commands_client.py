@@ -13,6 +13,7 @@ import sys
 import time
 
 import rospy
+import rospy_connections
 from franka_gripper.msg import (
     GraspActionResult,
     HomingActionResult,
@@ -192,7 +193,7 @@ def stops(arm: Arm, shell: Shell) -> dict:
 
 
 def main():
-    rospy.init_node("manual_commands")
+    rospy_connections.init_node("manual_commands")
     set_factor = rospy.ServiceProxy("/gazebo/set_real_time_factor", SetRealTimeFactor)
     set_factor.wait_for_service(LIMIT)
     set_factor(float(sys.argv[1]))

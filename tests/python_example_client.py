@@ -10,6 +10,7 @@ import sys
 import time
 
 import rospy
+import rospy_connections
 from franka_msgs.msg import FrankaState
 
 WAIT = 90.0  # [s] of the wall, for what takes the robot a few seconds
@@ -17,7 +18,7 @@ WAIT = 90.0  # [s] of the wall, for what takes the robot a few seconds
 
 def main():
     seconds, states = float(sys.argv[1]), []
-    rospy.init_node("python_example_client", anonymous=True)
+    rospy_connections.init_node("python_example_client", anonymous=True)
     rospy.Subscriber("/franka_state_controller/franka_states", FrankaState, states.append, queue_size=1000)
 
     def moving():

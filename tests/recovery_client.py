@@ -13,6 +13,7 @@ import time
 
 import actionlib
 import rospy
+import rospy_connections
 from actionlib_msgs.msg import GoalStatus
 from controller_manager_msgs.srv import ListControllers, SwitchController
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
@@ -130,7 +131,7 @@ def user_stop(robot, person):
 
 
 def main():
-    rospy.init_node("recovery_client", anonymous=True)
+    rospy_connections.init_node("recovery_client", anonymous=True)
     robot, person = Robot(), Person(sys.argv[2])
     switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
     started = switch(start_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok

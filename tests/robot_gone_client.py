@@ -14,6 +14,7 @@ import sys
 import time
 
 import rospy
+import rospy_connections
 from controller_manager_msgs.srv import ListControllers, SwitchController
 from franka_msgs.msg import FrankaState
 from recovery_client import CONTROLLER, PUSH, Person, Robot
@@ -72,7 +73,7 @@ def connect_patiently():
 
 
 def main():
-    rospy.init_node("robot_gone_client", anonymous=True)
+    rospy_connections.init_node("robot_gone_client", anonymous=True)
     pid, reconnects, command = int(sys.argv[2]), sys.argv[3] == "true", sys.argv[4:]
     address = command[command.index("--ip") + 1]
     robot = Robot()

@@ -15,6 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
 
 import rospy  # noqa: E402
+import rospy_connections  # noqa: E402
 from fci_session import go_first  # noqa: E402
 from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, REFLEX, Client, command  # noqa: E402
 from franka_msgs.srv import SetLoad  # noqa: E402
@@ -239,7 +240,7 @@ def check_refusals():
 
 
 def main():
-    rospy.init_node("served_robots_client")
+    rospy_connections.init_node("served_robots_client")
     go_first()
     report = {robot: {} for robot in ROBOTS}
     report["inside"] = check_inside()

@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
 
 import rosgraph  # noqa: E402
 import rospy  # noqa: E402
+import rospy_connections  # noqa: E402
 from actionlib import ActionClient, CommState  # noqa: E402
 from actionlib_msgs.msg import GoalStatus  # noqa: E402
 from controller_manager_msgs.srv import (  # noqa: E402
@@ -168,7 +169,7 @@ class Soak:
 
 def main():
     rounds = int(sys.argv[1])
-    rospy.init_node("soak")
+    rospy_connections.init_node("soak")
     soak, chance = Soak(), random.Random(1)
     offset, begin, wall = soak.clock_offset(), rospy.get_time(), time.monotonic()
     footprints = []

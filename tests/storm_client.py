@@ -17,6 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
 
 import rospy  # noqa: E402
+import rospy_connections  # noqa: E402
 from actionlib_msgs.msg import GoalStatus  # noqa: E402
 from controller_manager_msgs.srv import (  # noqa: E402
     ListControllers,
@@ -171,7 +172,7 @@ def storm(robot, until):
 
 
 def main():
-    rospy.init_node("storm_client", anonymous=True)
+    rospy_connections.init_node("storm_client", anonymous=True)
     pid, seconds = int(sys.argv[1]), float(sys.argv[2])
     robot, errors, modes = Robot(), set(), set()
     rospy.Subscriber("/franka_control/has_error", Bool, lambda m: errors.add(m.data))

@@ -21,9 +21,9 @@ ONE, ALL = "/franka_control", "/combined_panda"  # names of the nodes
 
 # The robot falls silent, and a moment later somebody wants it to recover.
 ASK_RECOVERY = f"""
-import actionlib, os, rospy, signal, sys
+import actionlib, os, rospy, rospy_connections, signal, sys
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
-rospy.init_node("asks_for_recovery")
+rospy_connections.init_node("asks_for_recovery")
 client = actionlib.ActionClient("{ONE}/error_recovery", ErrorRecoveryAction)
 assert client.wait_for_server(rospy.Duration(20))
 os.kill(int(sys.argv[1]), signal.SIGSTOP)

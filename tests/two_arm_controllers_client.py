@@ -13,6 +13,7 @@ import time
 
 import numpy as np
 import rospy
+import rospy_connections
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import PoseStamped
 from visualization_msgs.msg import InteractiveMarkerFeedback
@@ -139,7 +140,7 @@ def teleop(robot, leader_address):
 
 
 def main():
-    rospy.init_node("two_arm_controllers_client", anonymous=True)
+    rospy_connections.init_node("two_arm_controllers_client", anonymous=True)
     robot, example, *rest = sys.argv[1:]
     print(json.dumps({"dual": dual, "teleop": teleop}[example](robot, *rest)))
 

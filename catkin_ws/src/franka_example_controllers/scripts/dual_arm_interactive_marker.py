@@ -17,6 +17,7 @@ import sys
 import threading
 
 import rospy
+import rospy_connections
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import PoseStamped
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
@@ -106,7 +107,7 @@ def wait_for_frame():
 
 
 def main():
-    rospy.init_node("dual_arm_interactive_marker")
+    rospy_connections.init_node("dual_arm_interactive_marker")
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--left_arm_id", required=True, help="the arm in whose base the frame is given")
     parser.add_argument("--right_arm_id", required=True, help="the other arm")

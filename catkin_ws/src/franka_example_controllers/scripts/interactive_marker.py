@@ -13,6 +13,7 @@ import sys
 import threading
 
 import rospy
+import rospy_connections
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import Pose, PoseStamped
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
@@ -161,7 +162,7 @@ def wait_for_pose():
 
 
 def main():
-    rospy.init_node("equilibrium_pose_node")
+    rospy_connections.init_node("equilibrium_pose_node")
     link_name = rospy.get_param("~link_name", None)
     if not isinstance(link_name, str) or not link_name:
         rospy.logfatal(

@@ -8,6 +8,7 @@ import threading
 
 import actionlib
 import rospy
+import rospy_connections
 from control_msgs.msg import (
     FollowJointTrajectoryAction,
     FollowJointTrajectoryGoal,
@@ -56,7 +57,7 @@ def run(client, goal, timeout):
 
 
 def main():
-    rospy.init_node("move_to_start")
+    rospy_connections.init_node("move_to_start")
     pose = rospy.get_param("~joint_pose", None)
     max_dq = rospy.get_param("~max_dq", 0.5)
     if not isinstance(pose, dict) or not pose:

@@ -10,6 +10,7 @@ import time
 import unittest
 
 import rospy
+import rospy_connections
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import PoseStamped
 from rosgraph_msgs.msg import Clock
@@ -171,7 +172,7 @@ if __name__ == "__main__":
 
     package = rospkg.RosPack().get_path("franka_example_controllers")
     sys.path.insert(0, os.path.join(package, "scripts"))
-    rospy.init_node("interactive_marker_test", disable_rostime=True)
+    rospy_connections.init_node("interactive_marker_test", disable_rostime=True)
     rostest.rosrun(
         "franka_example_controllers", "interactive_marker", "interactive_marker_test.Suite"
     )

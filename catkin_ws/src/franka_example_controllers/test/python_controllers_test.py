@@ -10,6 +10,7 @@ import unittest
 from pathlib import Path
 
 import rospy
+import rospy_connections
 from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController, UnloadController
 from franka_msgs.msg import FrankaState
 from rosgraph_msgs.msg import Log
@@ -125,5 +126,5 @@ class PythonControllersTest(unittest.TestCase):
 if __name__ == "__main__":
     import rostest
 
-    rospy.init_node("python_controllers_test", disable_rostime=True)
+    rospy_connections.init_node("python_controllers_test", disable_rostime=True)
     rostest.rosrun("franka_example_controllers", "python_controllers", PythonControllersTest)

@@ -11,6 +11,7 @@ import unittest
 
 import actionlib
 import rospy
+import rospy_connections
 from dynamic_reconfigure.client import Client
 from franka_gripper.msg import (
     GraspAction,
@@ -170,5 +171,5 @@ class TeleopGripperTest(unittest.TestCase):
 if __name__ == "__main__":
     import rostest
 
-    rospy.init_node("teleop_gripper_test")
+    rospy_connections.init_node("teleop_gripper_test")
     rostest.rosrun("franka_example_controllers", "teleop_gripper", TeleopGripperTest)

@@ -15,6 +15,7 @@ import time
 
 import actionlib
 import rospy
+import rospy_connections
 from control_msgs.msg import GripperCommand, GripperCommandAction, GripperCommandGoal
 from franka_gripper.msg import (
     GraspAction,
@@ -285,7 +286,7 @@ def death(fingers):
 
 
 def main():
-    rospy.init_node("gripper_client", anonymous=True)
+    rospy_connections.init_node("gripper_client", anonymous=True)
     for name, kind in KINDS.items():
         CLIENTS[name] = actionlib.ActionClient(f"/franka_gripper/{name}", kind)
         if not CLIENTS[name].wait_for_server(rospy.Duration(60)):

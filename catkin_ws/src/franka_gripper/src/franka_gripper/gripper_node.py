@@ -10,6 +10,7 @@ import time
 
 import actionlib
 import rospy
+import rospy_connections
 from control_msgs.msg import GripperCommandAction, GripperCommandResult
 from sensor_msgs.msg import JointState
 
@@ -261,7 +262,7 @@ def connect(parameters, pyfranka):
 
 
 def main():
-    rospy.init_node("franka_gripper_node")
+    rospy_connections.init_node("franka_gripper_node")
     # After the name of the node is known: what this needs is found only where libfranka is built.
     import pyfranka
 

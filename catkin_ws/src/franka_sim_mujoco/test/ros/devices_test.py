@@ -9,6 +9,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import rospy
+import rospy_connections
 import rostest
 from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController
 from franka_msgs.msg import FrankaState
@@ -88,7 +89,7 @@ def masses():
 class DevicesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node("devices_test")
+        rospy_connections.init_node("devices_test")
         cls.robot, cls.machine = Joints(""), Joints("/machine")
         cls.arm = []
         topic = "/franka_state_controller/franka_states"

@@ -11,6 +11,7 @@ import unittest
 import actionlib
 import numpy as np
 import rospy
+import rospy_connections
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController
@@ -128,7 +129,7 @@ class Arm:
 class InterfacesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node("interfaces_test")
+        rospy_connections.init_node("interfaces_test")
         cls.arm = Arm("", rospy.get_param("~arm_id", "panda"))
         cls.strict = Arm("/strict", "strict")
         for arm, wanted in ((cls.arm, "franka_state_controller"), (cls.strict, "hold")):

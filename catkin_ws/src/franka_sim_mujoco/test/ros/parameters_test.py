@@ -8,6 +8,7 @@ import sys
 import unittest
 
 import rospy
+import rospy_connections
 import rostest
 from controller_manager_msgs.srv import LoadController, SwitchController
 from franka_sim_mujoco.srv import (
@@ -72,7 +73,7 @@ def service(name, kind):
 class ParametersTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node("parameters_test")
+        rospy_connections.init_node("parameters_test")
         cls.spawn_service = service("/gazebo/spawn_robot", SpawnRobot)
         cls.delete = service("/gazebo/delete_robot", DeleteRobot)
         cls.push = service("/gazebo/push_body", PushBody)

@@ -10,6 +10,7 @@ import unittest
 
 import actionlib
 import rospy
+import rospy_connections
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import GripperCommandAction, GripperCommandGoal
@@ -90,7 +91,7 @@ def pause(paused=True):
 class SimulationTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node("simulation_test")
+        rospy_connections.init_node("simulation_test")
         end = time.monotonic() + 40
         running = set()
         wanted = {

@@ -11,6 +11,7 @@ import unittest
 
 import numpy
 import rospy
+import rospy_connections
 import rostest
 from controller_manager_msgs.srv import ListControllers
 from franka_msgs.msg import FrankaState
@@ -79,7 +80,7 @@ def running(arm):
 class WorldsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node("worlds_test")
+        rospy_connections.init_node("worlds_test")
         for arm, controller in (
             ("panda_1", "cartesian_impedance_example_controller"),
             ("panda_2", "force_example_controller"),

@@ -3,17 +3,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """The spawner, from its arguments to its end."""
 
+import contextlib
 import os
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+from unittest import mock
 
 import rosnode
 import rospy
 import rostest
+from controller_manager import spawner
 from rosgraph_msgs.msg import Clock
+from rospy.impl.registration import RegManager
 from scripts_common import Manager, Running, wait_until
 from std_msgs.msg import Bool
 
@@ -122,6 +126,17 @@ class SpawnerTest(unittest.TestCase):
                 self.expect({"a": "running"})
                 spawner.interrupt()
             self.expect({})
+
+    def test_hears_a_publisher_of_which_the_news_was_lost(self):
+        deaf = mock.patch.object(RegManager, "publisher_update")
+        with deaf, mock.patch.object(spawner, "LONELY_TIME", 0.5):
+            listener = spawner.Listener("overheard")
+            publisher = rospy.Publisher("overheard", Bool, queue_size=1, latch=True)
+            publisher.publish(True)
+            time.sleep(0.3)
+            self.assertFalse(listener.heard())
+        with contextlib.closing(listener):
+            wait_until(listener.heard, "never heard")
 
     def test_gives_up_on_a_topic(self):
         with Running("spawner", "--timeout", "0.5", "--wait-for", "silence", "a") as spawner:

@@ -3,6 +3,7 @@
 """Loads controllers, starts them, and takes them away again when the spawner is ended."""
 
 import argparse
+import contextlib
 import os
 import signal
 import socket
@@ -29,6 +30,7 @@ STOP_TIMEOUT = 5.0  # [s]
 # The manager's own account of a failed load should stand above ours in the log.
 PAUSE_AFTER_FAILED_LOAD = 1.0  # [s]
 POLL_PERIOD = 0.1  # [s]
+LONELY_TIME = 3.0  # [s] after which a subscriber without a publisher is replaced
 # roslaunch ends all its nodes at once: so long a manager that breaks a call off may take to be gone.
 END_OF_MANAGER = 2.0  # [s]
 # How long a request to end from outside (rosnode kill) waits for the controllers to be taken away.
@@ -185,14 +187,40 @@ def listens(service):
         return False
 
 
+class Listener:
+    """Listens for a true on a topic, and subscribes anew while nobody publishes there.
+
+    rospy misses a publisher for good when that registers in the same moment as the subscriber, and
+    the master's news of it overtakes the master's answer.
+    """
+
+    def __init__(self, topic):
+        self._topic = topic
+        self._said_true = False
+        self._subscribe()
+
+    def _subscribe(self):
+        self._subscriber = rospy.Subscriber(self._topic, Bool, self._take)
+        self._doubt = time.monotonic() + LONELY_TIME
+
+    def _take(self, message):
+        self._said_true = self._said_true or message.data
+
+    def heard(self):
+        """Whether a true has come."""
+        if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._doubt:
+            self.close()
+            self._subscribe()
+        return self._said_true
+
+    def close(self):
+        self._subscriber.unregister()
+
+
 def wait_for_true(topic, timeout, ending):
-    heard = []
-    subscriber = rospy.Subscriber(topic, Bool, lambda message: heard.append(message.data))
-    rospy.loginfo("Controller Spawner: Waiting for %s to say true", subscriber.resolved_name)
-    try:
-        return wait_until(lambda: any(heard), Deadline(timeout), ending)
-    finally:
-        subscriber.unregister()
+    rospy.loginfo("Controller Spawner: Waiting for %s to say true", rospy.resolve_name(topic))
+    with contextlib.closing(Listener(topic)) as listener:
+        return wait_until(listener.heard, Deadline(timeout), ending)
 
 
 def upload(path):

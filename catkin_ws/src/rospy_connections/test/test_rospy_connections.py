@@ -1,0 +1,77 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The order of news that loses a publisher in rospy, and does not after init_node()."""
+
+import threading
+
+import pytest
+import rospy
+import rospy_connections
+from rospy.impl.registration import RegManager
+
+TOPIC, PUBLISHER, OTHER = "/grasp/result", "http://hand:1", "http://hand:2"
+
+
+class Handler:
+    """In the place of the node: remembers what it is told to connect to, and ends after `connections`."""
+
+    def __init__(self):
+        self.connected = []
+        self.done = False
+        self.changed = threading.Condition()
+
+    def _connect_topic(self, topic, uri):
+        with self.changed:
+            self.connected.append((topic, uri))
+            self.changed.notify_all()
+        return 1, "connected", 0
+
+
+def connections(*updates: list[str], expected: int) -> set:
+    """What a node connects to which hears of all these publishers before it can look."""
+    handler = Handler()
+    manager = RegManager(handler)
+    for uris in updates:
+        manager.publisher_update(TOPIC, uris)
+    thread = threading.Thread(target=manager.run)
+    thread.start()
+    with handler.changed:
+        handler.changed.wait_for(lambda: len(handler.connected) >= expected, timeout=5.0 if expected else 1.0)
+    handler.done = True
+    thread.join()
+    return {uri for _, uri in handler.connected}
+
+
+@pytest.fixture
+def mended(monkeypatch):
+    monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
+    monkeypatch.setattr(rospy, "init_node", lambda *_: None)
+    rospy_connections.init_node("any")
+
+
+def test_rospy_itself_loses_a_publisher_whose_news_overtook_the_masters_answer():
+    """When this fails, Debian has mended rospy, and this package has done its duty."""
+    assert connections([PUBLISHER], [], expected=0) == set()
+
+
+@pytest.mark.parametrize(
+    "updates, expected",
+    [
+        ([[PUBLISHER], []], {PUBLISHER}),
+        ([[], [PUBLISHER]], {PUBLISHER}),
+        ([[PUBLISHER], [PUBLISHER]], {PUBLISHER}),
+        ([[PUBLISHER, OTHER], [OTHER]], {PUBLISHER, OTHER}),
+        ([[PUBLISHER], [], [OTHER], []], {PUBLISHER, OTHER}),
+        ([[], []], set()),
+    ],
+)
+def test_no_publisher_is_lost(mended, updates, expected):
+    assert connections(*updates, expected=len(expected)) == expected
+
+
+def test_init_node_hands_on_its_arguments(monkeypatch):
+    monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
+    calls = []
+    monkeypatch.setattr(rospy, "init_node", lambda *arguments, **options: calls.append((arguments, options)))
+    rospy_connections.init_node("name", anonymous=True)
+    assert calls == [(("name",), {"anonymous": True})]
