@@ -69,7 +69,8 @@ void ControlUnit::advanceMotion(const franka_core::RobotCommand* received) noexc
                    [](double tau) { return std::isfinite(tau); })) {
     command = nullptr;
   }
-  if (losses_.record(command != nullptr) && parameters_.reflexes) {
+  const bool due = !move_.use_async_motion_generator;
+  if ((due || command != nullptr) && losses_.record(command != nullptr) && parameters_.reflexes) {
     flag(indexOf(ErrorFlag::kCommunication));
   }
   if (command != nullptr) {

@@ -73,8 +73,8 @@ class ControlUnit {
   /// plus gravity of the configured load and friction compensation.
   /// @param command nullptr when none arrived: motion generators then go on with the same
   /// acceleration, the last torque is held. With reflexes, a command that is not finite or not
-  /// within the limits ends the motion, as do 20 lost in a row; without, a torque that is not
-  /// finite counts as none.
+  /// within the limits ends the motion, as do 20 lost in a row, but for the asynchronous generator,
+  /// whose targets come when they come; without, a torque that is not finite counts as none.
   const std::array<double, 7>& actuate(const franka_core::RobotCommand* command) noexcept;
 
   /// Whether the joints are locked (UserStopped, Other). To be asked after `actuate`.
@@ -107,6 +107,11 @@ class ControlUnit {
   /// kSuccess, kEmergencyAborted (user stop), kAborted (guiding, brakes, or no standstill within
   /// 5 s).
   std::optional<Status> takeRecoveryEnd() noexcept;
+
+  /// Nobody sends commands to the motion that runs any more. One of the asynchronous generator, in
+  /// which a client may be silent for as long as it likes, then ends as others do: after 20 lost
+  /// in a row.
+  void clientGone() noexcept { move_.use_async_motion_generator = false; }
 
   /// Time must go on though no client answers: the arm brakes or recovers.
   bool settling() const noexcept;
