@@ -32,8 +32,8 @@ const std::vector<std::string>& functions() {
   return names;
 }
 
-Bytes stubLibrary() {
-  std::ifstream file(LIBFRANKA_MODEL_STUB, std::ios::binary);
+Bytes stubLibrary(const char* path = LIBFRANKA_MODEL_STUB) {
+  std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
@@ -158,6 +158,23 @@ TEST_F(LibraryModel, OutlivesItsRobot) {
   std::unique_ptr<franka::Model> model;
   model = std::make_unique<franka::Model>(load(stubLibrary()));
   EXPECT_EQ(108, model->pose(Frame::kFlange, q_, F_T_EE_, EE_T_K_)[0]);
+}
+
+TEST_F(LibraryModel, TwoRobotsHaveTwoModels) {
+  const auto flange = [this](const franka::Model& model) {
+    return model.pose(Frame::kFlange, q_, F_T_EE_, EE_T_K_)[0];
+  };
+  const Bytes one = stubLibrary(), other = stubLibrary(LIBFRANKA_OTHER_MODEL_STUB);
+  ASSERT_NE(one, other);
+  {
+    const franka::Model first = load(one), second = load(other), third = load(one);
+    EXPECT_EQ(108, flange(first));
+    EXPECT_EQ(1108, flange(second));
+    EXPECT_EQ(108, flange(third));
+  }
+  // The other one is still loaded, and the number of its file free.
+  EXPECT_EQ(108, flange(load(one)));
+  EXPECT_EQ(1108, flange(load(other)));
 }
 
 }  // namespace

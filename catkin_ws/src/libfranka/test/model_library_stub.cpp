@@ -3,7 +3,12 @@
 //
 // A robot's model library that does not compute: each function answers with its own number first,
 // then with the sums of what it was given, so that a test sees which one was called and with what.
+// The functions of a second library (FRANKA_TEST_FIRST_NUMBER 1000) have other numbers.
 #include <cstddef>
+
+#ifndef FRANKA_TEST_FIRST_NUMBER
+#define FRANKA_TEST_FIRST_NUMBER 0
+#endif
 
 namespace {
 
@@ -17,7 +22,7 @@ double sum(const double* values, std::size_t size) {
 
 void answer(double* out, double number, double first = 0.0, double second = 0.0, double third = 0.0,
             double fourth = 0.0) {
-  out[0] = number;
+  out[0] = FRANKA_TEST_FIRST_NUMBER + number;
   out[1] = first;
   out[2] = second;
   out[3] = third;

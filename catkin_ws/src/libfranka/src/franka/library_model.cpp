@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <franka/exception.h>
 #include <link.h>
 #include <sys/mman.h>
@@ -72,6 +73,45 @@ bool isComplete(const std::vector<std::uint8_t>& object) {
   return true;
 }
 
+std::string pathOf(const network::Descriptor& memory) {
+  return "/proc/self/fd/" + std::to_string(memory.get());
+}
+
+/// Whether the loader holds an object under this path.
+bool isLoaded(const std::string& path) {
+  void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD);
+  if (handle != nullptr) {
+    dlclose(handle);
+  }
+  return handle != nullptr;
+}
+
+/// The bytes as a file that is in memory only, under a path that the loader has not seen: for one
+/// that it has, it would hand out the object it knows instead of reading the file. Such paths are
+/// left behind by objects that the loader keeps although they were closed, and in a process that
+/// was forked and has closed its parent's files.
+network::Descriptor inMemory(const std::vector<std::uint8_t>& bytes) {
+  network::Descriptor memory(memfd_create("franka_model", MFD_CLOEXEC));
+  std::size_t written = 0;
+  while (memory.get() >= 0 && written < bytes.size()) {
+    const ssize_t count = write(memory.get(), bytes.data() + written, bytes.size() - written);
+    if (count <= 0 && errno != EINTR) {
+      break;
+    }
+    written += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  if (memory.get() < 0 || written < bytes.size()) {
+    throw ModelException(network::systemError("Cannot keep the model library", errno));
+  }
+  while (isLoaded(pathOf(memory))) {
+    memory = network::Descriptor(fcntl(memory.get(), F_DUPFD_CLOEXEC, memory.get() + 1));
+    if (memory.get() < 0) {
+      throw ModelException(network::systemError("Cannot keep the model library", errno));
+    }
+  }
+  return memory;
+}
+
 /// A loaded shared object. It never touches the disk.
 class SharedObject {
  public:
@@ -82,20 +122,8 @@ class SharedObject {
           "machine's kind of processor (" +
           std::to_string(bytes.size()) + " bytes arrived).");
     }
-    const network::Descriptor memory(memfd_create("franka_model", MFD_CLOEXEC));
-    std::size_t written = 0;
-    while (memory.get() >= 0 && written < bytes.size()) {
-      const ssize_t count = write(memory.get(), bytes.data() + written, bytes.size() - written);
-      if (count <= 0 && errno != EINTR) {
-        break;
-      }
-      written += count > 0 ? static_cast<std::size_t>(count) : 0;
-    }
-    if (memory.get() < 0 || written < bytes.size()) {
-      throw ModelException(network::systemError("Cannot keep the model library", errno));
-    }
-    const std::string path = "/proc/self/fd/" + std::to_string(memory.get());
-    handle_ = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    memory_ = inMemory(bytes);
+    handle_ = dlopen(pathOf(memory_).c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle_ == nullptr) {
       throw ModelException(std::string("libfranka: Cannot load the model library that the robot "
                                        "sent (") +
@@ -121,6 +149,7 @@ class SharedObject {
   }
 
  private:
+  network::Descriptor memory_;  // open as long as the object is loaded: its path is nobody else's
   void* handle_{nullptr};
 };
 
