@@ -121,9 +121,26 @@ TEST_P(Active, AnAbortComesOutOfReadOnce) {
                          "libfranka: Move command aborted: motion aborted by reflex! "
                          "[\"communication_constraints_violation\"]\n"))
       << text;
+  // The robot's reply has been read; it is told again at once.
+  EXPECT_EQ(text, textOf<ControlException>([&] { motion->readOnce(); }));
+  EXPECT_EQ(text, textOf<ControlException>([&] { motion->writeOnce(Torques(kTorques)); }));
+  EXPECT_EQ(text, textOf<ControlException>([&] { motion->readOnce(); }));
+  EXPECT_EQ(10u, fake.exchanges().size());
   motion.reset();
   EXPECT_EQ(1, fake.count(Command::kStopMove));
   EXPECT_NO_THROW(robot->readOnce());
+}
+
+TEST_P(Active, AnAbortAtTheEndIsToldAgainToo) {
+  const auto robot = connect(fake);
+  fake.script([](FakeRobot::Script& s) { s.end_at_finish = Status::kReflexAborted; });
+  const auto motion = robot->startTorqueControl();
+  motion->readOnce();
+  const auto finish = [&] { motion->writeOnce(franka::MotionFinished(Torques(kTorques))); };
+  const std::string text = textOf<ControlException>(finish);
+  EXPECT_NE(std::string::npos, text.find("Motion finished commanded"));
+  EXPECT_EQ(text, textOf<ControlException>([&] { motion->readOnce(); }));
+  EXPECT_EQ(text, textOf<ControlException>(finish));
 }
 
 TEST_P(Active, AsynchronousMotionsAreForTheNewestRobots) {

@@ -93,5 +93,54 @@ TEST(AsyncPositions, TellWhatIsWrong) {
   EXPECT_NE(std::string::npos, feedback.error_message->find("cartesian_reflex"));
 }
 
+class AsyncAbort : public ::testing::Test {
+ protected:
+  /// A motion that the robot ends at its first target, which nobody has noticed yet.
+  AsyncAbort() {
+    fake_.script([](FakeRobot::Script& s) {
+      s.abort_after = 1;
+      s.abort_errors = {7};
+    });
+    EXPECT_TRUE(handler_->setJointPositionTarget({kTarget}).was_successful);
+    EXPECT_TRUE(fake_.waitUntil(
+        [this] { return fake_.state().robot_mode == franka_core::RobotMode::kReflex; }));
+  }
+
+  void expectAborted(const std::optional<std::string>& message) {
+    ASSERT_TRUE(message);
+    EXPECT_NE(std::string::npos, message->find("cartesian_reflex")) << *message;
+    const auto feedback = handler_->getTargetFeedback();
+    EXPECT_EQ(TargetStatus::kAborted, feedback.status);
+    EXPECT_EQ(message, feedback.error_message);
+    const auto result = handler_->setJointPositionTarget({kTarget});
+    EXPECT_FALSE(result.was_successful);
+    EXPECT_EQ(message, result.error_message);
+    EXPECT_EQ(1u, fake_.exchanges().size());
+    EXPECT_NO_THROW(robot_->readOnce());
+  }
+
+  FakeRobot fake_{10};
+  std::shared_ptr<franka::Robot> robot_{share(fake_)};
+  std::shared_ptr<Handler> handler_{Handler::configure(robot_, {kVelocities}).handler};
+};
+
+TEST_F(AsyncAbort, TheNextTargetIsNoSuccess) {
+  const auto result = handler_->setJointPositionTarget({kTarget});
+  EXPECT_FALSE(result.was_successful);
+  EXPECT_EQ("", result.motion_uuid);
+  expectAborted(result.error_message);
+}
+
+TEST_F(AsyncAbort, AStateTellsIt) {
+  franka::RobotState state;
+  state.robot_mode = franka::RobotMode::kIdle;  // from before the motion
+  EXPECT_EQ(TargetStatus::kExecuting, handler_->getTargetFeedback(state).status);
+  state.robot_mode = franka::RobotMode::kReflex;
+  state.time = franka::Duration(fake_.state().message_id);
+  const auto feedback = handler_->getTargetFeedback(state);
+  EXPECT_EQ(TargetStatus::kAborted, feedback.status);
+  expectAborted(feedback.error_message);
+}
+
 }  // namespace
 }  // namespace franka_test

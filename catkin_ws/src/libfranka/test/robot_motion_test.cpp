@@ -463,6 +463,21 @@ TEST_F(Datagrams, OneThatIsNoStateStopsTheMotion) {
   EXPECT_EQ(franka_core::RobotMode::kIdle, fake.state().robot_mode);
 }
 
+TEST_F(Datagrams, OneThatIsNoStateStopsAMotionThatBegins) {
+  fake.script([this](FakeRobot::Script& s) {
+    s.shows_motion = false;
+    s.transmit = [this](Datagram d) {
+      if (fake.count(Command::kMove) > fake.count(Command::kStopMove)) {
+        d.pop_back();
+      }
+      return std::vector<Datagram>{d};
+    };
+  });
+  EXPECT_THROW(robot->control(endlessTorques()), franka::ProtocolException);
+  EXPECT_EQ(1, fake.count(Command::kStopMove));
+  EXPECT_NO_THROW(robot->readOnce());
+}
+
 TEST_F(Datagrams, StatesThatStopAreNoticed) {
   const ShortTimeouts timeouts;
   const auto client = std::make_unique<FakeRobot>(10);

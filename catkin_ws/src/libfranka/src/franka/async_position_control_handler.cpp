@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <franka/async_control/async_position_control_handler.hpp>
 #include <random>
+#include <stdexcept>
 
 namespace franka {
 
@@ -29,7 +30,9 @@ std::string newUuid() {
 
 AsyncPositionControlHandler::AsyncPositionControlHandler(std::unique_ptr<ActiveControlBase> motion,
                                                          double goal_tolerance)
-    : motion_(std::move(motion)), goal_tolerance_(goal_tolerance) {}
+    : motion_(std::move(motion)),
+      started_at_(motion_->readOnce().first.time),
+      goal_tolerance_(goal_tolerance) {}
 
 AsyncPositionControlHandler::~AsyncPositionControlHandler() = default;
 
@@ -64,9 +67,14 @@ AsyncPositionControlHandler::CommandResult AsyncPositionControlHandler::setJoint
   std::array<double, 7> positions{};
   std::copy_n(target.joint_positions.begin(), 7, positions.begin());
   try {
+    // The newest state is what the target answers, and it tells whether the motion still runs.
+    motion_->readOnce();
     motion_->writeOnce(JointPositions(positions));
-  } catch (const std::exception& error) {
+  } catch (const std::invalid_argument& error) {
     return {"", false, error.what()};
+  } catch (const Exception& error) {
+    abort(error.what());
+    return {"", false, abort_message_};
   }
   target_ = positions;
   return {newUuid(), true, std::nullopt};
@@ -79,16 +87,29 @@ AsyncPositionControlHandler::TargetFeedback AsyncPositionControlHandler::getTarg
   }
   try {
     const RobotState state = robot_state ? *robot_state : motion_->readOnce().first;
+    if (showsEnd(state)) {
+      motion_->readOnce();  // throws what the robot says about it
+      throw ControlException("libfranka: The robot does not move any more.");
+    }
     if (!target_) {
       return {TargetStatus::kIdle, std::nullopt};
     }
     return {isReached(state) ? TargetStatus::kTargetReached : TargetStatus::kExecuting,
             std::nullopt};
   } catch (const Exception& error) {
-    abort_message_ = error.what();
-    motion_.reset();
+    abort(error.what());
     return {TargetStatus::kAborted, abort_message_};
   }
+}
+
+void AsyncPositionControlHandler::abort(const char* message) {
+  abort_message_ = message;
+  motion_.reset();
+}
+
+bool AsyncPositionControlHandler::showsEnd(const RobotState& state) const {
+  // States from before the motion say nothing about it.
+  return state.time >= started_at_ && state.robot_mode != RobotMode::kMove;
 }
 
 bool AsyncPositionControlHandler::isReached(const RobotState& state) const {

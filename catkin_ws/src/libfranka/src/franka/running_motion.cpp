@@ -24,24 +24,49 @@ RunningMotion::RunningMotion(Robot::Impl& robot, const fci::MoveRequest& request
   try {
     start();
   } catch (const NetworkException&) {
-    // The robot may be moving by now, unheard.
     connection_lost_ = true;
-    cancel();
-    robot_.forget(id_);
+    abandonStart();
     throw;
   } catch (...) {
-    robot_.forget(id_);
+    abandonStart();
     throw;
   }
 }
 
+void RunningMotion::abandonStart() noexcept {
+  // Unless the robot itself says that there is no motion, it may be moving by now.
+  if (!end_) {
+    cancel();
+  }
+  robot_.forget(id_);
+}
+
 RunningMotion::~RunningMotion() { robot_.forget(id_); }
+
+void RunningMotion::requireRunning() const {
+  if (end_) {
+    std::rethrow_exception(end_);
+  }
+}
+
+/// What the robot says at the end of a motion it says once: who asks again hears the same.
+template <typename Function>
+void RunningMotion::concludeWith(Function function) {
+  try {
+    function();
+  } catch (...) {
+    end_ = std::current_exception();
+    throw;
+  }
+}
 
 void RunningMotion::start() {
   const Reply reply =
       robot_.receive(fci::Command::kMove, id_, robot_.bounds().command, /*owns_states=*/true);
   if (fci::meaning(reply.status) != fci::Meaning::kGood) {
-    throw CommandException(fci::statusText(fci::Command::kMove, reply.status, robot_.mode()));
+    concludeWith([&] {
+      throw CommandException(fci::statusText(fci::Command::kMove, reply.status, robot_.mode()));
+    });
   }
   awaitStart();
 }
@@ -55,7 +80,7 @@ void RunningMotion::awaitStart() {
       return;
     }
     if (reply && reply->status != fci::Status::kMotionStarted) {
-      throwEnd(*reply, nullptr);
+      concludeWith([&] { throwEnd(*reply, nullptr); });
     }
     if (Robot::Impl::Clock::now() > deadline) {
       throw NetworkException(std::string(fci::kConnectionTimeout) +
@@ -71,6 +96,7 @@ bool RunningMotion::isShown() const noexcept {
 }
 
 void RunningMotion::send(const franka_core::RobotCommand& command) {
+  requireRunning();
   sent_ = command;
   robot_.sendCommand(sent_);
 }
@@ -86,14 +112,17 @@ void RunningMotion::receiveState() {
 }
 
 const franka_core::RobotState& RunningMotion::receive() {
+  requireRunning();
   receiveState();
   if (robot_.state().robot_mode != franka_core::RobotMode::kMove || !isShown()) {
-    const Reply reply = lastReply();
-    if (reply.status == fci::Status::kSuccess) {
-      throw ProtocolException(fci::unexpectedResponse(fci::Command::kMove) +
-                              " The robot ended the motion unasked, and calls that a success.");
-    }
-    throwEnd(reply, nullptr);
+    concludeWith([this] {
+      const Reply reply = lastReply();
+      if (reply.status == fci::Status::kSuccess) {
+        throw ProtocolException(fci::unexpectedResponse(fci::Command::kMove) +
+                                " The robot ended the motion unasked, and calls that a success.");
+      }
+      throwEnd(reply, nullptr);
+    });
   }
   return robot_.state();
 }
@@ -109,10 +138,12 @@ void RunningMotion::finish(franka_core::RobotCommand command) {
                              " The robot does not end the motion, although its end is commanded.");
     }
   } while (robot_.isMoving());
-  const Reply reply = lastReply();
-  if (reply.status != fci::Status::kSuccess) {
-    throwEnd(reply, fci::kStillMoving);
-  }
+  concludeWith([this] {
+    const Reply reply = lastReply();
+    if (reply.status != fci::Status::kSuccess) {
+      throwEnd(reply, fci::kStillMoving);
+    }
+  });
 }
 
 RunningMotion::Reply RunningMotion::lastReply() {

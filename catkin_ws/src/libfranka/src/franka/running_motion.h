@@ -4,6 +4,7 @@
 
 #include <franka_core/fci/commands.h>
 
+#include <exception>
 #include <optional>
 #include <string>
 
@@ -25,9 +26,10 @@ class RunningMotion {
   RunningMotion(const RunningMotion&) = delete;
   RunningMotion& operator=(const RunningMotion&) = delete;
 
-  /// Answers the newest state.
+  /// Answers the newest state. @throws what ended the motion, if receive or finish has told it.
   void send(const franka_core::RobotCommand& command);
-  /// Waits for the next state. @throws ControlException if it shows that the motion has ended.
+  /// Waits for the next state. @throws ControlException if it shows that the motion has ended; from
+  /// then on at once.
   const franka_core::RobotState& receive();
   /// Ends the motion with this command, which the robot gets until it stands still.
   /// @throws ControlException if the motion ends in another way.
@@ -45,8 +47,12 @@ class RunningMotion {
 
   void start();
   void awaitStart();
+  void abandonStart() noexcept;
   bool isShown() const noexcept;
   void receiveState();
+  void requireRunning() const;
+  template <typename Function>
+  void concludeWith(Function function);
   Reply lastReply();
   [[noreturn]] void throwEnd(const Reply& reply, const char* reflex_text);
 
@@ -55,6 +61,7 @@ class RunningMotion {
   MotionLog log_;
   std::uint32_t id_{0};
   std::optional<Reply> early_end_;  // the second reply, where it came before the motion was shown
+  std::exception_ptr end_;          // what was thrown because the motion has ended
   franka_core::RobotCommand sent_;
   bool connection_lost_{false};
 };

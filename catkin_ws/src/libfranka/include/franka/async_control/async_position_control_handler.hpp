@@ -63,18 +63,22 @@ class AsyncPositionControlHandler {
                                        const Configuration& configuration);
   ~AsyncPositionControlHandler();
 
-  /// Sends a target.
+  /// Sends a target in answer to the next state, which is waited for.
   CommandResult setJointPositionTarget(const JointPositionTarget& target);
-  /// @param robot_state the newest state; without it the next one is waited for.
+  /// @param robot_state the newest state; without it the next one is waited for. One of this motion
+  /// in another mode than kMove shows that the motion has ended.
   TargetFeedback getTargetFeedback(const std::optional<RobotState>& robot_state = std::nullopt);
   /// Stops the robot and ends the motion.
   void stopControl();
 
  private:
   AsyncPositionControlHandler(std::unique_ptr<ActiveControlBase> motion, double goal_tolerance);
+  void abort(const char* message);
+  bool showsEnd(const RobotState& state) const;
   bool isReached(const RobotState& state) const;
 
   std::unique_ptr<ActiveControlBase> motion_;
+  Duration started_at_;  // time of a state of the motion
   double goal_tolerance_;
   std::optional<std::array<double, 7>> target_;
   std::optional<std::string> abort_message_;
