@@ -1,0 +1,167 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every launch file of the tree, read by roslaunch as for a person with a real robot; nothing is started.
+
+It can be read, with each of its switches turned too; what it wants to start is there; rviz looks at the arm
+that was asked for; and nothing of another arm's name is left.
+"""
+
+import functools
+import re
+import shlex
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+import yaml
+from rosgraph.names import ns_join, resolve_name
+from roslaunch.config import ROSLaunchConfig, load_config_default
+from roslaunch.core import RLException
+from roslaunch.xmlloader import XmlLoader
+from roslib.packages import find_node
+
+SOURCE = Path(__file__).resolve().parent.parent / "catkin_ws" / "src"
+FILES = {f"{path.parent.parent.name}/{path.name}": path for path in SOURCE.glob("**/launch/**/*.launch")}
+
+# What a launch file may insist on, and what a person would answer: enter here what a new one needs.
+REQUIRED = {
+    "robot": "panda",
+    "robot_ip": "10.0.0.1",
+    "robot_ips": "{panda_1/robot_ip: 10.0.0.1, panda_2/robot_ip: 10.0.0.2}",
+    "leader_ip": "10.0.0.1",
+    "follower_ip": "10.0.0.2",
+}
+KINDS = ("robot", "robot_type")  # arguments that may say panda or fr3
+CALLS = ["plain", "other"]  # of a Panda; of an FR3 of another name in a namespace
+MARKERS = {  # nodes, and the names of the markers that they serve
+    "interactive_marker.py": "equilibrium_pose_marker",
+    "dual_arm_interactive_marker.py": "target_pose_marker",
+}
+
+
+class Reader(XmlLoader):
+    """Asks xacro once for the same line, or leaves robots' descriptions empty."""
+
+    answers: dict[str, str] = {}
+
+    def __init__(self, with_descriptions: bool = True):
+        super().__init__(resolve_anon=False)
+        self._with_descriptions = with_descriptions
+
+    def param_value(self, verbose, name, ptype, value, textfile, binfile, command):
+        ask = super().param_value
+        if command is None:
+            return ask(verbose, name, ptype, value, textfile, binfile, command)
+        if not self._with_descriptions:
+            return "<robot/>"
+        line = " ".join(command.split())
+        if line not in self.answers:
+            self.answers[line] = ask(verbose, name, ptype, value, textfile, binfile, command)
+        return self.answers[line]
+
+
+def read(path: Path, given: list[str], loader: XmlLoader) -> ROSLaunchConfig:
+    return load_config_default([(str(path), given)], None, loader=loader, assign_machines=False)
+
+
+@functools.cache
+def needed(path: Path) -> tuple[str, ...]:
+    """The arguments that a launch file insists on, itself or by those that it includes."""
+    given = []
+    while True:
+        try:
+            read(path, given, Reader(with_descriptions=False))
+            return tuple(given)
+        except RLException as error:
+            missing = re.search(r"(?:requires the|arg) '(\w+)' (?:arg to be set|is not defined)", str(error))
+            argument = f"{missing[1]}:={REQUIRED.get(missing[1])}" if missing else ""
+            if not missing or missing[1] not in REQUIRED or argument in given:
+                raise
+            given.append(argument)
+
+
+@functools.cache
+def declared(path: Path) -> dict[str, str | None]:
+    """Arguments of a launch file's own, and their defaults; None where it insists on one."""
+    loader = XmlLoader(resolve_anon=False, args_only=True)
+    read(path, list(needed(path)), loader)
+    told = loader.root_context.resolve_dict.get("arg_doc", {})
+    return {name: default for name, (_, default) in told.items()}
+
+
+@functools.cache
+def is_there(package: str, node: str) -> bool:
+    return bool(find_node(package, node))
+
+
+def check_nodes(config: ROSLaunchConfig) -> None:
+    assert not config.config_errors
+    for node in config.nodes:
+        assert is_there(node.package, node.type), f"{node.package} has no node {node.type}"
+
+
+def name_for(node, name: str) -> str:
+    """What a node means by a name, in its namespace and with its remappings."""
+    place = ns_join(node.namespace, node.name)
+    remaps = {resolve_name(a, place): resolve_name(b, place) for a, b in node.remap_args}
+    name = resolve_name(name, place)
+    return remaps.get(name, name)
+
+
+def check_rviz(config: ROSLaunchConfig) -> int:
+    """What rviz is told to look at exists: the frame in its robot, markers where their node is."""
+    found = [node for node in config.nodes if node.type == "rviz"]
+    for node in found:
+        words = shlex.split(node.args)
+        options = dict(zip(words[::2], words[1::2]))
+        assert "-f" in options, "rviz is told no fixed frame: it would be the file's, whatever the arm."
+        description = config.params[name_for(node, "robot_description")].value
+        assert options["-f"] in {
+            link.get("name") for link in ElementTree.fromstring(description).iter("link")
+        }
+        displays = yaml.safe_load(Path(options["-d"]).read_text())["Visualization Manager"]["Displays"]
+        shown = {name_for(node, display["Update Topic"]) for display in displays if "Update Topic" in display}
+        for other in config.nodes:
+            if other.type in MARKERS:
+                assert ns_join(other.namespace, f"{MARKERS[other.type]}/update") in shown
+    return len(found)
+
+
+def check_names(config: ROSLaunchConfig) -> None:
+    """Of an arm of another name, nothing is called panda; only the pair of two arms may be."""
+    told = {name: param.value for name, param in config.params.items()}
+    told.update({f"node {node.name}": node.args for node in config.nodes})
+    of_others = re.compile("description|/dual_arm_")
+    offending = {key: value for key, value in told.items() if re.search(r"\bpanda", f"{key} {value}")}
+    assert not [key for key in offending if not of_others.search(key)]
+
+
+@pytest.mark.parametrize("call", CALLS)
+@pytest.mark.parametrize("name", sorted(FILES))
+def test_it_is_read_as_for_a_real_robot(name, call):
+    path = FILES[name]
+    arguments = declared(path)
+    given = [*needed(path), "rviz:=true", "interactive_marker:=true"]
+    if call == "other":
+        given += [f"{kind}:=fr3" for kind in KINDS if arguments.get(kind, "") in ("panda", None)]
+        given += ["__ns:=left", *(["arm_id:=other"] if "arm_id" in arguments else [])]
+    config = read(path, given, Reader())
+    check_nodes(config)
+    if "rviz" in arguments:
+        assert check_rviz(config) == 1
+    if "arm_id:=other" in given:
+        check_names(config)
+
+
+@pytest.mark.parametrize("name", sorted(FILES))
+def test_it_is_read_with_every_switch_turned(name):
+    path = FILES[name]
+    switches = {argument: str(default).lower() for argument, default in declared(path).items()}
+    turned = {"true": "false", "false": "true"}
+    calls = [f"{switch}:={turned[now]}" for switch, now in switches.items() if now in turned]
+    for given in [*calls, "sim:=true"]:  # a switch of nearly all, often of a file that is included
+        check_nodes(read(path, [*needed(path), given], Reader(with_descriptions=False)))
+
+
+def test_all_launch_files_are_known_here():
+    assert len(FILES) >= 27 and "franka_control/franka_control.launch" in FILES
