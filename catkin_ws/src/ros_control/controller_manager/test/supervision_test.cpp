@@ -1,9 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // What parameters turn on: faulty controllers are aborted alone, statistics, the default timeout.
+#include <controller_manager/internal/command_guard.h>
 #include <controller_manager/internal/time_statistics.h>
 #include <controller_manager_msgs/ControllersStatistics.h>
+#include <hardware_interface/position_velocity_torque_gains_command_interface.h>
+#include <hardware_interface/posvelacc_command_interface.h>
 #include <ros/callback_queue.h>
+
+#include <limits>
+#include <numeric>
 
 #include "supervision_fixture.h"
 
@@ -19,6 +25,49 @@ TEST_F(SupervisionTest, withoutTheParameterExceptionsPassAsInTheOriginal) {
   ASSERT_TRUE(doSwitch({"faulty"}, {}));
   FaultyController::inUpdate() = Mischief::kThrow;
   EXPECT_THROW(step(), std::runtime_error);
+}
+
+TEST_F(SupervisionTest, withoutTheParameterAStartThatThrowsEndsTheSwitch) {
+  renew();
+  load({"a", "faulty", "c"});
+  FaultyController::throwsIn() = "starting";
+  LogCatcher log;
+  std::future<bool> answer = postSwitch({"a", "faulty", "c"}, {});
+  EXPECT_EQ(1, stepThroughExceptions(answer));
+  EXPECT_FALSE(answer.get());
+  EXPECT_TRUE(controller("a").isRunning()) << "it was started before the exception";
+  EXPECT_TRUE(controller("faulty").isAborted());
+  EXPECT_TRUE(controller("c").isAborted());
+  EXPECT_THAT(log.text(), testing::HasSubstr("an exception went through the control loop: the "
+                                             "target is unknown. What had not been started"));
+  FaultyController::throwsIn().clear();
+  EXPECT_TRUE(doSwitch({"faulty", "c"}, {}));
+  EXPECT_TRUE(controller("faulty").isRunning());
+  EXPECT_EQ(1, controller("a").starts_) << "the broken switch is over";
+}
+
+TEST_F(SupervisionTest, withoutTheParameterAStopThatThrowsEndsTheSwitch) {
+  renew();
+  load({"a", "faulty", "c"});
+  ASSERT_TRUE(doSwitch({"a", "faulty"}, {}));
+  FaultyController::throwsIn() = "stopping";
+  std::future<bool> answer = postSwitch({"c"}, {"faulty", "a"});
+  EXPECT_EQ(1, stepThroughExceptions(answer));
+  EXPECT_FALSE(answer.get());
+  for (const char* const name : {"a", "faulty", "c"}) {
+    EXPECT_TRUE(controller(name).isAborted()) << name;
+  }
+  EXPECT_TRUE(doSwitch({"c"}, {}));
+}
+
+TEST_F(SupervisionTest, withoutTheParameterARestartThatThrowsLeavesTheControllerStopped) {
+  renew();
+  load({"faulty"});
+  ASSERT_TRUE(doSwitch({"faulty"}, {}));
+  FaultyController::throwsIn() = "starting";
+  EXPECT_THROW(step(true), std::runtime_error);
+  EXPECT_TRUE(controller("faulty").isStopped());
+  EXPECT_NO_THROW(step(true));
 }
 
 TEST_F(SupervisionTest, aControllerThatThrowsIsAbortedAlone) {
@@ -43,6 +92,102 @@ TEST_F(SupervisionTest, noNanReachesTheRobot) {
   misbehave(Mischief::kNan);
   EXPECT_THAT(log.text(), testing::HasSubstr("it commanded joint 'j3' a value that is no number"));
   EXPECT_EQ(7.0, command("j3"));
+}
+
+TEST_F(SupervisionTest, aFaultInTheFirstUpdateLeavesWhatTheStartCommanded) {
+  renewGuarded();
+  step();
+  ASSERT_EQ(7.0, command("j3")) << "of an earlier run";
+  for (const Mischief mischief : {Mischief::kNan, Mischief::kThrow}) {
+    FaultyController::inUpdate() = Mischief::kNone;
+    ASSERT_TRUE(doSwitch({}, {"faulty"}, dummies::kBestEffort));
+    FaultyController::inUpdate() = mischief;
+    const int switches = robot_.switches_;
+    ASSERT_TRUE(doSwitch({"faulty"}, {}));
+    stepUntilTold(switches + 1);
+    EXPECT_TRUE(controller("faulty").isAborted());
+    EXPECT_EQ(FaultyController::kFirstCommand, command("j3"));
+  }
+}
+
+TEST_F(SupervisionTest, aRestartThatThrowsIsAbortedAlone) {
+  for (const char* const callback : {"stopping", "starting"}) {
+    FaultyController::throwsIn().clear();
+    renewGuarded();
+    step();
+    const int switches = robot_.switches_;
+    FaultyController::throwsIn() = callback;
+    LogCatcher log;
+    EXPECT_NO_THROW(step(true));
+    EXPECT_TRUE(controller("faulty").isAborted()) << callback;
+    EXPECT_EQ(7.0, command("j3"));
+    EXPECT_EQ(2, controller("a").starts_);
+    EXPECT_TRUE(controller("a").isRunning());
+    stepUntilTold(switches);
+    EXPECT_EQ("faulty", robot_.prepared_stop_.back());
+    EXPECT_THAT(log.text(), testing::HasSubstr("its restart threw: the target is unknown"));
+  }
+}
+
+TEST_F(SupervisionTest, aRestartGoesThroughTheGuards) {
+  renewGuarded();
+  step(true);
+  for (const char* const name : {"a", "faulty"}) {
+    EXPECT_TRUE(controller(name).isRunning());
+    EXPECT_EQ(1, controller(name).stops_);
+    EXPECT_EQ(2, controller(name).starts_);
+  }
+}
+
+TEST_F(SupervisionTest, aWaitThatThrowsIsAbortedAlone) {
+  own_.setParam("abort_faulty_controllers", true);
+  for (const bool asap : {false, true}) {
+    renew();
+    load({"a", "faulty"});
+    robot_.script_.assign(static_cast<std::size_t>(robot_.result_calls_) + 8,
+                          hardware_interface::RobotHW::SwitchState::ONGOING);
+    FaultyController::throwsIn() = "waiting";
+    LogCatcher log;
+    EXPECT_TRUE(doSwitch({"a", "faulty"}, {}, kStrict, asap));
+    EXPECT_TRUE(controller("a").isRunning());
+    EXPECT_TRUE(controller("faulty").isAborted());
+    EXPECT_EQ(0, controller("faulty").starts_);
+    EXPECT_EQ("faulty", robot_.prepared_stop_.back());
+    EXPECT_THAT(log.text(), testing::HasSubstr("its waiting threw: the target is unknown"));
+  }
+}
+
+TEST_F(SupervisionTest, anAbortThatThrowsIsHeldBack) {
+  own_.setParam("abort_faulty_controllers", true);
+  robot_.after_script_ = hardware_interface::RobotHW::SwitchState::ERROR;
+  FaultyController::throwsIn() = "aborting";
+  for (const bool asap : {false, true}) {
+    renew();
+    load({"faulty", "a"});
+    LogCatcher log;
+    EXPECT_TRUE(doSwitch({"faulty", "a"}, {}, kStrict, asap));
+    EXPECT_TRUE(controller("faulty").isAborted());
+    EXPECT_EQ(1, controller("a").aborts_);
+    EXPECT_THAT(log.text(), testing::HasSubstr("Controller 'faulty' threw in its aborting"));
+  }
+}
+
+TEST_F(SupervisionTest, theRobotIsToldWhenALongSwitchHasEnded) {
+  renewGuarded();
+  load({"c"});
+  robot_.after_script_ = hardware_interface::RobotHW::SwitchState::ONGOING;
+  std::future<bool> answer = beginSwitch({"c"}, {});
+  LogCatcher log;
+  FaultyController::inUpdate() = Mischief::kThrow;
+  waitFor([&] {
+    step();
+    return log.text().find("another switch is under way") != std::string::npos;
+  });
+  const int switches = robot_.switches_;
+  robot_.after_script_ = hardware_interface::RobotHW::SwitchState::DONE;
+  EXPECT_TRUE(stepUntil(std::move(answer)));
+  stepUntilTold(switches);
+  EXPECT_EQ("faulty", robot_.prepared_stop_.back());
 }
 
 TEST_F(SupervisionTest, aSlowControllerIsAborted) {
@@ -97,7 +242,7 @@ TEST_F(SupervisionTest, aStartThatThrowsIsTakenBack) {
   own_.setParam("abort_faulty_controllers", true);
   renew();
   load({"a", "faulty"});
-  FaultyController::inStarting() = true;
+  FaultyController::throwsIn() = "starting";
   LogCatcher log;
   EXPECT_TRUE(doSwitch({"a", "faulty"}, {}));
   EXPECT_TRUE(controller("a").isRunning());
@@ -188,7 +333,65 @@ TEST_F(SupervisionTest, statisticsTellHowLongControllersTake) {
   EXPECT_GE(execution.mean_time.toSec(), busy.mean_time.toSec());
   const auto& period = last.controller[3];
   EXPECT_EQ("period", period.type);
-  EXPECT_GE(period.mean_time.toSec(), execution.mean_time.toSec());
+  EXPECT_GE(period.mean_time.toSec(), 0.003);
+}
+
+TEST(CommandGuard, watchesEveryNumberOfEveryInterfaceThatCommandsJoints) {
+  namespace hw = hardware_interface;
+  const double measured = 0.25;
+  double numbers[5] = {};
+  double* const n = numbers;
+  const hw::JointStateHandle state("elbow", &measured, &measured, &measured);
+  hw::EffortJointInterface effort;
+  hw::VelocityJointInterface velocity;
+  hw::PositionJointInterface position;
+  hw::PosVelJointInterface pos_vel;
+  hw::PosVelAccJointInterface pos_vel_acc;
+  hw::PositionVelocityTorqueGainsJointInterface gains;
+  effort.registerHandle({state, n});
+  velocity.registerHandle({state, n});
+  position.registerHandle({state, n});
+  pos_vel.registerHandle({state, n, n + 1});
+  pos_vel_acc.registerHandle({state, n, n + 1, n + 2});
+  gains.registerHandle({state, n, n + 1, n + 2, n + 3, n + 4});
+  hw::RobotHW robot;
+  robot.registerInterface(&effort);
+  robot.registerInterface(&velocity);
+  robot.registerInterface(&position);
+  robot.registerInterface(&pos_vel);
+  robot.registerInterface(&pos_vel_acc);
+  robot.registerInterface(&gains);
+
+  struct Case {
+    const char* interface;
+    int numbers;
+    double rest;  // of the first number
+  };
+  for (const Case& tried :
+       {Case{"EffortJointInterface", 1, 0.0}, Case{"VelocityJointInterface", 1, 0.0},
+        Case{"PositionJointInterface", 1, measured}, Case{"PosVelJointInterface", 2, measured},
+        Case{"PosVelAccJointInterface", 3, measured},
+        Case{"PositionVelocityTorqueGainsJointInterface", 5, measured}}) {
+    SCOPED_TRACE(tried.interface);
+    hw::ControllerInfo info;
+    info.claimed_resources = {{std::string("hardware_interface::") + tried.interface, {"elbow"}}};
+    controller_manager::internal::CommandGuard guard(info, robot);
+    for (int i = 0; i < tried.numbers; ++i) {
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      std::iota(numbers, numbers + 5, 1.0);
+      guard.remember();
+      EXPECT_EQ(nullptr, guard.offender());
+      numbers[i] = nan;
+      EXPECT_STREQ("elbow", guard.offender());
+      guard.restore();
+      EXPECT_EQ(i + 1.0, numbers[i]);
+      numbers[i] = nan;
+      guard.remember();
+      guard.restore();
+      EXPECT_EQ(i == 0 ? tried.rest : 0.0, numbers[i]);
+    }
+  }
+  EXPECT_TRUE(gains.getClaims().empty());
 }
 
 TEST(TimeStatistics, agreeWithTheClosedForm) {
