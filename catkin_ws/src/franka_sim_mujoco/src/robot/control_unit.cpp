@@ -217,7 +217,8 @@ void ControlUnit::checkContacts() noexcept {
 }
 
 void ControlUnit::checkMotion() noexcept {
-  const bool generated = generates();
+  // Torques from outside bring the arm wherever they like, whatever a generator beside them wants.
+  const bool generated = generates() && !controlledOutside();
   if (self_collision_.violated(parameters_.model, generated ? state_.q_d : state_.q)) {
     flag(indexOf(ErrorFlag::kSelfCollision));
   }

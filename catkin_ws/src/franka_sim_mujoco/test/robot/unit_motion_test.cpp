@@ -88,6 +88,15 @@ class UnitMotion : public FciTest {
     return command;
   }
 
+  /// With the torques of a client that follows the generator.
+  static RobotCommand followed(RobotCommand command, const RobotState& state) {
+    for (std::size_t j = 0; j < 7; j++) {
+      const double wanted = 300 * (state.q_d[j] - state.q[j]) + 20 * (state.dq_d[j] - state.dq[j]);
+      command.tau_J_d[j] = state.tau_J_d[j] + std::clamp(wanted - state.tau_J_d[j], -0.99, 0.99);
+    }
+    return command;
+  }
+
   void startSwing(ControllerMode controller = ControllerMode::kJointImpedance) {
     begin = unit.state().q_d;
     startMove(MotionGeneratorMode::kJointPosition, controller);
@@ -151,17 +160,40 @@ TEST_F(UnitMotion, CartesianPoseIsFollowedAndShown) {
 
 TEST_F(UnitMotion, TorquesAndGeneratorRunTogether) {
   startSwing(ControllerMode::kExternalController);
-  drive(900, [&](int i, const RobotState& state) {
-    RobotCommand command = swing(i);
-    for (std::size_t j = 0; j < 7; j++) {
-      const double wanted = 300 * (state.q_d[j] - state.q[j]) + 20 * (state.dq_d[j] - state.dq[j]);
-      command.tau_J_d[j] = state.tau_J_d[j] + std::clamp(wanted - state.tau_J_d[j], -0.99, 0.99);
-    }
-    return command;
-  });
+  drive(900, [&](int i, const RobotState& state) { return followed(swing(i), state); });
   EXPECT_EQ(RobotMode::kMove, unit.state().robot_mode);
   EXPECT_NEAR(unit.state().q_d[0], unit.state().q[0], 0.03);
   EXPECT_GT(unit.state().q[0], 0.2);
+}
+
+TEST_F(UnitMotion, AccelerationThresholdsHoldUnderInternalControllersOnly) {
+  CollisionThresholds high = parameters.acceleration;
+  high.lower_torque.fill(1e6);
+  high.upper_torque.fill(1e6);
+  high.lower_force.fill(1e6);
+  high.upper_force.fill(1e6);
+  for (const auto& [controller, mode] :
+       {std::pair{ControllerMode::kJointImpedance, RobotMode::kMove},
+        std::pair{ControllerMode::kExternalController, RobotMode::kReflex}}) {
+    standAt(kReady);
+    ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(high, parameters.nominal));
+    startSwing(controller);
+    // Accelerates by more than a tenth of the limit all the while.
+    drive(300, [&](int i, const RobotState& state) {
+      if (i == 150) {
+        arm.push = {{0, -30, 0, 0, 0, 0}};
+      }
+      if (i >= 100) {
+        EXPECT_GT(state.ddq_d[0], 1.5);
+      }
+      return followed(swing(i, 0.6), state);
+    });
+    EXPECT_EQ(mode, unit.state().robot_mode);
+    for (const int flag : raised()) {
+      EXPECT_TRUE(flag == 6 || flag == 7) << flag;
+    }
+    arm.push.fill(0.0);
+  }
 }
 
 TEST_F(UnitMotion, RequestsThatMakeNoSenseAreRefused) {
