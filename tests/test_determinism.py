@@ -15,7 +15,7 @@ import time
 
 import pytest
 from fci_session import go_first, go_with_all, simulated
-from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, Client, command
+from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, REFLEX, Client, command
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 RUNS = 100 if LONG else 5
@@ -30,6 +30,15 @@ def at_rest(client):
     assert client.reply()[1][0] == 0
 
 
+class CommandsLost(AssertionError):
+    """The robot has lost commands and then ended the motion: so does a machine that stands still."""
+
+
+def smallest_rate(states):
+    """Of success; the first two states tell nothing of the motion."""
+    return min((state.rate for state in states[2:]), default=1.0)
+
+
 def drive(client, ticks, positions, pause=None):
     """One motion. `positions(first, k)` gives the k-th command. @returns states and their hash."""
     state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
@@ -38,6 +47,8 @@ def drive(client, ticks, positions, pause=None):
     for k in range(ticks + 1):
         seen.update(state.data[8:])
         states.append(state)
+        if state.mode == REFLEX and smallest_rate(states) < 1.0:
+            raise CommandsLost(k, state.reasons)
         assert state.mode == MOVE, (k, state.reasons)
         if pause is not None:
             pause(k)
@@ -124,15 +135,21 @@ def swing(first, k):
 
 
 def trajectory(robot, address, pace, dawdle=None):
-    """@returns q of each cycle, the smallest success rate, and how long the motion took on the wall [s]."""
+    """@returns q of each cycle, the smallest success rate, and how long the motion took on the wall [s].
+
+    Nothing, and a rate of 0, where lost commands have ended the motion.
+    """
     with simulated(robot, address, pace) as sim, Client(address, sim.version) as client:
         assert client.connect()[0] == 0
         # Both come to rest first; in real time that takes time, in lock-step it takes none.
         client.state_until(lambda state: state.mode == IDLE and max(map(abs, state.joints("dq"))) < 1e-12)
         begin = time.monotonic()
-        states, _ = drive(client, 1000, swing, dawdle)
+        try:
+            states, _ = drive(client, 1000, swing, dawdle)
+        except CommandsLost:
+            return [], 0.0, 0.0
         wall = time.monotonic() - begin
-    return [state.joints("q") for state in states], min(state.rate for state in states[2:]), wall
+    return [state.joints("q") for state in states], smallest_rate(states), wall
 
 
 def difference(one, other):
