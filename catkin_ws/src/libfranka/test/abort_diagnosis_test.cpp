@@ -8,10 +8,14 @@
 #include <franka_core/limits.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
 #include <string>
 
 namespace franka_core {
 namespace {
+
+constexpr std::array<double, 16> kNoTurn{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
 
 /// A log of joint positions that stand still, and then break a limit.
 std::vector<AbortRecord> jointLog(std::size_t flag, const std::array<double, 7>& last_step) {
@@ -20,14 +24,47 @@ std::vector<AbortRecord> jointLog(std::size_t flag, const std::array<double, 7>&
     log[i].state.message_id = 100 + i;
     log[i].state.q_d = log[i].state.q = {{0.1, 0.2, 0.3, -1.5, 0.5, 1.6, 0.7}};
     log[i].command.q_c = log[i].state.q_d;
-    log[i].state.O_T_EE = log[i].state.O_T_EE_d =
-        log[i].state.O_T_EE_c = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    log[i].state.O_T_EE = log[i].state.O_T_EE_d = log[i].state.O_T_EE_c = kNoTurn;
     log[i].state.control_command_success_rate = 0.97;
   }
   for (std::size_t i = 0; i < 7; i++) {
     log.back().command.q_c[i] += last_step[i];
   }
   log.back().state.reflex_reason[flag] = true;
+  return log;
+}
+
+/// Turned about z [rad], and shifted along x [m].
+std::array<double, 16> pose(double angle, double x) {
+  return {{std::cos(angle), std::sin(angle), 0, 0, -std::sin(angle), std::cos(angle), 0, 0, 0, 0, 1,
+           0, x, 0, 0, 1}};
+}
+
+/// A log of poses and elbows, all at rest. The last state is that of a robot that brakes.
+std::vector<AbortRecord> cartesianLog(std::size_t flag) {
+  std::vector<AbortRecord> log = jointLog(flag, {});
+  for (AbortRecord& record : log) {
+    record.command.q_c = {};
+    record.command.O_T_EE_c = kNoTurn;
+    record.command.elbow_c = record.state.elbow_c = {{0.3, -1.0}};
+  }
+  log.back().command.valid_elbow = true;
+  log.back().state.dq_d.fill(5.0);
+  log.back().state.ddq_d.fill(-20.0);
+  return log;
+}
+
+/// The same with joints that follow: joint 4 accelerates in steps of 1 rad/s^2.
+std::vector<AbortRecord> followingLog(std::size_t flag) {
+  std::vector<AbortRecord> log = cartesianLog(flag);
+  const double q[]{-0.074334, -0.072173, -0.07};
+  const double dq[]{2.15, 2.161, 2.173};
+  const double ddq[]{10.0, 11.0, 12.0};
+  for (std::size_t i = 0; i < 3; i++) {
+    log[i].state.q_d[3] = q[i];
+    log[i].state.dq_d[3] = dq[i];
+    log[i].state.ddq_d[3] = ddq[i];
+  }
   return log;
 }
 
@@ -79,6 +116,11 @@ TEST(AbortDiagnosis, PositionsOutsideTheRange) {
   log.back().state.reflex_reason[0] = true;
   log.back().state.q[5] = 4.0;
   expectIn(only(diagnoseAbort(log, 5)), "joint 6 stood at 4 rad");
+  // Newer systems have this flag for commands too.
+  log.back().state.q[5] = 1.6;
+  expectIn(only(diagnoseAbort(log, 10)), "joint 4 was to go to 0.5 rad");
+  expectIn(only(diagnoseAbort(followingLog(0), 10)),
+           "joint 4 would have followed the Cartesian command to -0.06781 rad");
 }
 
 TEST(AbortDiagnosis, TorquesThatChangeTooFast) {
@@ -96,11 +138,99 @@ TEST(AbortDiagnosis, PosesThatJump) {
   }
   log.back().command.O_T_EE_c[12] = 0.004;  // 4 m/s
   expectIn(only(diagnoseAbort(log, 5)),
-           "the translation was commanded a velocity of 4 m/s or rad/s, and 2 are allowed");
-  // Turned by 5 mrad about z: 5 rad/s.
-  log.back().command.O_T_EE_c = {{std::cos(0.005), std::sin(0.005), 0, 0, -std::sin(0.005),
-                                  std::cos(0.005), 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-  expectIn(only(diagnoseAbort(log, 5)), "the rotation was commanded a velocity of 5 m/s or rad/s");
+           "the translation was commanded a velocity of 4 m/s, and 2 are allowed (at 102 ms)");
+  // Turned by 5 mrad: 5 rad/s, 5000 rad/s^2.
+  log.back().command.O_T_EE_c = pose(0.005, 0.0);
+  expectIn(only(diagnoseAbort(log, 5)),
+           "the rotation was commanded a velocity of 5 rad/s, and 2.5 are allowed");
+  log.back().state.reflex_reason = {};
+  log.back().state.reflex_reason[19] = true;
+  expectIn(only(diagnoseAbort(log, 5)), "an acceleration of 5000 rad/s^2, and 25 are allowed");
+}
+
+TEST(AbortDiagnosis, JointsThatFollowACartesianCommand) {
+  // Going on with 1000 rad/s^3: 13 rad/s^2, 2.173 + 0.013 rad/s, -0.07 + 0.002186 rad.
+  const std::string text = only(diagnoseAbort(followingLog(28), 5));
+  expectIn(text,
+           "joint 4 would have followed the Cartesian command with a velocity of 2.186 rad/s, and "
+           "2.175 are allowed (at 103 ms).");
+  expectIn(text, "singular");
+  expectIn(only(diagnoseAbort(followingLog(29), 5)),
+           "joint 4 would have followed the Cartesian command with an acceleration of 13 rad/s^2, "
+           "and 12.5 are allowed (at 103 ms)");
+  expectIn(only(diagnoseAbort(followingLog(27), 5)),
+           "joint 4 would have followed the Cartesian command to -0.06781 rad, and its range is "
+           "-3.072 to -0.0698 rad");
+  auto log = followingLog(30);
+  log[2].state.ddq_d[3] = 18.5;
+  expectIn(
+      only(diagnoseAbort(log, 5)),
+      "joint 4 would have followed the Cartesian command with a jerk of 7500 rad/s^3, and 6250 "
+      "are allowed (at 102 ms)");
+  // Over three milliseconds, two states being lost.
+  log[2].state.message_id = 104;
+  expectIn(only(diagnoseAbort(log, 5)), "a jerk of 2500 rad/s^3");
+}
+
+TEST(AbortDiagnosis, NothingIsAllowedAtTheEndOfAnFr3sJoint) {
+  auto log = jointLog(13, {{0.001, 0, 0, 0, 0, 0, 0}});
+  for (AbortRecord& record : log) {
+    record.state.q_d[3] = kFr3Limits.q_max[3];
+    record.command.q_c[3] = kFr3Limits.q_max[3];
+  }
+  log.back().command.q_c[3] += 0.0005;
+  expectIn(only(diagnoseAbort(log, 10)),
+           "joint 4 was commanded a velocity of 0.5 rad/s, and 0 are allowed (at 102 ms)");
+}
+
+TEST(AbortDiagnosis, ElbowsThatMoveTooFast) {
+  auto log = cartesianLog(17);
+  for (AbortRecord& record : log) {
+    record.state.delbow_c[0] = 1.0;
+  }
+  const auto said = [&log](double q3, unsigned version) {
+    log.back().command.elbow_c[0] = q3;
+    return only(diagnoseAbort(log, version));
+  };
+  expectIn(said(0.3025, 5),
+           "the elbow (joint 3) was commanded a velocity of 2.5 rad/s, and 2.175 are allowed (at "
+           "102 ms)");
+  // The lowest derivative that is too high, as the robot looks at them.
+  expectIn(said(0.3025, 10), "an acceleration of 1500 rad/s^2, and 10 are allowed");
+  expectIn(said(0.30102, 5), "an acceleration of 20 rad/s^2, and 10 are allowed");
+  expectIn(said(0.301006, 5), "a jerk of 6000 rad/s^3, and 5000 are allowed");
+  expectIn(said(3.0, 5),
+           "joint 3 was to go as elbow to 3 rad, and its range is -2.897 to 2.897 rad");
+  log.back().command.valid_elbow = false;
+  expectIn(said(0.0, 5), "no command of the log has an elbow");
+}
+
+TEST(AbortDiagnosis, ElbowsOfTheOtherSignOrElsewhere) {
+  for (std::size_t flag : {21u, 24u}) {
+    auto log = cartesianLog(flag);
+    log.back().command.elbow_c[1] = 1.0;
+    const std::string text = only(diagnoseAbort(log, 5));
+    expectIn(text, "commanded elbow has the sign 1 while the arm's was -1");
+    expectIn(text, "joint 4 passes -0.467 rad");
+  }
+  auto log = cartesianLog(22);
+  log.back().command.elbow_c[0] = 0.9;
+  expectIn(only(diagnoseAbort(log, 5)),
+           "the first command put the elbow (joint 3) at 0.9 rad while elbow_c was 0.3 rad");
+}
+
+TEST(AbortDiagnosis, PosesThatStartTurned) {
+  auto log = cartesianLog(16);
+  log[1].command.O_T_EE_c = pose(0.05235987755982988, 0.002);
+  expectIn(only(diagnoseAbort(log, 5)),
+           "the first commanded pose was 2 mm and 3 degrees away from O_T_EE_c");
+}
+
+TEST(AbortDiagnosis, TheLastStateCountsWhereItIsMeasured) {
+  auto log = jointLog(3, {});
+  log.back().state.dq[6] = -2.8;
+  expectIn(only(diagnoseAbort(log, 5)),
+           "joint 7 moved at -2.8 rad/s, and 2.61 are allowed (at 103 ms)");
 }
 
 TEST(AbortDiagnosis, CollisionsWithTheirForces) {
@@ -131,11 +261,32 @@ TEST(AbortDiagnosis, StartsElsewhere) {
 }
 
 TEST(AbortDiagnosis, EveryFlagHasASentence) {
+  const std::set<std::size_t> in_no_log{1, 2, 4, 5, 10, 23, 26, 33, 35, 36, 37, 38, 39, 40};
   for (std::size_t flag = 0; flag < kErrorCount; flag++) {
-    const std::string text = only(diagnoseAbort(jointLog(flag, {}), 10));
+    const bool is_cartesian = (flag >= 16 && flag <= 24) || (flag >= 27 && flag <= 31);
+    const std::string text =
+        only(diagnoseAbort(is_cartesian ? followingLog(flag) : jointLog(flag, {}), 10));
     EXPECT_EQ(0u, text.find(kErrorNames[flag]));
     EXPECT_EQ('.', text.back()) << text;
+    EXPECT_EQ(in_no_log.count(flag) == 1, text.find("see the robot's manual") != std::string::npos)
+        << text;
+    for (const char* const missing : {"the log shows no", "too short", "the log does not hold"}) {
+      EXPECT_EQ(std::string::npos, text.find(missing)) << text;
+    }
   }
+}
+
+TEST(AbortDiagnosis, SaysWhenTheLogDoesNotShowIt) {
+  std::vector<AbortRecord> log(1);
+  for (std::size_t flag = 0; flag < kErrorCount; flag++) {
+    log.back().state.reflex_reason = {};
+    log.back().state.reflex_reason[flag] = true;
+    EXPECT_EQ('.', only(diagnoseAbort(log, 5)).back()) << flag;
+  }
+  log.back().state.reflex_reason = {};
+  log.back().state.reflex_reason[13] = true;
+  expectIn(only(diagnoseAbort(log, 5)),
+           "the log shows no commands from which a velocity could be computed");
 }
 
 TEST(AbortDiagnosis, ReadsTheLogOfUsersToo) {
@@ -147,6 +298,24 @@ TEST(AbortDiagnosis, ReadsTheLogOfUsersToo) {
     records[i].command.joint_positions.q = log[i].command.q_c;
   }
   records.back().state.last_motion_errors = franka::Errors(log.back().state.reflex_reason);
+  EXPECT_EQ(only(diagnoseAbort(log, 5)), only(diagnoseLog(records, 5)));
+}
+
+TEST(AbortDiagnosis, ReadsTheElbowsOfUsersToo) {
+  auto log = cartesianLog(17);
+  log.back().command.elbow_c[0] = 0.301006;
+  std::vector<franka::Record> records(log.size());
+  for (std::size_t i = 0; i < log.size(); i++) {
+    log[i].state.delbow_c[0] = 0.9;
+    log[i].state.ddelbow_c[0] = 100.0;
+    records[i].state.time = franka::Duration(log[i].state.message_id);
+    records[i].state.elbow_c = log[i].state.elbow_c;
+    records[i].state.delbow_c = log[i].state.delbow_c;
+    records[i].state.ddelbow_c = log[i].state.ddelbow_c;
+  }
+  records.back().command.cartesian_pose.elbow = log.back().command.elbow_c;
+  records.back().state.last_motion_errors = franka::Errors(log.back().state.reflex_reason);
+  expectIn(only(diagnoseAbort(log, 5)), "an acceleration of 106 rad/s^2");
   EXPECT_EQ(only(diagnoseAbort(log, 5)), only(diagnoseLog(records, 5)));
 }
 

@@ -36,6 +36,8 @@ inline AbortRecord toAbortRecord(const franka::Record& record,
   to.O_dP_EE_c = from.O_dP_EE_c;
   to.O_ddP_EE_c = from.O_ddP_EE_c;
   to.elbow_c = from.elbow_c;
+  to.delbow_c = from.delbow_c;
+  to.ddelbow_c = from.ddelbow_c;
   to.joint_collision = from.joint_collision;
   to.cartesian_collision = from.cartesian_collision;
   to.tau_ext_hat_filtered = from.tau_ext_hat_filtered;
@@ -46,6 +48,9 @@ inline AbortRecord toAbortRecord(const franka::Record& record,
   result.command.dq_c = record.command.joint_velocities.dq;
   result.command.O_T_EE_c = record.command.cartesian_pose.O_T_EE;
   result.command.O_dP_EE_c = record.command.cartesian_velocities.O_dP_EE;
+  // Both generators carry the same elbow; zeros where none was commanded.
+  result.command.elbow_c = record.command.cartesian_pose.elbow;
+  result.command.valid_elbow = result.command.elbow_c[0] != 0.0 || result.command.elbow_c[1] != 0.0;
   result.command.tau_J_d = record.command.torques.tau_J;
   return result;
 }

@@ -9,27 +9,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <functional>
 #include <optional>
+
+#include "abort_measures.h"
 
 namespace franka_core {
 
 namespace {
 
-constexpr double kTick = 1e-3;  // [s]
-
 using Matrix4 = Eigen::Map<const Eigen::Matrix4d>;
-using Twist = Eigen::Matrix<double, 6, 1>;
-
-/// A value that was commanded or measured, and what is allowed.
-struct Excess {
-  std::string what;  ///< "joint 3", "the translation"
-  double value{0.0};
-  double limit{0.0};
-  std::uint64_t time{0};  ///< [ms]
-
-  double ratio() const { return limit > 0.0 ? std::abs(value) / limit : 0.0; }
-};
 
 std::string number(double value) {
   char text[32];
@@ -37,75 +25,72 @@ std::string number(double value) {
   return text;
 }
 
-std::string jointName(std::size_t i) { return "joint " + std::to_string(i + 1); }
+/// "velocity" and so on, with an article.
+const char* derivativeName(int order) {
+  return order == 1 ? "a velocity" : (order == 2 ? "an acceleration" : "a jerk");
+}
 
-/// Two successive records: the command answered the first one's state.
-struct Step {
-  const RobotState& before;
-  const RobotCommand& command;
-  std::uint64_t time;
+/// "3 rad/s^2, and 2 are allowed (at 102 ms)"
+std::string againstLimit(const Excess& excess, int order) {
+  return number(excess.value) + " " + excess.unit + "/s" +
+         (order > 1 ? "^" + std::to_string(order) : "") + ", and " + number(excess.limit) +
+         " are allowed (at " + std::to_string(excess.time) + " ms)";
+}
+
+/// How far two poses are apart: "3 mm and 4 degrees"
+std::string distance(const std::array<double, 16>& one, const std::array<double, 16>& other) {
+  const Matrix4 a(one.data()), b(other.data());
+  const double way = (a.topRightCorner<3, 1>() - b.topRightCorner<3, 1>()).norm();
+  const Eigen::AngleAxisd turn(
+      Eigen::Matrix3d(a.topLeftCorner<3, 3>() * b.topLeftCorner<3, 3>().transpose()));
+  return number(1e3 * way) + " mm and " + number(turn.angle() * 57.29577951308232) + " degrees";
+}
+
+constexpr const char* kSolvedAdvice =
+    " The step that the robot refused is not in the log; the ones before lead there. Move more "
+    "slowly, or keep away from singular poses such as a stretched elbow.";
+constexpr const char* kNoFirstCommand = "the log does not hold the first command.";
+
+std::string commanded(const std::optional<Excess>& excess, const char* what, int order) {
+  if (!excess) {
+    return std::string("the log shows no commands from which ") + what + " could be computed.";
+  }
+  return excess->what + " was commanded " + what + " of " + againstLimit(*excess, order) + ".";
+}
+
+std::string commanded(const std::optional<Excess>& excess, int order) {
+  return commanded(excess, derivativeName(order), order);
+}
+
+/// The joint of q that is farthest out, and by how much [rad].
+struct Position {
+  std::size_t joint{0};
+  double q{0.0};
+  double beyond{-1e9};
 };
 
-/// The excess that is farthest beyond its limit, over the steps of the log.
-using Measure = std::function<void(const Step&, std::vector<Excess>&)>;
-
-std::optional<Excess> worst(const std::vector<AbortRecord>& log, const Measure& measure) {
-  std::optional<Excess> found;
-  std::vector<Excess> all;
-  for (std::size_t i = 1; i < log.size(); i++) {
-    all.clear();
-    measure({log[i - 1].state, log[i].command, log[i - 1].state.message_id}, all);
-    for (Excess& excess : all) {
-      excess.time = log[i - 1].state.message_id;
-      if (!found || excess.ratio() > found->ratio()) {
-        found = excess;
-      }
+void keepFarther(Position& farthest, const std::array<double, 7>& q, const ArmLimits& limits) {
+  for (std::size_t i = 0; i < 7; i++) {
+    const double beyond = std::max(limits.q_min[i] - q[i], q[i] - limits.q_max[i]);
+    if (beyond > farthest.beyond) {
+      farthest = {i, q[i], beyond};
     }
   }
-  return found;
 }
 
-bool isUsed(const double* values, std::size_t size) {
-  return std::any_of(values, values + size, [](double value) { return value != 0.0; });
-}
+constexpr const char* kWasToGo = "was to go to";
+constexpr const char* kWouldHaveFollowed = "would have followed the Cartesian command to";
 
-/// Commanded joint velocity, whichever joint generator runs; nothing if none does.
-std::optional<std::array<double, 7>> commandedVelocity(const Step& step) {
-  if (isUsed(step.command.q_c.data(), 7)) {
-    std::array<double, 7> dq{};
-    for (std::size_t i = 0; i < 7; i++) {
-      dq[i] = (step.command.q_c[i] - step.before.q_d[i]) / kTick;
-    }
-    return dq;
-  }
-  if (isUsed(step.command.dq_c.data(), 7)) {
-    return step.command.dq_c;
-  }
-  return std::nullopt;
-}
-
-/// Commanded twist [m/s, rad/s], whichever Cartesian generator runs; nothing if none does.
-std::optional<Twist> commandedTwist(const Step& step) {
-  if (isUsed(step.command.O_T_EE_c.data(), 16)) {
-    const Matrix4 to(step.command.O_T_EE_c.data());
-    const Matrix4 from(step.before.O_T_EE_c.data());
-    const Eigen::AngleAxisd turn(
-        Eigen::Matrix3d(to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose()));
-    Twist twist;
-    twist << (to.topRightCorner<3, 1>() - from.topRightCorner<3, 1>()) / kTick,
-        turn.axis() * turn.angle() / kTick;
-    return twist;
-  }
-  if (isUsed(step.command.O_dP_EE_c.data(), 6)) {
-    return Eigen::Map<const Twist>(step.command.O_dP_EE_c.data());
-  }
-  return std::nullopt;
+std::string rangeOf(const Position& position, const char* verb, const ArmLimits& limits) {
+  return jointName(position.joint) + " " + verb + " " + number(position.q) +
+         " rad, and its range is " + number(limits.q_min[position.joint]) + " to " +
+         number(limits.q_max[position.joint]) + " rad.";
 }
 
 class Diagnosis {
  public:
   Diagnosis(const std::vector<AbortRecord>& log, unsigned version)
-      : log_(log), version_(version), limits_(limitsOfProtocol(version)) {}
+      : log_(log), measures_(log, version), limits_(limitsOfProtocol(version)) {}
 
   std::string sentence(std::size_t flag) const {
     return std::string(kErrorNames[flag]) + ": " + explain(flag);
@@ -114,117 +99,71 @@ class Diagnosis {
  private:
   std::string explain(std::size_t flag) const;
 
-  static std::string compare(const std::optional<Excess>& excess, const char* quantity,
-                             const char* unit) {
-    if (!excess) {
-      return std::string("the log shows no commands from which the ") + quantity +
-             " could be computed.";
-    }
-    return excess->what + " was commanded " + quantity + " of " + number(excess->value) + " " +
-           unit + ", and " + number(excess->limit) + " are allowed (at " +
-           std::to_string(excess->time) + " ms).";
-  }
-
-  std::optional<Excess> jointDerivative(int order) const;
-  std::optional<Excess> twistDerivative(int order) const;
-  std::optional<Excess> torqueRate() const;
-  std::optional<Excess> measuredVelocity() const;
-  std::string outside(const char* verb, bool commanded) const;
+  Position commandedPosition() const;
+  Position solvedPosition() const;
+  std::string positionViolation() const;
+  std::string solved(int order) const;
+  std::string measuredVelocity() const;
   std::string collision() const;
   std::string deviation() const;
   std::string lostPackets() const;
-  std::string startPose(bool joints) const;
+  std::string startJoints() const;
+  std::string startPose() const;
+  const AbortRecord* elbowCommand(bool first) const;
+  std::string startElbow() const;
+  std::string elbowLimit() const;
+  std::string elbowSign(bool first) const;
   std::string sensorTorque() const;
-  double velocityLimit(std::size_t joint, double q, double direction) const;
 
   const std::vector<AbortRecord>& log_;
-  unsigned version_;
+  AbortMeasures measures_;
   const ArmLimits& limits_;
 };
 
-double Diagnosis::velocityLimit(std::size_t joint, double q, double direction) const {
-  if (version_ <= 5) {
-    return limits_.dq[joint];
+std::string Diagnosis::solved(int order) const {
+  const std::optional<Excess> excess = measures_.solvedJoints(order);
+  if (!excess) {
+    return "the log is too short to say which joint the Cartesian command would have moved too "
+           "fast.";
   }
-  const PositionVelocityLimits& limits =
-      version_ >= 10 ? kFr3PositionVelocityLimitsFrom59 : kFr3PositionVelocityLimits;
-  return direction >= 0.0 ? upperVelocityLimit(limits, joint, q)
-                          : -lowerVelocityLimit(limits, joint, q);
+  return excess->what + " would have followed the Cartesian command with " + derivativeName(order) +
+         " of " + againstLimit(*excess, order) + "." + kSolvedAdvice;
 }
 
-std::optional<Excess> Diagnosis::jointDerivative(int order) const {
-  return worst(log_, [&](const Step& step, std::vector<Excess>& found) {
-    const auto dq = commandedVelocity(step);
-    for (std::size_t i = 0; dq && i < 7; i++) {
-      const double ddq = ((*dq)[i] - step.before.dq_d[i]) / kTick;
-      const double dddq = (ddq - step.before.ddq_d[i]) / kTick;
-      const double value = order == 1 ? (*dq)[i] : (order == 2 ? ddq : dddq);
-      const double limit = order == 1 ? velocityLimit(i, step.before.q_d[i], value)
-                                      : (order == 2 ? limits_.ddq[i] : limits_.dddq[i]);
-      found.push_back({jointName(i), value, limit, 0});
-    }
-  });
+std::string Diagnosis::measuredVelocity() const {
+  const std::optional<Excess> excess = measures_.measuredJoints();
+  return excess->what + " moved at " + againstLimit(*excess, 1) + ".";
 }
 
-std::optional<Excess> Diagnosis::twistDerivative(int order) const {
-  const auto pick = [order](const DerivativeLimits& limits) {
-    return order == 1 ? limits.velocity : (order == 2 ? limits.acceleration : limits.jerk);
-  };
-  return worst(log_, [&](const Step& step, std::vector<Excess>& found) {
-    const auto twist = commandedTwist(step);
-    if (!twist) {
-      return;
-    }
-    const Twist acceleration =
-        (*twist - Eigen::Map<const Twist>(step.before.O_dP_EE_c.data())) / kTick;
-    const Twist jerk =
-        (acceleration - Eigen::Map<const Twist>(step.before.O_ddP_EE_c.data())) / kTick;
-    const Twist& value = order == 1 ? *twist : (order == 2 ? acceleration : jerk);
-    found.push_back({"the translation", value.head<3>().norm(), pick(limits_.translation), 0});
-    found.push_back({"the rotation", value.tail<3>().norm(), pick(limits_.rotation), 0});
-  });
-}
-
-std::optional<Excess> Diagnosis::torqueRate() const {
-  return worst(log_, [&](const Step& step, std::vector<Excess>& found) {
-    for (std::size_t i = 0; i < 7; i++) {
-      const double rate = (step.command.tau_J_d[i] - step.before.tau_J_d[i]) / kTick;
-      found.push_back({jointName(i), rate, limits_.dtau[i], 0});
-    }
-  });
-}
-
-std::optional<Excess> Diagnosis::measuredVelocity() const {
-  return worst(log_, [&](const Step& step, std::vector<Excess>& found) {
-    for (std::size_t i = 0; i < 7; i++) {
-      found.push_back({jointName(i), step.before.dq[i], limits_.dq[i], 0});
-    }
-  });
-}
-
-std::string Diagnosis::outside(const char* verb, bool commanded) const {
-  std::string text;
-  double farthest = -1e9;
-  const auto look = [&](const std::array<double, 7>& q) {
-    for (std::size_t i = 0; i < 7; i++) {
-      const double beyond = std::max(limits_.q_min[i] - q[i], q[i] - limits_.q_max[i]);
-      if (beyond > farthest) {
-        farthest = beyond;
-        text = jointName(i) + " " + verb + " " + number(q[i]) + " rad, and its range is " +
-               number(limits_.q_min[i]) + " to " + number(limits_.q_max[i]) + " rad.";
-      }
-    }
-  };
+Position Diagnosis::commandedPosition() const {
+  Position farthest;
   for (const AbortRecord& record : log_) {
-    if (!commanded) {
-      look(record.state.q);
-    } else if (isUsed(record.command.q_c.data(), 7)) {
-      look(record.command.q_c);
-    } else {
-      look(record.state.q_d);
-    }
+    keepFarther(farthest, isUsed(record.command.q_c) ? record.command.q_c : record.state.q_d,
+                limits_);
   }
-  return text;
+  return farthest;
+}
+
+Position Diagnosis::solvedPosition() const {
+  Position farthest;
+  keepFarther(farthest, measures_.solvedPositions().value_or(log_.back().state.q_d), limits_);
+  return farthest;
+}
+
+std::string Diagnosis::positionViolation() const {
+  Position measured;
+  for (const AbortRecord& record : log_) {
+    keepFarther(measured, record.state.q, limits_);
+  }
+  // From system 5.7.2 on this flag stands for joints that are to go there, too.
+  const bool cartesian = std::any_of(log_.begin(), log_.end(), [](const AbortRecord& record) {
+    return isUsed(record.command.O_T_EE_c) || isUsed(record.command.O_dP_EE_c);
+  });
+  const Position wanted = cartesian ? solvedPosition() : commandedPosition();
+  if (measured.beyond <= 0.0 && wanted.beyond > 0.0) {
+    return rangeOf(wanted, cartesian ? kWouldHaveFollowed : kWasToGo, limits_);
+  }
+  return rangeOf(measured, "stood at", limits_);
 }
 
 std::string Diagnosis::collision() const {
@@ -254,13 +193,8 @@ std::string Diagnosis::collision() const {
 
 std::string Diagnosis::deviation() const {
   const RobotState& state = log_.back().state;
-  const Matrix4 is(state.O_T_EE.data());
-  const Matrix4 wanted(state.O_T_EE_d.data());
-  const double distance = (is.topRightCorner<3, 1>() - wanted.topRightCorner<3, 1>()).norm();
-  const Eigen::AngleAxisd turn(
-      Eigen::Matrix3d(is.topLeftCorner<3, 3>() * wanted.topLeftCorner<3, 3>().transpose()));
-  return "the end effector was " + number(1e3 * distance) + " mm and " +
-         number(turn.angle() * 57.29577951308232) + " degrees away from its desired pose.";
+  return "the end effector was " + distance(state.O_T_EE, state.O_T_EE_d) +
+         " away from its desired pose.";
 }
 
 std::string Diagnosis::lostPackets() const {
@@ -274,31 +208,78 @@ std::string Diagnosis::lostPackets() const {
          "scaling off).";
 }
 
-std::string Diagnosis::startPose(bool joints) const {
+std::string Diagnosis::startJoints() const {
   for (std::size_t i = 1; i < log_.size(); i++) {
-    const RobotState& before = log_[i - 1].state;
-    const RobotCommand& command = log_[i].command;
-    if (joints && isUsed(command.q_c.data(), 7)) {
+    const std::array<double, 7>& q_d = log_[i - 1].state.q_d;
+    const std::array<double, 7>& q_c = log_[i].command.q_c;
+    if (isUsed(q_c)) {
       std::size_t farthest = 0;
       for (std::size_t j = 1; j < 7; j++) {
-        if (std::abs(command.q_c[j] - before.q_d[j]) >
-            std::abs(command.q_c[farthest] - before.q_d[farthest])) {
+        if (std::abs(q_c[j] - q_d[j]) > std::abs(q_c[farthest] - q_d[farthest])) {
           farthest = j;
         }
       }
-      return "the first command put " + jointName(farthest) + " at " +
-             number(command.q_c[farthest]) + " rad while q_d was " + number(before.q_d[farthest]) +
-             " rad. Begin at q_d.";
-    }
-    if (!joints && isUsed(command.O_T_EE_c.data(), 16)) {
-      const double distance = (Matrix4(command.O_T_EE_c.data()).topRightCorner<3, 1>() -
-                               Matrix4(before.O_T_EE_c.data()).topRightCorner<3, 1>())
-                                  .norm();
-      return "the first commanded pose was " + number(1e3 * distance) +
-             " mm away from O_T_EE_c. Begin at O_T_EE_c.";
+      return "the first command put " + jointName(farthest) + " at " + number(q_c[farthest]) +
+             " rad while q_d was " + number(q_d[farthest]) + " rad. Begin at q_d.";
     }
   }
-  return "the log does not hold the first command. Begin at q_d or O_T_EE_c.";
+  return std::string(kNoFirstCommand) + " Begin at q_d.";
+}
+
+std::string Diagnosis::startPose() const {
+  for (std::size_t i = 1; i < log_.size(); i++) {
+    if (isUsed(log_[i].command.O_T_EE_c)) {
+      return "the first commanded pose was " +
+             distance(log_[i].command.O_T_EE_c, log_[i - 1].state.O_T_EE_c) +
+             " away from O_T_EE_c. Begin at O_T_EE_c.";
+    }
+  }
+  return std::string(kNoFirstCommand) + " Begin at O_T_EE_c.";
+}
+
+/// The record before the first or last command of an elbow: its state is what the command, that of
+/// the next record, answered.
+const AbortRecord* Diagnosis::elbowCommand(bool first) const {
+  const AbortRecord* found = nullptr;
+  for (std::size_t i = 1; i < log_.size() && !(first && found != nullptr); i++) {
+    if (log_[i].command.valid_elbow) {
+      found = &log_[i - 1];
+    }
+  }
+  return found;
+}
+
+std::string Diagnosis::startElbow() const {
+  const AbortRecord* const record = elbowCommand(true);
+  if (record == nullptr) {
+    return std::string(kNoFirstCommand) + " Begin at elbow_c.";
+  }
+  return "the first command put the elbow (joint 3) at " + number(record[1].command.elbow_c[0]) +
+         " rad while elbow_c was " + number(record->state.elbow_c[0]) + " rad. Begin at elbow_c.";
+}
+
+std::string Diagnosis::elbowLimit() const {
+  const AbortRecord* const last = elbowCommand(false);
+  if (last != nullptr) {
+    const double q3 = last[1].command.elbow_c[0];
+    if (!(q3 >= limits_.q_min[2] && q3 <= limits_.q_max[2])) {
+      return rangeOf({2, q3}, "was to go as elbow to", limits_);
+    }
+  }
+  int order = 1;
+  const std::optional<Excess> excess = measures_.commandedElbow(order);
+  return excess ? commanded(excess, order) : "no command of the log has an elbow.";
+}
+
+std::string Diagnosis::elbowSign(bool first) const {
+  const AbortRecord* const record = elbowCommand(first);
+  if (record == nullptr) {
+    return "no command of the log has an elbow. Its sign must be that of elbow_c.";
+  }
+  return std::string("the ") + (first ? "first " : "") + "commanded elbow has the sign " +
+         number(record[1].command.elbow_c[1]) + " while the arm's was " +
+         number(record->state.elbow_c[1]) + ". It changes where joint 4 passes " +
+         number(kElbowFlip) + " rad, and must stay the same within a motion.";
 }
 
 std::string Diagnosis::sensorTorque() const {
@@ -318,13 +299,9 @@ std::string Diagnosis::sensorTorque() const {
 std::string Diagnosis::explain(std::size_t flag) const {
   switch (flag) {
     case 0:
-      return outside("stood at", false);
-    case 3: {
-      const auto excess = measuredVelocity();
-      return excess ? excess->what + " moved at " + number(excess->value) + " rad/s, and " +
-                          number(excess->limit) + " are allowed."
-                    : "the log is too short to say which joint.";
-    }
+      return positionViolation();
+    case 3:
+      return measuredVelocity();
     case 6:
     case 7:
       return collision();
@@ -332,35 +309,47 @@ std::string Diagnosis::explain(std::size_t flag) const {
     case 9:
       return deviation();
     case 11:
-      return startPose(true);
+      return startJoints();
     case 12:
-    case 27:
-      return outside("was to go to", true);
+      return rangeOf(commandedPosition(), kWasToGo, limits_);
     case 13:
-    case 28:
-      return compare(jointDerivative(1), "a velocity", "rad/s");
+      return commanded(measures_.commandedJoints(1), 1);
     case 14:
-    case 29:
-      return compare(jointDerivative(2), "an acceleration", "rad/s^2");
+      return commanded(measures_.commandedJoints(2), 2);
     case 15:
-    case 30:
-      return compare(jointDerivative(3), "a jerk", "rad/s^3");
+      return commanded(measures_.commandedJoints(3), 3);
     case 16:
-      return startPose(false);
+      return startPose();
+    case 17:
+      return elbowLimit();
     case 18:
-      return compare(twistDerivative(1), "a velocity", "m/s or rad/s");
+      return commanded(measures_.commandedTwist(1), 1);
     case 19:
-      return compare(twistDerivative(2), "an acceleration", "m/s^2 or rad/s^2");
+      return commanded(measures_.commandedTwist(2), 2);
     case 20:
-      return compare(twistDerivative(3), "a jerk", "m/s^3 or rad/s^3");
+      return commanded(measures_.commandedTwist(3), 3);
+    case 21:
+      return elbowSign(false);
+    case 22:
+      return startElbow();
+    case 24:
+      return elbowSign(true);
     case 25:
       return lostPackets();
+    case 27:
+      return rangeOf(solvedPosition(), kWouldHaveFollowed, limits_);
+    case 28:
+      return solved(1);
+    case 29:
+      return solved(2);
+    case 30:
+      return solved(3);
     case 31:
       return "a commanded pose was no homogeneous transformation: its rotation must be "
              "orthonormal, "
              "its last row 0 0 0 1, and it must be column-major.";
     case 32:
-      return compare(torqueRate(), "a change of torque", "Nm/s");
+      return commanded(measures_.commandedTorques(), "a change of torque", 1);
     case 34:
       return sensorTorque();
     default:
