@@ -110,6 +110,8 @@ def main():
     report["moves"] = all_move(arms)
     report["error"] = move(arms, 0.1)
 
+    report["early"] = [recover(name) for name in (arms[0].recovery, f"{NODE}/error_recovery")]
+    report["goes_on"] = all(arm.mode == FrankaState.ROBOT_MODE_MOVE for arm in arms)
     report["hit"] = hit(arms[0], arms[1:])
     report["recovered"] = recover(arms[0].recovery)
     report["moves_again"] = all_move(arms)

@@ -107,6 +107,13 @@ def test_one_controller_moves_all_arms(report):
     assert report["error"] < 0.01
 
 
+def test_a_recovery_too_early_disturbs_nothing(report):
+    assert report["early"] == [SUCCEEDED, SUCCEEDED]
+    assert report["goes_on"]
+    # Nor does it clear the error that came after it.
+    assert report["hit"]["reflex"]
+
+
 def test_one_arm_recovers_and_the_others_keep_their_state(report):
     assert report["hit"]["reflex"]
     # One controller moves all: they wait.

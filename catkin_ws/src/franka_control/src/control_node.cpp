@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control_node.h"
 
-#include <controller_manager_msgs/SwitchController.h>
 #include <franka/exception.h>
 #include <franka_hw/robot_wanted.h>
 #include <ros/console.h>
@@ -12,12 +11,15 @@
 #include <chrono>
 #include <thread>
 
+#include "commanding_controllers.h"
+#include "flag.h"
+
 namespace franka_control {
 
 namespace {
 
-// [s] for the controllers to stop when they shall not start again.
-constexpr double kStopTimeout = 2.0;
+constexpr double kComplaintPeriod = 5.0;  // [s]
+const ros::WallDuration kAtOnce(0.001);   // a timer of zero is none
 
 }  // namespace
 
@@ -26,7 +28,7 @@ ControlNode::ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle
 
 bool ControlNode::init() {
   if (!reconnection_.init(private_nh_) ||
-      !readFlag("restart_controllers_after_recovery", restarts_controllers_) ||
+      !readFlag("restart_controllers_after_recovery", private_nh_, restarts_controllers_) ||
       !franka_hw_.init(public_nh_, private_nh_)) {
     ROS_ERROR("franka_control_node: the robot could not be set up (see above).");
     return false;
@@ -49,15 +51,6 @@ bool ControlNode::init() {
   offerRobot();
   ROS_INFO_STREAM("franka_control_node: the robot '" << arm_id_ << "' is ready.");
   return true;
-}
-
-bool ControlNode::readFlag(const std::string& name, bool& flag) const {
-  if (!private_nh_.hasParam(name) || private_nh_.getParam(name, flag)) {
-    return true;
-  }
-  ROS_ERROR_STREAM("franka_control_node: the parameter '" << private_nh_.resolveName(name)
-                                                          << "' is not true or false.");
-  return false;
 }
 
 // --- services ------------------------------------------------------------------------------------
@@ -144,7 +137,7 @@ void ControlNode::recover() {
   ROS_INFO("franka_control_node: recovering from the error.");
   try {
     if (!restarts_controllers_) {
-      stopControllers();
+      stopCommandingControllers(public_nh_);
     }
     const auto lock = franka_hw::RobotWanted::take(franka_hw_.robotMutex());
     // An error of the controllers' own (NaN, a lost connection) leaves the robot Idle.
@@ -164,27 +157,10 @@ void ControlNode::recover() {
   }
 }
 
-void ControlNode::stopControllers() {
-  std::vector<std::string> commanding;
-  for (const controller_manager::ControllerSpec& spec : controller_manager_->getControllers()) {
-    for (const auto& claimed : spec.info.claimed_resources) {
-      if (spec.c->isRunning() && !claimed.resources.empty()) {
-        commanding.push_back(spec.info.name);
-        break;
-      }
-    }
-  }
-  if (!commanding.empty()) {
-    controller_manager_->switchController(
-        {}, commanding, controller_manager_msgs::SwitchControllerRequest::BEST_EFFORT, false,
-        kStopTimeout);
-  }
-}
-
 // --- the loop ------------------------------------------------------------------------------------
 
 void ControlNode::run() {
-  last_update_ = ros::Time::now();
+  last_update_ = franka_hw_.stateTime();
   while (ros::ok()) {
     if (!connected_) {
       if (lost_) {
@@ -209,15 +185,47 @@ void ControlNode::watchIdleRobot() {
     robotLost(error.what());
     return;
   }
-  const ros::Time now = ros::Time::now();
-  updateControllers(now, now - last_update_, false);
+  const ros::Time now = franka_hw_.stateTime();
+  try {
+    updateControllers(now, now - last_update_, false);
+  } catch (const std::exception& error) {
+    controllerThrew(error.what());
+  }
   franka_hw_.checkJointLimits();
   last_update_ = now;
   if (has_error_ && robot_stopped_ && franka_hw_.robotMode() == franka::RobotMode::kIdle) {
-    // Somebody else recovered it, or released the user stop.
-    setError(false);
+    recoveredByOthers();
   }
   franka_hw::RobotWanted::giveWay();
+}
+
+void ControlNode::controllerThrew(const std::string& what) {
+  ROS_ERROR_STREAM_THROTTLE(
+      kComplaintPeriod, "franka_control_node: a controller threw an exception: "
+                            << what
+                            << " The robot is not moved until the controller has been stopped "
+                               "(controller_manager/switch_controller) and error_recovery called.");
+  robot_stopped_ = false;  // the error does not end because the robot is Idle
+  if (!has_error_) {
+    interrupted_ = true;
+    setError(true);
+  }
+}
+
+void ControlNode::recoveredByOthers() {
+  // Somebody else recovered the robot, or released the user stop.
+  if (restarts_controllers_ || !franka_hw_.controllerActive()) {
+    setError(false);
+  } else if (!stopping_controllers_.exchange(true)) {
+    // Stopping waits for this loop.
+    stop_timer_ = public_nh_.createWallTimer(
+        kAtOnce,
+        [this](const ros::WallTimerEvent&) {
+          stopCommandingControllers(public_nh_);
+          stopping_controllers_ = false;
+        },
+        true);
+  }
 }
 
 void ControlNode::readIdleRobot() {
@@ -245,7 +253,7 @@ void ControlNode::moveRobot() {
     motionFailed(error.what(), {});
     robot_stopped_ = false;
   }
-  last_update_ = ros::Time::now();
+  last_update_ = franka_hw_.stateTime();
 }
 
 bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& period) {

@@ -31,8 +31,8 @@ namespace franka_control {
 /// Parameters beside those of FrankaHW, of franka_hw::Reconnection and franka_hw::AbortReporter, in
 /// the node's own namespace: `restart_controllers_after_recovery` (bool, true): whether controllers
 /// that were running when the robot stopped start again after a recovery, through their starting(),
-/// or are stopped. Topic `has_error` (std_msgs/Bool, latched): whether the robot stopped and waits
-/// for a recovery.
+/// or are stopped first. Topic `has_error` (std_msgs/Bool, latched): whether the robot stopped and
+/// waits for a recovery.
 class ControlNode {
  public:
   ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle& private_nh);
@@ -47,19 +47,18 @@ class ControlNode {
   typedef std_srvs::Trigger::Request TriggerRequest;
   typedef std_srvs::Trigger::Response TriggerResponse;
 
-  /// Leaves `flag` where the parameter is not set. @returns false after a sentence
-  bool readFlag(const std::string& name, bool& flag) const;
   void offerConnection();
   void offerRobot();
   void withdrawRobot();
   bool connectRequested(TriggerRequest& request, TriggerResponse& response);
   bool disconnectRequested(TriggerRequest& request, TriggerResponse& response);
   void recover();
-  void stopControllers();
 
   void connectRobot();
   void watchIdleRobot();
   void readIdleRobot();
+  void controllerThrew(const std::string& what);
+  void recoveredByOthers();
   void moveRobot();
   bool updateMoving(const ros::Time& time, const ros::Duration& period);
   void updateControllers(const ros::Time& time, const ros::Duration& period, bool reset);
@@ -81,6 +80,8 @@ class ControlNode {
   std::unique_ptr<RecoveryServer> recovery_server_;
   ros::ServiceServer connect_server_, disconnect_server_;
   ros::Publisher has_error_publisher_;
+  ros::WallTimer stop_timer_;
+  std::atomic_bool stopping_controllers_{false};
 
   std::atomic_bool connected_{false};
   std::atomic_bool lost_{false};  // the connection, without being asked to

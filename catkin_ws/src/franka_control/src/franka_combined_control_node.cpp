@@ -4,16 +4,21 @@
 #include <controller_manager/controller_manager.h>
 #include <franka/control_tools.h>
 #include <franka_hw/franka_combined_hw.h>
+#include <franka_hw/robot_clock.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/rate.h>
 #include <ros/spinner.h>
 
+#include <chrono>
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "commanding_controllers.h"
 #include "end_in_time.h"
+#include "flag.h"
 #include "loop_health.h"
 #include "robot_health.h"
 
@@ -60,6 +65,29 @@ bool raisePriority(const ros::NodeHandle& nh) {
   return false;
 }
 
+/// The milliseconds of this computer since some moment in the past. Several robots have no clock in
+/// common.
+franka::Duration ownMilliseconds() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return franka::Duration(std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
+}
+
+/// One cycle of the controllers. One that throws stops all arms, like an error of theirs.
+void updateControllers(controller_manager::ControllerManager& controllers,
+                       franka_hw::FrankaCombinedHW& robots, const ros::Time& time,
+                       const ros::Duration& period) {
+  try {
+    controllers.update(time, period, robots.controllerNeedsReset());
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM_THROTTLE(
+        5.0, "franka_combined_control_node: a controller threw an exception: "
+                 << error.what()
+                 << " The robots are not moved until the controller has been stopped "
+                    "(controller_manager/switch_controller) and error_recovery called.");
+    robots.triggerError();
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -69,8 +97,10 @@ int main(int argc, char** argv) {
   spinner.start();
 
   ros::NodeHandle nh("~");
+  bool restarts_controllers = true;
   franka_hw::FrankaCombinedHW robots;
-  if (!robots.init(nh, nh)) {
+  if (!franka_control::readFlag("restart_controllers_after_recovery", nh, restarts_controllers) ||
+      !robots.init(nh, nh)) {
     ROS_ERROR("franka_combined_control_node: the robots could not be set up (see above).");
     return 1;
   }
@@ -78,6 +108,9 @@ int main(int argc, char** argv) {
     return 1;
   }
   controller_manager::ControllerManager controllers(&robots, nh);
+  if (!restarts_controllers) {
+    robots.beforeRecovery([nh] { franka_control::stopCommandingControllers(nh); });
+  }
   std::vector<std::unique_ptr<ArmHealth>> arms;
   for (franka_hw::FrankaCombinableHW* const arm : robots.arms()) {
     arms.push_back(std::make_unique<ArmHealth>(nh, *arm));
@@ -85,16 +118,17 @@ int main(int argc, char** argv) {
   franka_control::LoopHealth loop_health(nh, "all arms");
 
   const ros::Duration period(0.001);
+  franka_hw::RobotClock clock;
   ros::Rate rate(period);
   while (ros::ok()) {
     rate.sleep();
-    const ros::Time now = ros::Time::now();
+    const ros::Time now = clock.update(ownMilliseconds(), ros::Time::now());
     robots.read(now, period);
     for (const auto& arm : arms) {
       arm->update();
     }
     loop_health.cycleBegins();
-    controllers.update(now, period, robots.controllerNeedsReset());
+    updateControllers(controllers, robots, now, period);
     loop_health.cycleEnds();
     if (!robots.hasError()) {
       robots.write(now, period);

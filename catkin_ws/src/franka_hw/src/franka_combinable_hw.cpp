@@ -146,8 +146,15 @@ void FrankaCombinableHW::offerRobot() {
 
 // --- errors --------------------------------------------------------------------------------------
 
+void FrankaCombinableHW::beforeRecovery(std::function<void()> task) {
+  before_recovery_ = std::move(task);
+}
+
 void FrankaCombinableHW::recover() {
   try {
+    if (has_error_ && before_recovery_) {
+      before_recovery_();
+    }
     resetError();
     recovery_server_->setSucceeded();
   } catch (const std::exception& error) {
@@ -157,6 +164,13 @@ void FrankaCombinableHW::recover() {
 }
 
 void FrankaCombinableHW::resetError() {
+  if (!has_error_) {
+    // The robot is not touched: a recovery ahead of time must not clear an error still to come, and
+    // would wait for the end of a motion.
+    ROS_WARN_STREAM("FrankaCombinableHW: a recovery of '"
+                    << arm_id_ << "' was asked for, but there is nothing to recover.");
+    return;
+  }
   {
     const auto lock = RobotWanted::take(robot_mutex_);
     if (!robot_) {
@@ -169,9 +183,7 @@ void FrankaCombinableHW::resetError() {
       robot_->automaticErrorRecovery();
     }
   }
-  if (has_error_) {
-    error_recovered_ = true;
-  }
+  error_recovered_ = true;
   setError(false);
 }
 
@@ -359,7 +371,12 @@ bool FrankaCombinableHW::prepareSwitch(
                      << arm_id_ << "', which is not connected. Call its service connect first.");
     return false;
   }
-  return FrankaHW::prepareSwitch(start_list, stop_list);
+  const bool was_active = controllerActive();
+  const bool agrees = FrankaHW::prepareSwitch(start_list, stop_list);
+  if (!was_active && controllerActive()) {
+    error_recovered_ = true;  // a switch was taken back: its controllers start anew
+  }
+  return agrees;
 }
 
 void FrankaCombinableHW::read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {

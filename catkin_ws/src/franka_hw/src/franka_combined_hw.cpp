@@ -57,12 +57,27 @@ void FrankaCombinedHW::setupServices(ros::NodeHandle& robot_hw_nh) {
   recovery_server_->start();
 }
 
+void FrankaCombinedHW::beforeRecovery(const std::function<void()>& task) {
+  before_recovery_ = task;
+  for (FrankaCombinableHW* const arm : arms_) {
+    arm->beforeRecovery(task);
+  }
+}
+
 void FrankaCombinedHW::recover() {
+  if (!anyOwnError()) {
+    ROS_WARN("FrankaCombinedHW: error_recovery was called, but there is nothing to recover.");
+    recovery_server_->setSucceeded();
+    return;
+  }
+  if (before_recovery_) {
+    before_recovery_();
+  }
   is_recovering_ = true;
   std::string failures;
   for (FrankaCombinableHW* const arm : arms_) {
-    if (!arm->connected() && !arm->hasOwnError()) {
-      continue;  // it was given up, and keeps nobody waiting
+    if (!arm->hasOwnError()) {
+      continue;
     }
     try {
       arm->resetError();
@@ -89,10 +104,22 @@ void FrankaCombinedHW::handleError() {
     return;
   }
   // One controller moves all arms: when one stops, the others must. They go on with it.
-  const bool any =
-      std::any_of(arms_.begin(), arms_.end(), [](const auto* arm) { return arm->hasOwnError(); });
+  const bool any = anyOwnError();
   for (FrankaCombinableHW* const arm : arms_) {
     arm->waitForOthers(any && !arm->hasOwnError());
+  }
+}
+
+bool FrankaCombinedHW::anyOwnError() const {
+  return std::any_of(arms_.begin(), arms_.end(),
+                     [](const auto* arm) { return arm->hasOwnError(); });
+}
+
+void FrankaCombinedHW::triggerError() {
+  for (FrankaCombinableHW* const arm : arms_) {
+    if (arm->controllerActive()) {
+      arm->triggerError();
+    }
   }
 }
 

@@ -212,6 +212,7 @@ void FrankaHW::update(const franka::RobotState& robot_state) {
   robot_state_libfranka_ = robot_state;
   robot_state_ros_ = robot_state;
   robot_mode_ = robot_state.robot_mode;
+  clock_.update(robot_state.time, ros::Time::now());
 }
 
 void FrankaHW::read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {

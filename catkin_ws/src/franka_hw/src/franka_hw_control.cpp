@@ -37,6 +37,14 @@ bool modeOf(const std::string& arm_id, const std::list<hardware_interface::Contr
   return true;
 }
 
+std::vector<std::string> namesOf(const std::list<hardware_interface::ControllerInfo>& list) {
+  std::vector<std::string> names;
+  for (const hardware_interface::ControllerInfo& info : list) {
+    names.push_back(info.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 bool FrankaHW::RunSettings::operator==(const RunSettings& other) const {
@@ -75,6 +83,11 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   if (start_mode == ControlMode::None && stop_mode == ControlMode::None) {
     return true;  // who only looks does not disturb a motion
   }
+  const bool unused = preparation_pending_.exchange(false);
+  if (unused && namesOf(start_list) == preparation_.stop &&
+      namesOf(stop_list) == preparation_.start) {
+    return takePreparationBack();
+  }
   const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
   const RunSettings settings = requestedSettings(mode);
   // Torques may pass from one controller to the next within a motion: nothing has to come to rest.
@@ -86,12 +99,13 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   if (!endMotion()) {
     ROS_ERROR_STREAM("FrankaHW: the motion of '" << arm_id_ << "' did not end within "
                                                  << kLongestStop.count() << " s.");
+    goOnAsBefore(was_active);
     return false;
   }
   if (!setRunFunction(mode, settings.limit_rate, settings.cutoff_frequency,
                       settings.internal_controller)) {
     ROS_WARN_STREAM("FrankaHW: no such control mode for '" << arm_id_ << "': " << mode);
-    controller_active_ = was_active;
+    goOnAsBefore(was_active);
     return false;
   }
   if (mode != current_control_mode_) {
@@ -103,10 +117,26 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
                             ? "joint_impedance"
                             : "cartesian_impedance"));
   }
+  preparation_ = {namesOf(start_list), namesOf(stop_list), was_active, run_settings_};
+  preparation_pending_ = true;
   motion_goes_on_ = was_active && (current_control_mode_ & ~stop_mode) != ControlMode::None;
   current_control_mode_ = mode;
   run_settings_ = settings;
   return true;
+}
+
+bool FrankaHW::takePreparationBack() {
+  run_settings_ = preparation_.settings_before;
+  current_control_mode_ = run_settings_.mode;
+  setRunFunction(run_settings_.mode, run_settings_.limit_rate, run_settings_.cutoff_frequency,
+                 run_settings_.internal_controller);
+  goOnAsBefore(preparation_.was_active);
+  return true;
+}
+
+void FrankaHW::goOnAsBefore(bool was_active) {
+  motion_goes_on_ = was_active;
+  controller_active_ = was_active;
 }
 
 bool FrankaHW::endMotion() {
@@ -128,6 +158,7 @@ FrankaHW::RunSettings FrankaHW::requestedSettings(ControlMode mode) const {
 
 void FrankaHW::doSwitch(const std::list<hardware_interface::ControllerInfo>& /*start_list*/,
                         const std::list<hardware_interface::ControllerInfo>& /*stop_list*/) {
+  preparation_pending_ = false;
   if (current_control_mode_ != ControlMode::None) {
     reset();
     controller_active_ = true;

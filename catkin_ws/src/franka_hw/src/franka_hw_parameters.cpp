@@ -95,11 +95,12 @@ bool FrankaHW::readJointNames(const ros::NodeHandle& nh) {
 }
 
 bool FrankaHW::readConnectTimeout(const ros::NodeHandle& nh) {
-  if (!nh.hasParam("connect_timeout")) {
+  std::string name;  // one for all arms of a combined node stands in its namespace
+  if (!nh.searchParam("connect_timeout", name)) {
     return true;
   }
-  if (!nh.getParam("connect_timeout", connect_timeout_) || !(connect_timeout_ >= 0.0)) {
-    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName("connect_timeout")
+  if (!nh.getParam(name, connect_timeout_) || !(connect_timeout_ >= 0.0)) {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << name
                                                  << "' is not a number of seconds from 0 on.");
     return false;
   }
@@ -107,14 +108,16 @@ bool FrankaHW::readConnectTimeout(const ros::NodeHandle& nh) {
 }
 
 bool FrankaHW::readRealtimeConfig(const ros::NodeHandle& nh) {
-  const std::string config = nh.param<std::string>("realtime_config", "enforce");
+  std::string name = "realtime_config";
+  nh.searchParam("realtime_config", name);
+  const std::string config = nh.param<std::string>(name, "enforce");
   if (config == "enforce") {
     realtime_config_ = franka::RealtimeConfig::kEnforce;
   } else if (config == "ignore") {
     realtime_config_ = franka::RealtimeConfig::kIgnore;
   } else {
-    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName("realtime_config") << "' is '"
-                                                 << config << "', but must be enforce or ignore.");
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName(name) << "' is '" << config
+                                                 << "', but must be enforce or ignore.");
     return false;
   }
   return true;

@@ -71,9 +71,12 @@ class FrankaCombinableHW : public FrankaHW {
   /// Ends the motion while another arm has an error, and lets it go on, with the controllers
   /// started anew, when that has recovered. Real-time safe.
   void waitForOthers(bool waits);
-  /// Clears the robot's errors and the one noted here. A robot that is Idle has none.
+  /// Clears the robot's errors and the one noted here. A robot that is Idle has none. Where no
+  /// error is noted, only a warning is logged.
   /// @throws franka::Exception when it refuses or is not connected
   void resetError();
+  /// What the action error_recovery does before it clears an error. To be set before the first.
+  void beforeRecovery(std::function<void()> task);
   /// Whether the controllers have to start anew, because an error was cleared.
   bool controllerNeedsReset() const noexcept;
 
@@ -121,6 +124,7 @@ class FrankaCombinableHW : public FrankaHW {
   std::mutex connection_mutex_;  // one at a time connects, disconnects or notices the loss
   std::unique_ptr<ServiceContainer> services_;
   std::unique_ptr<RecoveryServer> recovery_server_;
+  std::function<void()> before_recovery_;
   Reconnection reconnection_;  // of the arm's thread
 
   Latest<ArrivedState> states_;

@@ -29,6 +29,11 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
   /// Whether the controllers have to start anew, because an error was cleared on some arm.
   bool controllerNeedsReset();
   bool hasError();
+  /// Ends the motions of all arms as if each had an error; for errors of the controllers' own.
+  void triggerError();
+  /// What the actions error_recovery, of one arm or of all, do before they clear an error. To be
+  /// set before the first.
+  void beforeRecovery(const std::function<void()>& task);
 
   /// Connects the arms that are not connected, also where one of them fails.
   /// @throws franka::NetworkException that names each arm that failed, why, and those that did not
@@ -45,9 +50,11 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
   void setupServices(ros::NodeHandle& robot_hw_nh);
   void recover();
   void handleError();
+  bool anyOwnError() const;
 
   std::vector<FrankaCombinableHW*> arms_;  // of robot_hw_list_
   std::unique_ptr<RecoveryServer> recovery_server_;
+  std::function<void()> before_recovery_;
   ros::ServiceServer connect_server_;
   ros::ServiceServer disconnect_server_;
   std::atomic_bool is_recovering_{false};

@@ -123,7 +123,8 @@ class FrankaHW : public hardware_interface::RobotHW {
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                 const std::list<hardware_interface::ControllerInfo>& stop_list) override;
   /// Decides on the control mode after the switch. A motion that has to change is ended here: this
-  /// waits for it, and refuses after two seconds.
+  /// waits for it, and refuses after two seconds. A call with the lists exchanged, before
+  /// doSwitch(), takes the preparation back: the motion goes on, its controllers start anew.
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
 
@@ -149,6 +150,9 @@ class FrankaHW : public hardware_interface::RobotHW {
   virtual std::mutex& robotMutex();
   /// As of the last state.
   franka::RobotMode robotMode() const;
+  /// When the last state was measured, on the clock of ROS: the time that controllers are told.
+  /// Never goes back.
+  const ros::Time& stateTime() const noexcept { return clock_.time(); }
   /// How fast the controllers answer the robot. Reports are for one thread.
   ResponseTimes& responseTimes() noexcept { return response_times_; }
 
@@ -356,8 +360,20 @@ class FrankaHW : public hardware_interface::RobotHW {
   void connectInTime();
   void reportJointLimits(const ros::WallTimerEvent& event);
   RunSettings requestedSettings(ControlMode mode) const;
+  bool takePreparationBack();
+  /// Lets a motion that was ended for a switch go on.
+  void goOnAsBefore(bool was_active);
+
+  /// What was prepared last, and from where.
+  struct Preparation {
+    std::vector<std::string> start, stop;  // controllers
+    bool was_active{false};
+    RunSettings settings_before;
+  };
 
   RunSettings run_settings_;
+  Preparation preparation_;  // of whoever calls prepareSwitch
+  std::atomic_bool preparation_pending_{false};
   std::atomic_bool motion_goes_on_{false};
   std::atomic_bool in_control_{false};
   double connect_timeout_{0.0};  // [s] for a robot that is still starting

@@ -263,6 +263,15 @@ bool Loop::switchTo(const std::vector<std::string>& start, const std::vector<std
   return manager_.switchController(names(start), names(stop), 2, false, 10.0);
 }
 
+hardware_interface::ControllerInfo Loop::info(const std::string& claims) const {
+  for (const controller_manager::ControllerSpec& spec : manager_.getControllers()) {
+    if (spec.info.name == nameOf(claims)) {
+      return spec.info;
+    }
+  }
+  throw std::runtime_error(claims + " is not loaded");
+}
+
 std::vector<std::string> Loop::errors() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return errors_;

@@ -114,6 +114,8 @@ class Loop {
   ToldController& controller(const std::string& claims);
   bool switchTo(const std::vector<std::string>& start, const std::vector<std::string>& stop);
   controller_manager::ControllerManager& manager() { return manager_; }
+  /// What the robot is told of a loaded controller.
+  hardware_interface::ControllerInfo info(const std::string& claims) const;
 
   /// Makes ToldController, the type test/Told.
   static controller_manager::ControllerLoaderInterfaceSharedPtr makeLoader();

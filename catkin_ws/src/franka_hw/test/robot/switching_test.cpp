@@ -134,6 +134,34 @@ TEST_F(Switching, AControllerThatStaysIsStartedAnewWithTheNewMotion) {
   EXPECT_EQ(starts + 1, loop_->controller("JT").starts);
 }
 
+TEST_F(Switching, ASwitchThatNeverComesLeavesTheMotionAsItWas) {
+  ASSERT_TRUE(loop_->switchTo({"JP"}, {}));
+  expectRuns("JP");
+  loop_->controller("JV");
+  const std::list<hardware_interface::ControllerInfo> running{loop_->info("JP")};
+  const std::list<hardware_interface::ControllerInfo> wanted{loop_->info("JV")};
+  for (int times = 1; times <= 2; times++) {
+    const int starts = loop_->controller("JP").starts;
+    ASSERT_TRUE(robot_.prepareSwitch(wanted, running));
+    EXPECT_FALSE(robot_.controllerActive());
+    ASSERT_TRUE(robot_.prepareSwitch(running, wanted));
+    expectRuns("JP");
+    EXPECT_EQ(starts + 1, loop_->controller("JP").starts);
+  }
+  ASSERT_TRUE(loop_->switchTo({"JV"}, {"JP"}));
+  expectRuns("JV");
+}
+
+TEST_F(Switching, TakingBackTheFirstStartLeavesTheRobotAtRest) {
+  loop_->controller("JP");
+  const std::list<hardware_interface::ControllerInfo> wanted{loop_->info("JP")};
+  ASSERT_TRUE(robot_.prepareSwitch(wanted, {}));
+  ASSERT_TRUE(robot_.prepareSwitch({}, wanted));
+  EXPECT_FALSE(robot_.controllerActive());
+  ASSERT_TRUE(loop_->switchTo({"JP"}, {}));
+  expectRuns("JP");
+}
+
 // --- controllers that misbehave ------------------------------------------------------------------
 
 TEST_F(Switching, AControllerThatThrowsEndsTheMotionWithItsWords) {
