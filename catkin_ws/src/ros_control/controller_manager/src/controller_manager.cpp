@@ -32,7 +32,8 @@ ControllerManager::ControllerManager(hardware_interface::RobotHW* robot_hw,
   default_switch_timeout_ = supervision.default_switch_timeout;
   if (supervision.watches()) {
     supervisor_ = std::make_unique<internal::Supervisor>(
-        supervision, *registry_, *gate_, own_nh, [this](const auto& name) { settleFault(name); });
+        supervision, *registry_, *gate_, own_nh,
+        [this](const std::string& name, bool first) { return settleFault(name, first); });
   }
   services_ = std::make_unique<internal::ManagerServices>(*this, nh);
 }
@@ -48,12 +49,7 @@ void ControllerManager::update(const ros::Time& time, const ros::Duration& perio
   const internal::LoopGate::Visit visit(*gate_);
   const internal::ControllerList& list = registry_->forLoop();
   if (reset_controllers) {
-    for (ControllerBase* controller : list.controllers()) {
-      if (controller->isRunning()) {
-        controller->stopRequest(time);
-        controller->startRequest(time);
-      }
-    }
+    restartRunning(list, time);
   }
   if (supervisor_) {
     supervisor_->update(list, time, period);
@@ -63,6 +59,18 @@ void ControllerManager::update(const ros::Time& time, const ros::Duration& perio
     }
   }
   desk_->serve(*robot_hw_, time);
+}
+
+void ControllerManager::restartRunning(const internal::ControllerList& list,
+                                       const ros::Time& time) {
+  for (const ControllerSpec& spec : list.specs()) {
+    if (spec.watch) {
+      spec.watch->restart(time);
+    } else if (spec.c->isRunning()) {
+      spec.c->stopRequest(time);
+      spec.c->startRequest(time);
+    }
+  }
 }
 
 bool ControllerManager::refusedInLoop(const char* action) const {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <controller_manager/internal/controller_watch.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <utility>
 
 namespace controller_manager {
@@ -42,8 +42,6 @@ void ControllerWatch::update(const ros::Time& time, const ros::Duration& period,
   }
   if (fault != Fault::kNone) {
     abort(fault, time, elapsed.count());
-  } else if (abort_faulty_) {
-    commands_.remember();
   }
 }
 
@@ -52,13 +50,12 @@ ControllerWatch::Fault ControllerWatch::run(const ros::Time& time, const ros::Du
     controller_.updateRequest(time, period);
     return Fault::kNone;
   }
-  try {
-    controller_.updateRequest(time, period);
-  } catch (const std::exception& error) {
-    note(error.what());
-    return Fault::kException;
-  } catch (...) {
-    note("an exception of unknown type");
+  // What stands there now is what the robot got last, be it from this controller's last update, its
+  // starting() or a stranger.
+  commands_.remember();
+  ExceptionText thrown;
+  if (!runsThrough([&] { controller_.updateRequest(time, period); }, thrown)) {
+    note(thrown.data());
     return Fault::kException;
   }
   const char* const offender = commands_.offender();
@@ -69,10 +66,30 @@ ControllerWatch::Fault ControllerWatch::run(const ros::Time& time, const ros::Du
   return Fault::kNotFinite;
 }
 
+void ControllerWatch::restart(const ros::Time& time) {
+  if (!controller_.isRunning()) {
+    return;
+  }
+  const auto stop_and_start = [&] {
+    controller_.stopRequest(time);
+    controller_.startRequest(time);
+  };
+  if (!abort_faulty_) {
+    stop_and_start();
+    return;
+  }
+  commands_.remember();
+  ExceptionText thrown;
+  if (!runsThrough(stop_and_start, thrown)) {
+    note(thrown.data());
+    abort(Fault::kRestart, time, 0.0);
+  }
+}
+
 void ControllerWatch::note(const char* text) {
   // The text of a fault not yet settled is being read.
   if (fault() == Fault::kNone) {
-    std::snprintf(text_.data(), text_.size(), "%s", text);
+    copyText(text, text_);
   }
 }
 
@@ -80,9 +97,8 @@ void ControllerWatch::abort(Fault fault, const ros::Time& time, double elapsed) 
   if (fault != Fault::kTooSlow) {
     commands_.restore();
   }
-  try {
-    controller_.abortRequest(time);
-  } catch (...) {
+  ExceptionText thrown;
+  if (!runsThrough([&] { controller_.abortRequest(time); }, thrown)) {
     controller_.state_ = ControllerBase::ControllerState::ABORTED;
   }
   if (this->fault() == Fault::kNone) {
@@ -95,6 +111,8 @@ std::string ControllerWatch::reason() const {
   switch (fault()) {
     case Fault::kException:
       return std::string("its update threw: ") + text_.data();
+    case Fault::kRestart:
+      return std::string("its restart threw: ") + text_.data();
     case Fault::kNotFinite:
       return std::string("it commanded joint '") + text_.data() + "' a value that is no number";
     case Fault::kTooSlow: {

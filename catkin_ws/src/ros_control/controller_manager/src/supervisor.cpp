@@ -128,9 +128,27 @@ void Supervisor::settleFaults() {
     }
     ROS_ERROR("Controller '%s' was aborted, because %s.", spec.info.name.c_str(),
               spec.watch->reason().c_str());
-    settle_(spec.info.name);
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      unsettled_[spec.info.name] = true;
+    }
     spec.watch->settle();
   }
+  std::map<std::string, bool> unsettled;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    unsettled.swap(unsettled_);
+  }
+  for (const auto& [name, first] : unsettled) {
+    if (!settle_(name, first)) {
+      settleLater(name);
+    }
+  }
+}
+
+void Supervisor::settleLater(const std::string& name) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  unsettled_.emplace(name, false);
 }
 
 controller_manager_msgs::ControllerStatistics Supervisor::message(const std::string& name,

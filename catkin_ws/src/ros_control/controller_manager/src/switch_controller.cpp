@@ -130,11 +130,15 @@ void reportOutcome(const SwitchRequest& request) {
             start.info.name.c_str(), request.timeout);
         break;
       case SwitchRequest::Outcome::kThrew:
-        ROS_ERROR("Controller '%s' was not started, because its starting threw: %s",
-                  start.info.name.c_str(), start.thrown.data());
+        ROS_ERROR("Controller '%s' was not started, because its %s threw: %s",
+                  start.info.name.c_str(), start.thrower, start.thrown.data());
         break;
       default:
         break;
+    }
+    if (start.thrower != nullptr && start.outcome != SwitchRequest::Outcome::kThrew) {
+      ROS_ERROR("Controller '%s' threw in its %s: %s", start.info.name.c_str(), start.thrower,
+                start.thrown.data());
     }
   }
 }
@@ -186,7 +190,9 @@ bool ControllerManager::switchController(const Names& start_controllers,
   const bool carried_out = carryOut(start_controllers, stop_controllers, strictness, start_asap,
                                     timeout > 0.0 ? timeout : default_switch_timeout_, thrown);
   for (const std::string& name : thrown) {
-    settleFault(name);
+    if (!settleFault(name, true)) {
+      supervisor_->settleLater(name);
+    }
   }
   return carried_out;
 }
@@ -234,6 +240,13 @@ bool ControllerManager::carryOut(const Names& start_controllers, const Names& st
     case SwitchDesk::Result::kDone:
       reportOutcome(turn.request());
       thrown = thrownBy(turn.request());
+      if (turn.request().broken) {
+        ROS_ERROR(
+            "Could not finish switching controllers, because an exception went through the "
+            "control loop: %s. What had not been started or stopped yet was aborted.",
+            turn.request().broken_by.data());
+        return false;
+      }
       return true;
     case SwitchDesk::Result::kAbandoned:
       ROS_ERROR(
@@ -292,14 +305,16 @@ std::unique_ptr<SwitchRequest> ControllerManager::planFallback(const ControllerS
   return request;
 }
 
-void ControllerManager::settleFault(const std::string& name) {
+bool ControllerManager::settleFault(const std::string& name, bool first) {
   SwitchDesk::Turn turn(*desk_, kFaultTimeout);
   if (!turn) {
-    ROS_ERROR(
-        "The robot could not be told that controller '%s' was aborted: another switch is "
-        "under way",
-        name.c_str());
-    return;
+    if (first && !desk_->mustEnd()) {
+      ROS_ERROR(
+          "The robot could not be told yet that controller '%s' was aborted: another switch is "
+          "under way. It will be told as soon as that has ended.",
+          name.c_str());
+    }
+    return false;
   }
   {
     const std::lock_guard<std::mutex> lock(services_mutex_);
@@ -307,21 +322,31 @@ void ControllerManager::settleFault(const std::string& name) {
     const ControllerSpec* const spec = list->find(name);
     // Somebody may have started or unloaded it meanwhile.
     if (spec == nullptr || !spec->c->isAborted()) {
-      return;
+      return true;
     }
     std::unique_ptr<SwitchRequest> request = planFallback(*spec);
     if (!request) {
-      return;
+      return true;
     }
     request->timeout = kFaultTimeout;
     request->guarded = true;
     turn.post(std::move(request));
   }
-  if (turn.await() == SwitchDesk::Result::kDone) {
-    reportOutcome(turn.request());
-  } else {
+  switch (turn.await()) {
+    case SwitchDesk::Result::kDone:
+      reportOutcome(turn.request());
+      return true;
+    case SwitchDesk::Result::kAbandoned:
+      // The robot knows; only the fallbacks are lost.
+      explainWithdrawal(turn.elapsed());
+      return true;
+    case SwitchDesk::Result::kWithdrawn:
+      break;
+  }
+  if (first) {
     explainWithdrawal(turn.elapsed());
   }
+  return false;
 }
 
 }  // namespace controller_manager

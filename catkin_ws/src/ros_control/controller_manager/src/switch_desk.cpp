@@ -24,10 +24,24 @@ SwitchDesk::SwitchDesk(LoopGate& gate) : gate_(gate) {}
 
 void SwitchDesk::serve(hardware_interface::RobotHW& robot, const ros::Time& time) {
   SwitchRequest* request = for_loop_.load(std::memory_order_seq_cst);
-  if (request != nullptr && request->advance(robot, time)) {
-    for_loop_.store(nullptr, std::memory_order_release);
-    request->phase.store(Phase::kDone, std::memory_order_release);
+  if (request == nullptr) {
+    return;
   }
+  bool settled = false;
+  try {
+    settled = request->advance(robot, time);
+  } catch (...) {
+    finish(*request);
+    throw;
+  }
+  if (settled) {
+    finish(*request);
+  }
+}
+
+void SwitchDesk::finish(SwitchRequest& request) {
+  for_loop_.store(nullptr, std::memory_order_release);
+  request.phase.store(Phase::kDone, std::memory_order_release);
 }
 
 bool SwitchDesk::mustEnd() const { return closed_ || !ros::ok(); }

@@ -3,12 +3,12 @@
 #include <controller_manager/internal/switch_request.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 
 namespace controller_manager {
 namespace internal {
 
+using State = controller_interface::ControllerBase::ControllerState;
 using SwitchState = hardware_interface::RobotHW::SwitchState;
 
 bool SwitchRequest::involves(const std::string& name) const {
@@ -19,11 +19,29 @@ bool SwitchRequest::involves(const std::string& name) const {
 }
 
 bool SwitchRequest::advance(hardware_interface::RobotHW& robot, const ros::Time& time) {
+  try {
+    return proceed(robot, time);
+  } catch (const std::exception& error) {
+    copyText(error.what(), broken_by);
+    breakOff();
+    throw;
+  } catch (...) {
+    copyText("an exception of unknown type", broken_by);
+    breakOff();
+    throw;
+  }
+}
+
+bool SwitchRequest::proceed(hardware_interface::RobotHW& robot, const ros::Time& time) {
   if (!begin(robot, time)) {
     return false;
   }
   if (cancelled.load(std::memory_order_relaxed)) {
-    giveUp(time);
+    for (Start& start : starts) {
+      if (start.outcome == Outcome::kPending) {
+        giveUp(start, Outcome::kCancelled, time);
+      }
+    }
     return true;
   }
   return start_asap ? startEach(robot, time) : startTogether(robot, time);
@@ -42,38 +60,61 @@ bool SwitchRequest::begin(hardware_interface::RobotHW& robot, const ros::Time& t
       stop(stopped, time);
     }
   }
+  begun_ = true;
   return true;
 }
 
-void SwitchRequest::start(Start& start, const ros::Time& time) const {
-  start.outcome = Outcome::kStarted;
-  if (!guarded) {
-    start.controller->startRequest(time);
-    return;
+void SwitchRequest::breakOff() {
+  broken = true;
+  for (const Start& start : starts) {
+    if (start.outcome == Outcome::kPending) {
+      start.controller->state_ = State::ABORTED;
+    }
   }
-  try {
-    start.controller->startRequest(time);
-  } catch (const std::exception& error) {
-    std::snprintf(start.thrown.data(), start.thrown.size(), "%s", error.what());
-    start.outcome = Outcome::kThrew;
-  } catch (...) {
-    std::snprintf(start.thrown.data(), start.thrown.size(), "an exception of unknown type");
-    start.outcome = Outcome::kThrew;
-  }
-  if (start.outcome == Outcome::kThrew) {
-    start.controller->state_ = controller_interface::ControllerBase::ControllerState::ABORTED;
+  for (const Stop& stop : stops) {
+    if (!begun_ && stop.controller->isRunning()) {
+      stop.controller->state_ = State::ABORTED;
+    }
   }
 }
 
-void SwitchRequest::stop(const Stop& stop, const ros::Time& time) const {
+template <class Call>
+bool SwitchRequest::runs(Start& start, const char* callback, Call call) const {
   if (!guarded) {
-    stop.controller->stopRequest(time);
-    return;
+    call();
+    return true;
   }
-  try {
-    stop.controller->stopRequest(time);
-  } catch (...) {
-    stop.controller->state_ = controller_interface::ControllerBase::ControllerState::ABORTED;
+  if (runsThrough(call, start.thrown)) {
+    return true;
+  }
+  start.thrower = callback;
+  start.controller->state_ = State::ABORTED;
+  return false;
+}
+
+void SwitchRequest::start(Start& start, const ros::Time& time) const {
+  const bool started = runs(start, "starting", [&] { start.controller->startRequest(time); });
+  start.outcome = started ? Outcome::kStarted : Outcome::kThrew;
+}
+
+void SwitchRequest::wait(Start& start, const ros::Time& time) const {
+  if (!runs(start, "waiting", [&] { start.controller->waitRequest(time); })) {
+    start.outcome = Outcome::kThrew;
+  }
+}
+
+void SwitchRequest::giveUp(Start& start, Outcome reason, const ros::Time& time) const {
+  runs(start, "aborting", [&] { start.controller->abortRequest(time); });
+  start.outcome = reason;
+}
+
+void SwitchRequest::stop(const Stop& stop, const ros::Time& time) const {
+  const auto request = [&] { stop.controller->stopRequest(time); };
+  ExceptionText thrown;
+  if (!guarded) {
+    request();
+  } else if (!runsThrough(request, thrown)) {
+    stop.controller->state_ = State::ABORTED;
   }
 }
 
@@ -87,52 +128,42 @@ SwitchRequest::Outcome SwitchRequest::reasonToGiveUp(SwitchState state,
                                                                   : Outcome::kPending;
 }
 
-void SwitchRequest::giveUp(const ros::Time& time) {
-  for (Start& start : starts) {
-    if (start.outcome == Outcome::kPending) {
-      start.controller->abortRequest(time);
-      start.outcome = Outcome::kCancelled;
-    }
-  }
-}
-
 // The robot is asked once whether it is done and a second time whether it failed. Robots written
 // for the original count on that, as do their tests.
 bool SwitchRequest::startTogether(hardware_interface::RobotHW& robot, const ros::Time& time) {
-  if (robot.switchResult() == SwitchState::DONE) {
-    for (Start& started : starts) {
-      start(started, time);
+  const bool ready = robot.switchResult() == SwitchState::DONE;
+  const Outcome reason = ready ? Outcome::kPending : reasonToGiveUp(robot.switchResult(), time);
+  for (Start& pending : starts) {
+    if (pending.outcome != Outcome::kPending) {
+      continue;
     }
-    return true;
-  }
-  const Outcome reason = reasonToGiveUp(robot.switchResult(), time);
-  for (Start& start : starts) {
-    if (reason == Outcome::kPending) {
-      start.controller->waitRequest(time);
+    if (ready) {
+      start(pending, time);
+    } else if (reason == Outcome::kPending) {
+      wait(pending, time);
     } else {
-      start.controller->abortRequest(time);
-      start.outcome = reason;
+      giveUp(pending, reason, time);
     }
   }
-  return reason != Outcome::kPending;
+  return ready || reason != Outcome::kPending;
 }
 
 bool SwitchRequest::startEach(hardware_interface::RobotHW& robot, const ros::Time& time) {
   bool settled = true;
-  for (Start& waiting : starts) {
-    if (waiting.outcome != Outcome::kPending) {
+  for (Start& pending : starts) {
+    if (pending.outcome != Outcome::kPending) {
       continue;
     }
-    if (robot.switchResult(waiting.info) == SwitchState::DONE) {
-      start(waiting, time);
+    if (robot.switchResult(pending.info) == SwitchState::DONE) {
+      start(pending, time);
       continue;
     }
-    waiting.outcome = reasonToGiveUp(robot.switchResult(waiting.info), time);
-    if (waiting.outcome == Outcome::kPending) {
-      waiting.controller->waitRequest(time);
-      settled = false;
+    const Outcome reason = reasonToGiveUp(robot.switchResult(pending.info), time);
+    if (reason == Outcome::kPending) {
+      wait(pending, time);
+      settled = settled && pending.outcome != Outcome::kPending;
     } else {
-      waiting.controller->abortRequest(time);
+      giveUp(pending, reason, time);
     }
   }
   return settled;

@@ -187,7 +187,16 @@ class SpawnerTest(unittest.TestCase):
             self.expect({})
             self.assertEqual("dummy/Good", rospy.get_param("/from_file/type"))
 
-            cases = (("- a\n", "names of controllers"), ("{a: [\n", "could not be read"))
+            cases = (
+                ("- a\n", "names of controllers"),
+                ("42\n", "names of controllers"),
+                ("1.5\n", "names of controllers"),
+                ("true\n", "names of controllers"),
+                ("---\n", "names of controllers"),
+                ("1: {type: dummy/Good}\n", "names of controllers"),
+                ("a: {type: null}\n", "names of controllers"),
+                ("{a: [\n", "could not be read"),
+            )
             for content, text in cases:
                 with open(path, "w", encoding="utf-8") as file:
                     file.write(content)

@@ -20,9 +20,10 @@ class FaultyController : public DummyController {
     static Mischief mischief{Mischief::kNone};
     return mischief;
   }
-  static bool& inStarting() {
-    static bool throws{false};
-    return throws;
+  /// The name of the callback that throws, of those around the update.
+  static std::string& throwsIn() {
+    static std::string callback;
+    return callback;
   }
 
   bool init(hardware_interface::EffortJointInterface* hw, ros::NodeHandle& nh) override {
@@ -32,10 +33,21 @@ class FaultyController : public DummyController {
     return true;
   }
   void starting(const ros::Time& time) override {
-    if (inStarting()) {
-      throw std::runtime_error("the target is unknown");
-    }
+    throwIfIn("starting");
+    handle_.setCommand(kFirstCommand);
     DummyController::starting(time);
+  }
+  void stopping(const ros::Time& time) override {
+    throwIfIn("stopping");
+    DummyController::stopping(time);
+  }
+  void waiting(const ros::Time& time) override {
+    throwIfIn("waiting");
+    DummyController::waiting(time);
+  }
+  void aborting(const ros::Time& time) override {
+    throwIfIn("aborting");
+    DummyController::aborting(time);
   }
   void update(const ros::Time& /*time*/, const ros::Duration& /*period*/) override {
     ++updates_;
@@ -52,7 +64,15 @@ class FaultyController : public DummyController {
     }
   }
 
+  static constexpr double kFirstCommand = 3.0;  ///< by starting(); updates command 7
+
  private:
+  static void throwIfIn(const char* callback) {
+    if (throwsIn() == callback) {
+      throw std::runtime_error("the target is unknown");
+    }
+  }
+
   hardware_interface::JointHandle handle_;
 };
 
@@ -70,7 +90,7 @@ class SupervisionTest : public ManagerTest {
  protected:
   SupervisionTest() : own_(nh_, "controller_manager") {
     FaultyController::inUpdate() = Mischief::kNone;
-    FaultyController::inStarting() = false;
+    FaultyController::throwsIn().clear();
     describe("faulty", "dummy/Faulty", {"j3"});
   }
   ~SupervisionTest() override {
@@ -93,6 +113,20 @@ class SupervisionTest : public ManagerTest {
     renew();
     load({"a", "faulty"});
     ASSERT_TRUE(doSwitch({"a", "faulty"}, {}));
+  }
+
+  /// Steps until the switch is answered. @returns how many steps threw
+  int stepThroughExceptions(const std::future<bool>& answer) {
+    int thrown = 0;
+    waitFor([&] {
+      try {
+        step();
+      } catch (const std::runtime_error&) {
+        ++thrown;
+      }
+      return isReady(answer);
+    });
+    return thrown;
   }
 
   double command(const std::string& joint) {

@@ -37,10 +37,17 @@ class SwitchDesk;
 /// While the loop stands still, controllers can be listed, loaded and unloaded; a switch waits for
 /// the loop, lets the other requests through meanwhile, and fails after its timeout.
 ///
+/// What a controller or the robot throws in the loop leaves update(), as in the original, unless
+/// abort_faulty_controllers holds it back. The controller keeps the state that the throwing
+/// callback found, so one whose starting() threw does not run. A switch that was thrown out of is
+/// over: its caller gets false, and what it had still to start or to stop is aborted, without
+/// another callback; the next update() works. Who catches the exception must tell the robot
+/// himself.
+///
 /// Parameters in `<nh>/controller_manager/`, read once, turn on what the original does not have:
 /// * `statistics_rate` [Hz]: publish `statistics` (controller_manager_msgs/ControllersStatistics).
 /// * `abort_faulty_controllers` (bool): a controller that throws, or commands a joint NaN, is
-///   aborted alone; the robot keeps the last good commands until it has been told.
+///   aborted alone; the robot keeps the commands of the cycle before until it has been told.
 /// * `max_update_time` [s]: so is one whose update takes longer.
 /// * `default_switch_timeout` [s]: of switches that name none.
 /// A controller's own parameter `fallback_controllers` (names) says what is started in its place
@@ -67,7 +74,8 @@ class ControllerManager {
 
   /// One cycle of the loop: updates all running controllers in the order of loading, then carries a
   /// switch on. A controller stopped in this cycle was updated before, one started is updated from
-  /// the next cycle on. Real-time safe if the controllers' callbacks and the robot's switch are.
+  /// the next cycle on. Throws what they throw, see above. Real-time safe if the controllers'
+  /// callbacks and the robot's switch are.
   /// @param time of this cycle @param period since the one before
   /// @param reset_controllers restart the running controllers first
   void update(const ros::Time& time, const ros::Duration& period, bool reset_controllers = false);
@@ -115,6 +123,7 @@ class ControllerManager {
   std::vector<DeclaredType> getDeclaredTypes();
 
  private:
+  static void restartRunning(const internal::ControllerList& list, const ros::Time& time);
   bool refusedInLoop(const char* action) const;
   bool reloadLoaders();
   controller_interface::ControllerBaseSharedPtr createController(const std::string& name,
@@ -129,7 +138,9 @@ class ControllerManager {
   bool carryOut(const std::vector<std::string>& start, const std::vector<std::string>& stop,
                 int strictness, bool start_asap, double timeout, std::vector<std::string>& thrown);
   /// Starts what stands in for an aborted controller, and tells the robot.
-  void settleFault(const std::string& name);
+  /// @param first say it if that is not possible yet
+  /// @returns false if it has to be tried again
+  bool settleFault(const std::string& name, bool first);
   std::unique_ptr<internal::SwitchRequest> planFallback(const ControllerSpec& aborted);
   bool watchController(ControllerSpec& spec, const ros::NodeHandle& controller_nh);
   void explainWithdrawal(double elapsed) const;

@@ -225,17 +225,19 @@ def wait_for_true(topic, timeout, ending):
 
 def upload(path):
     """Loads a YAML file on the parameter server. Returns the controllers it describes."""
+    not_controllers = f"'{path}' does not hold names of controllers with their parameters"
     names = []
     try:
         for parameters, namespace in rosparam.load_file(path):
             if not isinstance(parameters, dict):
-                raise SpawnerError(
-                    f"'{path}' does not hold names of controllers with their parameters"
-                )
+                raise SpawnerError(not_controllers)
             rosparam.upload_params(namespace, parameters)
             names += list(parameters)
-    except (rosparam.RosParamException, yaml.YAMLError, OSError) as error:
+    except (rosparam.RosParamException, yaml.YAMLError, OSError, UnicodeDecodeError) as error:
         raise SpawnerError(f"'{path}' could not be read: {error}") from error
+    except (TypeError, AttributeError) as error:
+        # rosparam takes it for granted that each document maps names to what XML-RPC can carry.
+        raise SpawnerError(f"{not_controllers}: {error}") from error
     if not names:
         raise SpawnerError(f"'{path}' describes no controller")
     return names

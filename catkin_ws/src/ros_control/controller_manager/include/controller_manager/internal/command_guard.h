@@ -3,38 +3,49 @@
 #pragma once
 
 #include <hardware_interface/controller_info.h>
-#include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/robot_hw.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace controller_manager {
 namespace internal {
 
-/// Watches what a controller commands to the joints it claimed through the effort, velocity and
-/// position interfaces. Interfaces of other kinds are their robot's to check. Real-time safe but
-/// for the constructor.
+/// Watches what a controller commands to the joints it claimed through the interfaces of
+/// hardware_interface that command joints: effort, velocity, position, position and velocity (with
+/// acceleration, or with torque and gains). Interfaces of other kinds are their robot's to check.
+/// Real-time safe but for the constructor; used by one thread.
 class CommandGuard {
  public:
   CommandGuard(const hardware_interface::ControllerInfo& info, hardware_interface::RobotHW& robot);
 
   /// The name of a joint whose command is not a finite number; nullptr if there is none.
   const char* offender() const;
-  /// Remembers the present commands as good ones.
+  /// Remembers the present commands.
   void remember();
-  /// Gives the robot back the commands remembered last.
+  /// Gives the robot back the commands remembered last. A command that was no number then becomes
+  /// one of rest: the measured position, zero of everything else.
   void restore();
 
  private:
+  /// One number of a joint's command.
   struct Command {
-    hardware_interface::JointHandle handle;
     std::string joint;
+    std::function<double()> get;
+    std::function<void(double)> set;
+    std::function<double()> rest;
     double good;
   };
-  template <class Interface>
-  void collect(const hardware_interface::InterfaceResources& claimed, const char* interface,
-               hardware_interface::RobotHW& robot);
+  template <class Interface, class Watch>
+  void collect(const hardware_interface::InterfaceResources& claimed,
+               hardware_interface::RobotHW& robot, Watch watch);
+  template <class Handle, class Get, class Set>
+  void add(const Handle& handle, Get get, Set set);
+  template <class Handle, class Get, class Set>
+  void addPosition(const Handle& handle, Get get, Set set);
+  template <class Handle>
+  void addPositionAndVelocity(const Handle& handle);
 
   std::vector<Command> commands_;
 };

@@ -4,12 +4,12 @@
 
 #include <controller_interface/controller_base.h>
 #include <controller_manager/internal/command_guard.h>
+#include <controller_manager/internal/runs_through.h>
 #include <controller_manager/internal/time_statistics.h>
 #include <hardware_interface/controller_info.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/time.h>
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <string>
@@ -30,11 +30,11 @@ struct Supervision {
 };
 
 /// Runs one controller's updates: times them, and aborts the controller when it is faulty, leaving
-/// the robot the last commands that were good. One thread calls update(); a fault is read outside
+/// the robot the commands that stood before. One thread calls update(); a fault is read outside
 /// the loop.
 class ControllerWatch {
  public:
-  enum class Fault { kNone, kException, kNotFinite, kTooSlow };
+  enum class Fault { kNone, kException, kRestart, kNotFinite, kTooSlow };
 
   /// @param controller outlives the watch
   /// @param fallbacks names of the controllers to start after a fault
@@ -42,6 +42,9 @@ class ControllerWatch {
                   const hardware_interface::ControllerInfo& info,
                   hardware_interface::RobotHW& robot, const Supervision& supervision,
                   std::vector<std::string> fallbacks);
+
+  /// Stops and starts the controller if it runs. Allocates and locks nothing, unless it throws.
+  void restart(const ros::Time& time);
 
   /// One cycle. Allocates and locks nothing, unless the controller throws.
   /// @param window which of the two statistics to fill
@@ -51,7 +54,7 @@ class ControllerWatch {
   Fault fault() const { return fault_.load(std::memory_order_acquire); }
   /// Why, in words that go on after "because"; valid while there is a fault.
   std::string reason() const;
-  /// The fault has been dealt with: the next one may be noted.
+  /// The fault has been taken note of outside: the next one may be shown.
   void settle() { fault_.store(Fault::kNone, std::memory_order_release); }
 
   const std::vector<std::string>& fallbacks() const { return fallbacks_; }
@@ -71,7 +74,7 @@ class ControllerWatch {
 
   std::atomic<Fault> fault_{Fault::kNone};
   // Written by the loop before the fault is shown, then left alone until it is settled.
-  std::array<char, 256> text_{};
+  ExceptionText text_{};
   double elapsed_{0.0};
 };
 

@@ -39,8 +39,9 @@ Supervision readSupervision(const ros::NodeHandle& nh);
 /// deviation is the jitter between cycles on the monotonic clock.
 class Supervisor {
  public:
-  /// Stops a controller for good that was aborted, and starts its fallbacks.
-  typedef std::function<void(const std::string& name)> Settle;
+  /// Stops a controller for good that was aborted, and starts its fallbacks; false if it has to be
+  /// called again, then with `first` false.
+  typedef std::function<bool(const std::string& name, bool first)> Settle;
 
   Supervisor(const Supervision& supervision, ControllerRegistry& registry, LoopGate& gate,
              const ros::NodeHandle& nh, Settle settle);
@@ -48,6 +49,10 @@ class Supervisor {
 
   /// One cycle, during a visit of the gate. Real-time safe.
   void update(const ControllerList& list, const ros::Time& time, const ros::Duration& period);
+
+  /// Has a controller settled that was aborted and could not be settled at once. Thread-safe, does
+  /// not wait.
+  void settleLater(const std::string& name);
 
   const Supervision& supervision() const { return supervision_; }
 
@@ -75,6 +80,7 @@ class Supervisor {
   std::mutex mutex_;
   std::condition_variable ending_;
   bool ended_{false};
+  std::map<std::string, bool> unsettled_;  ///< aborted controllers; true before the first attempt
   std::thread thread_;
 };
 

@@ -32,7 +32,8 @@ class SwitchDesk {
   /// @param gate which the loop passes; outlives the desk
   explicit SwitchDesk(LoopGate& gate);
 
-  /// Carries the switch at hand on, if there is one. In the loop, during a visit; real-time safe.
+  /// Carries the switch at hand on, if there is one. In the loop, during a visit; real-time safe. A
+  /// switch that throws is over, and the exception goes on.
   void serve(hardware_interface::RobotHW& robot, const ros::Time& time);
 
   /// The right to switch. Thread-safe; waits for the switch before this one.
@@ -75,7 +76,8 @@ class SwitchDesk {
 
  private:
   bool grant();
-  void dropFinished();  ///< with the mutex locked
+  void finish(SwitchRequest& request);  ///< in the loop: it will not touch the request any more
+  void dropFinished();                  ///< with the mutex locked
 
   LoopGate& gate_;
   std::atomic<SwitchRequest*> for_loop_{nullptr};

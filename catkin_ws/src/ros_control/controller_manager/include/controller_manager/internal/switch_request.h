@@ -3,11 +3,11 @@
 #pragma once
 
 #include <controller_interface/controller_base.h>
+#include <controller_manager/internal/runs_through.h>
 #include <hardware_interface/controller_info.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/time.h>
 
-#include <array>
 #include <atomic>
 #include <list>
 #include <string>
@@ -32,7 +32,8 @@ struct SwitchRequest {
     controller_interface::ControllerBaseSharedPtr controller;
     hardware_interface::ControllerInfo info;
     Outcome outcome{Outcome::kPending};
-    std::array<char, 256> thrown{};  ///< what starting() threw
+    const char* thrower{nullptr};  ///< the callback that threw, if one did
+    ExceptionText thrown{};        ///< what it threw
   };
 
   struct Stop {
@@ -45,8 +46,11 @@ struct SwitchRequest {
   std::list<hardware_interface::ControllerInfo> start_list;  ///< for the robot, without restarts
   std::list<hardware_interface::ControllerInfo> stop_list;
   bool start_asap{false};
-  bool guarded{false};  ///< a controller whose starting() or stopping() throws is aborted
+  bool guarded{false};  ///< a controller that throws is aborted, and the switch goes on
   double timeout{0.0};  ///< [s] on the loop's clock, from its first cycle on; 0 never ends
+
+  bool broken{false};         ///< an exception ended the switch
+  ExceptionText broken_by{};  ///< that exception
 
   std::atomic<Phase> phase{Phase::kPosted};
   std::atomic<bool> cancelled{false};  ///< nobody waits for it any more: give up at once
@@ -58,20 +62,29 @@ struct SwitchRequest {
   /// ready for. Real-time safe as far as the robot's doSwitch and switchResult and the controllers'
   /// callbacks are.
   /// @returns true when everything is settled.
+  /// Throws what the robot throws, and the controllers unless guarded. Nothing remains to be done
+  /// then: what was not started or stopped yet has been aborted, without another callback.
   bool advance(hardware_interface::RobotHW& robot, const ros::Time& time);
 
  private:
+  bool proceed(hardware_interface::RobotHW& robot, const ros::Time& time);
   bool begin(hardware_interface::RobotHW& robot, const ros::Time& time);
   bool startTogether(hardware_interface::RobotHW& robot, const ros::Time& time);
   bool startEach(hardware_interface::RobotHW& robot, const ros::Time& time);
   void start(Start& start, const ros::Time& time) const;
+  void wait(Start& start, const ros::Time& time) const;
+  void giveUp(Start& start, Outcome reason, const ros::Time& time) const;
   void stop(const Stop& stop, const ros::Time& time) const;
-  void giveUp(const ros::Time& time);
+  void breakOff();
+  /// Makes a request of the controller. @returns false if it threw; it is aborted then.
+  template <class Call>
+  bool runs(Start& start, const char* callback, Call call) const;
   /// Why the start is given up in this cycle; kPending if it is not.
   Outcome reasonToGiveUp(hardware_interface::RobotHW::SwitchState state,
                          const ros::Time& time) const;
 
   ros::Time begin_;
+  bool begun_{false};  ///< the robot has switched, and what was to be stopped is stopped
 };
 
 }  // namespace internal

@@ -1,0 +1,35 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <exception>
+
+namespace controller_manager {
+namespace internal {
+
+/// What an exception said, cut to fit; a text of the loop's, which must not allocate.
+typedef std::array<char, 256> ExceptionText;
+
+inline void copyText(const char* from, ExceptionText& to) {
+  std::snprintf(to.data(), to.size(), "%s", from);
+}
+
+/// Makes the call and holds back what it throws. Real-time safe if the call is.
+/// @param[out] text of the exception @returns false if it threw
+template <class Call>
+bool runsThrough(Call&& call, ExceptionText& text) {
+  try {
+    call();
+    return true;
+  } catch (const std::exception& error) {
+    copyText(error.what(), text);
+  } catch (...) {
+    copyText("an exception of unknown type", text);
+  }
+  return false;
+}
+
+}  // namespace internal
+}  // namespace controller_manager
