@@ -47,6 +47,52 @@ TEST(FrankaInfo, TellsWhatARobotIs) {
   expectIn(info(fr3.address() + " 0.2").text, "FR3, control interface version 10");
 }
 
+using FrankaInfoRoundTrips = EveryVersion;
+
+TEST_P(FrankaInfoRoundTrips, AreThoseOfACommandThatChangesNothing) {
+  const std::array<double, 16> EE_T_K{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1};
+  fake.change([&](franka_core::RobotState& state) { state.EE_T_K = EE_T_K; });
+  const Output output = info(fake.address() + " 0.5");
+  const bool has_walls = GetParam() <= 5, has_model = GetParam() >= 8;
+  const Command command = has_walls   ? Command::kGetCartesianLimit
+                          : has_model ? Command::kGetRobotModel
+                                      : Command::kSetEEToK;
+  const int count = fake.count(command) - (GetParam() == 10 ? 1 : 0);  // one to connect
+  EXPECT_GE(count, 2);
+  expectIn(output.text, "Round trip      median ");
+  expectIn(output.text, " ms (" + std::to_string(count) + " times " +
+                            (has_walls   ? "getVirtualWall"
+                             : has_model ? "getRobotModel"
+                                         : "setK") +
+                            " and its answer)");
+  for (const auto& request : fake.requests()) {
+    const Command sent = franka_core::fci::commandOf(request);
+    EXPECT_TRUE(sent == command || sent == Command::kConnect || sent == Command::kGetRobotModel);
+    if (const auto* set = std::get_if<franka_core::fci::SetEEToKRequest>(&request)) {
+      EXPECT_EQ(EE_T_K, set->EE_T_K);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Some, FrankaInfoRoundTrips, ::testing::Values(5, 7, 10), versionName);
+
+TEST(FrankaInfo, ChangesNothingInARobotThatIsNotIdle) {
+  FakeRobot robot(6);
+  robot.change([](franka_core::RobotState& state) {
+    state.robot_mode = franka_core::RobotMode::kUserStopped;
+  });
+  expectIn(info(robot.address() + " 0.1").text, "Round trip      not measured (");
+  EXPECT_EQ(0, robot.count(Command::kSetEEToK));
+}
+
+TEST(FrankaInfo, CountsARefusalAsAnAnswer) {
+  FakeRobot robot(5);
+  robot.script([](FakeRobot::Script& script) {
+    script.replies[Command::kGetCartesianLimit] = Status::kCommandNotPossibleRejected;
+  });
+  expectIn(info(robot.address() + " 0.1").text, "times getVirtualWall and its answer)");
+}
+
 TEST(FrankaInfo, SaysWhatIsInTheWay) {
   FakeRobot robot(5);
   const auto expectObstacle = [&](franka_core::RobotMode mode, const std::string& text) {

@@ -25,13 +25,15 @@ double ConnectionStatistics::rate() const {
 }
 
 double ConnectionStatistics::lateness(double quantile) const {
-  if (offsets_.empty()) {
+  return quantileOf(offsets_, quantile) - quantileOf(offsets_, 0.0);
+}
+
+double quantileOf(std::vector<double> values, double quantile) {
+  if (values.empty()) {
     return 0.0;
   }
-  std::vector<double> sorted = offsets_;
-  std::sort(sorted.begin(), sorted.end());
-  const auto index = static_cast<std::size_t>(quantile * static_cast<double>(sorted.size() - 1));
-  return sorted[index] - sorted.front();
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(quantile * static_cast<double>(values.size() - 1))];
 }
 
 }  // namespace franka_info

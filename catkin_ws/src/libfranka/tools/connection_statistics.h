@@ -10,6 +10,9 @@
 
 namespace franka_info {
 
+/// Quantile (0 to 1) of some values; 0 without any.
+double quantileOf(std::vector<double> values, double quantile);
+
 /// What the arrival of states says about a connection. A robot sends one each millisecond of its
 /// clock: what of the time between two arrivals is not explained by that is jitter of the way.
 class ConnectionStatistics {

@@ -17,18 +17,24 @@
 #include <vector>
 
 #include "connection_statistics.h"
+#include "round_trips.h"
 
 namespace {
 
 using franka_info::ConnectionStatistics;
+using franka_info::quantileOf;
+using franka_info::RoundTrips;
 
 constexpr const char* kUsage =
     "usage: franka_info ADDRESS [SECONDS]\n"
     "\n"
     "Connects to the robot at ADDRESS (name or IP, maybe with a port, HOST:PORT), listens for\n"
     "SECONDS (2) and tells what it is, how it does, and whether it is ready to be controlled. The\n"
-    "robot is not moved. The status is 0 when it is ready, 1 when it is not, 2 when it cannot be\n"
-    "reached, 3 for arguments that make no sense.";
+    "robot is not moved. To time its answers it is asked meanwhile for a virtual wall (Panda) or\n"
+    "its description (FR3). An FR3 of protocol version 6 or 7 has no such question: if it is "
+    "idle,\n"
+    "it is told to keep the stiffness frame EE_T_K that it has. The status is 0 when the robot is\n"
+    "ready, 1 when it is not, 2 when it cannot be reached, 3 for arguments that make no sense.";
 
 enum Status { kReady = 0, kNotReady = 1, kUnreachable = 2, kBadArguments = 3 };
 
@@ -116,13 +122,15 @@ ConnectionStatistics listen(franka::Robot& robot, double seconds, franka::RobotS
   return statistics;
 }
 
-/// The time of a request and its answer [ms]: of the command channel, over TCP.
-double roundTrip(franka::Robot& robot, const franka::RobotState& state) {
-  const auto begin = ConnectionStatistics::Clock::now();
-  // Asks for what is set already.
-  robot.setK(state.EE_T_K);
-  return std::chrono::duration<double, std::milli>(ConnectionStatistics::Clock::now() - begin)
-      .count();
+void printRoundTrips(const RoundTrips& trips) {
+  if (!trips.error().empty()) {
+    std::printf("Round trip      not measured (%s)\n", trips.error().c_str());
+    return;
+  }
+  std::printf(
+      "Round trip      median %.3f, 99 %% %.3f, worst %.3f ms (%zu times %s and its answer)\n",
+      quantileOf(trips.times(), 0.5), quantileOf(trips.times(), 0.99),
+      quantileOf(trips.times(), 1.0), trips.times().size(), trips.command());
 }
 
 void printStatistics(const ConnectionStatistics& statistics) {
@@ -166,17 +174,13 @@ int verdict(const franka::RobotState& state, const ConnectionStatistics& statist
 int inform(const std::string& address, double seconds) {
   franka::Robot robot(address, franka::RealtimeConfig::kIgnore);
   printVersions(robot);
-  franka::RobotState state;
+  franka::RobotState state = robot.readOnce();
+  RoundTrips trips(robot, state);
   const ConnectionStatistics statistics = listen(robot, seconds, state);
+  trips.stop();
   printState(state);
   printGripper(address);
-  if (state.robot_mode == franka::RobotMode::kIdle) {
-    try {
-      std::printf("Round trip      %.3f ms (a command and its answer)\n", roundTrip(robot, state));
-    } catch (const franka::CommandException& error) {
-      std::printf("Round trip      not measured (%s)\n", error.what());
-    }
-  }
+  printRoundTrips(trips);
   printStatistics(statistics);
   return verdict(state, statistics);
 }
