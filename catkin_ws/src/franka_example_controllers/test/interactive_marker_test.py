@@ -4,6 +4,7 @@
 """The interactive marker with a simulated arm and a person dragging it, on the test's clock."""
 
 import math
+import statistics
 import sys
 import threading
 import time
@@ -41,17 +42,27 @@ class InteractiveMarkerTest(unittest.TestCase):
             "equilibrium_pose_marker/feedback", InteractiveMarkerFeedback, queue_size=10
         )
         rospy.Subscriber("equilibrium_pose", PoseStamped, self.poses.append)
-        rospy.Subscriber(
-            "equilibrium_pose_marker/update_full", InteractiveMarkerInit, self.markers.append
-        )
+        rospy.Subscriber("equilibrium_pose_marker/update_full", InteractiveMarkerInit, self.markers.append)
 
     def tick(self, seconds):
         self.clock.publish(Clock(clock=rospy.Time.from_sec(seconds)))
 
-    def run_clock(self, first, last, step=0.005):
-        for i in range(int(round((last - first) / step)) + 1):
-            self.tick(first + i * step)
+    def run_clock(self, first, condition, step=0.005):
+        """Until the condition holds; where it never does, that shows afterwards. @returns the time then."""
+        end = time.monotonic() + DEADLINE
+        while not condition() and time.monotonic() < end:
+            self.tick(first)
+            first += step
             time.sleep(0.002)
+        return first
+
+    def poses_at(self, wanted):
+        """Those received that are where they are wanted."""
+        return [
+            pose
+            for pose in self.poses
+            if math.dist((pose.pose.position.x, pose.pose.position.y, pose.pose.position.z), wanted) < 1e-7
+        ]
 
     def state(self, x=0.3, y=0.1, z=0.5):
         message = FrankaState()
@@ -89,8 +100,8 @@ class InteractiveMarkerTest(unittest.TestCase):
 
         # Now the simulation starts.
         self.assertTrue(wait_for(lambda: self.clock.get_num_connections() > 0))
-        self.run_clock(10.0, 11.0)
-        self.assertTrue(wait_for(lambda: self.poses), "no pose came")
+        now = self.run_clock(10.0, lambda: len(self.poses) > 100)
+        self.assertGreater(len(self.poses), 100, "no poses came")
         pose = self.poses[-1]
         self.assertEqual("panda_link0", pose.header.frame_id)
         self.assertAlmostEqual(0.3, pose.pose.position.x)
@@ -99,10 +110,11 @@ class InteractiveMarkerTest(unittest.TestCase):
         q = pose.pose.orientation
         self.assertAlmostEqual(1.0, q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, places=12)
         self.assertAlmostEqual(1.0, abs(q.x), places=4)
-        first, last = self.poses[0].header.stamp, self.poses[-1].header.stamp
-        rate = (len(self.poses) - 1) / (last - first).to_sec()
-        self.assertGreater(rate, 100.0, "5 ms were asked for")
-        self.assertLess(rate, 210.0)
+        # The median: a machine that stands still delays some.
+        stamps = [pose.header.stamp.to_sec() for pose in self.poses]
+        period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))
+        self.assertLess(period, 0.01, "5 ms were asked for")
+        self.assertGreater(period, 0.0047)
 
         # Dragged inside and outside of where the arm may go.
         drags = [
@@ -110,23 +122,17 @@ class InteractiveMarkerTest(unittest.TestCase):
             ((9.0, 9.0, 9.0), (0.6, 0.6, 0.9)),
             ((-9.0, -9.0, -9.0), (-0.6, -0.6, 0.05)),
         ]
-        now = 11.0
         for target, expected in drags:
             self.drag(*target)
-            time.sleep(0.3)
-            self.poses.clear()
-            self.run_clock(now, now + 0.2)
-            now += 0.2
-            self.assertTrue(wait_for(lambda: self.poses))
-            position = self.poses[-1].pose.position
-            for value, wanted in zip((position.x, position.y, position.z), expected, strict=True):
-                self.assertAlmostEqual(wanted, value)
+            now = self.run_clock(now, lambda wanted=expected: self.poses_at(wanted))
+            self.assertTrue(self.poses_at(expected), self.poses[-1])
 
         # The simulation starts anew: time goes back, and the marker goes on publishing.
-        self.run_clock(1.0, 1.2)
-        self.poses.clear()
-        self.run_clock(1.2, 1.6)
-        self.assertTrue(wait_for(lambda: self.poses), "publishing ended when time went back")
+        def again():
+            return sum(pose.header.stamp.to_sec() < 9.0 for pose in self.poses) > 20
+
+        self.run_clock(1.0, again)
+        self.assertTrue(again(), "publishing ended when time went back")
 
 
 class QuaternionTest(unittest.TestCase):
@@ -173,6 +179,4 @@ if __name__ == "__main__":
     package = rospkg.RosPack().get_path("franka_example_controllers")
     sys.path.insert(0, os.path.join(package, "scripts"))
     rospy_connections.init_node("interactive_marker_test", disable_rostime=True)
-    rostest.rosrun(
-        "franka_example_controllers", "interactive_marker", "interactive_marker_test.Suite"
-    )
+    rostest.rosrun("franka_example_controllers", "interactive_marker", "interactive_marker_test.Suite")
