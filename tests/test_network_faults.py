@@ -49,6 +49,7 @@ from stations import (
 )
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
+ENDLESS = 60.0  # [s] of the robot's time: more than a motion takes that a fault ends
 
 
 @pytest.fixture(autouse=True)
@@ -119,8 +120,9 @@ def test_twenty_commands_in_a_row_are_too_many(slow, count):
 @pytest.mark.parametrize("count", [19, 20, 21])
 def test_the_boundary_is_exact_in_lock_step(stepped, count):
     """The robot's own link loses them: no clock takes part, and no machine is too busy."""
+    seconds = SECONDS if count < 20 else ENDLESS  # flat out a short one may be over before it loses them
     for station in stepped:
-        station.client.give("move", seconds=SECONDS, amplitude=AMPLITUDE, announce=True)
+        station.client.give("move", seconds=seconds, amplitude=AMPLITUDE, announce=True)
     for station in stepped:
         assert station.client.line() == "moving"
         station.sim.ask(f"lose {count}")
@@ -171,7 +173,7 @@ def test_a_short_stall_with_its_backlog_is_survived(slow, ticks):
 
 
 def test_a_long_stall_of_commands_ends_the_motion(slow):
-    check_lost(slow, run(slow, commands=lambda: stalling(150, 30 * TICK), amplitude=0.0), slowest(200))
+    check_lost(slow, run(slow, commands=lambda: stalling(150, 60 * TICK), amplitude=0.0), slowest(230))
 
 
 # ---- 3: damage ---------------------------------------------------------------------------------------------
@@ -273,11 +275,11 @@ def test_a_program_slower_than_a_cycle_is_stopped(slow):
 # ---- 6: signals and death ---------------------------------------------------------------------------------
 
 
-def freeze(group, seconds):
-    """SIGSTOP to each client in its motion, and SIGCONT after that time."""
+def freeze(group, seconds, motion=SECONDS):
+    """SIGSTOP to each client in its motion of so many seconds, and SIGCONT after that time."""
     for station in group:
         station.proxy.set()
-        station.client.give("move", seconds=SECONDS, amplitude=0.0, announce=True)
+        station.client.give("move", seconds=motion, amplitude=0.0, announce=True)
     for station in group:
         assert station.client.line() == "moving"
     for station in group:
@@ -349,14 +351,14 @@ def test_lock_step_waits_for_a_frozen_client(stepped):
 
 
 def test_lock_step_gives_up_a_client_that_stays_frozen(stepped):
-    check_lost(stepped, freeze(stepped, 0.9), 10.0)
+    check_lost(stepped, freeze(stepped, 0.9, ENDLESS), 10.0)
 
 
 def test_a_killed_client_ends_its_motion_and_makes_room(stepped):
     """Last: the clients are gone afterwards."""
     for station in stepped:
         station.proxy.set()
-        station.client.give("move", seconds=60.0, amplitude=AMPLITUDE, announce=True)
+        station.client.give("move", seconds=ENDLESS, amplitude=AMPLITUDE, announce=True)
     for station in stepped:
         assert station.client.line() == "moving"
         station.client.process.kill()
