@@ -190,7 +190,7 @@ def interrupted(fingers):
         "homing": homing,
         "move": lambda: move(0.03, 0.02),
         "grasp": lambda: grasp(0.01, 0.02),
-        "gripper_action": lambda: command(0.02),
+        "gripper_action": lambda: command(0.0),  # as far as it goes: it must not end by itself
         "stop": stop,
     }
     report = {}
