@@ -267,6 +267,42 @@ TEST_F(SpliceTest, LeavesTimeForAFirstPointAtTheStart) {
   EXPECT_NEAR(1.0, at(result[0], 5.0).position[0], 1e-12);
 }
 
+// A planner that continues the present motion begins its message with a state on it.
+TEST_F(SpliceTest, KeepsTheCurrentTrajectoryUntilAFirstPointThatLiesOnIt) {
+  options_.angle_wraparound = &wraps_;
+  current_ = convert();
+  base_ = ros::Time(4.5);
+  msg_.header.stamp = ros::Time(101.0);
+  const Segment::State a = at(current_[0], 5.5);
+  const Segment::State b = at(current_[1], 5.5);
+  ASSERT_GT(a.velocity[0], 0.1);
+  const auto begin = [&](double position_step, double velocity_step) {
+    msg_.points = {pointOf(0.0, {b.position[0], a.position[0] + 2 * M_PI + position_step},
+                           {b.velocity[0], a.velocity[0] + velocity_step}),
+                   pointOf(1.0, {0, 2 * M_PI}, {0, 0})};
+    return convert();
+  };
+  const Trajectory result = begin(1e-9, 1e-9);
+  ASSERT_EQ(2u, result.size());
+  for (int joint : {0, 1}) {
+    for (double time = 4.5; time < 5.5; time += 0.05) {
+      EXPECT_NEAR(at(current_[joint], time).position[0], at(result[joint], time).position[0],
+                  1e-12);
+    }
+    const double step = 1e-7;
+    EXPECT_NEAR(at(result[joint], 5.5 - step).position[0],
+                at(result[joint], 5.5 + step).position[0], 1e-5);
+    EXPECT_NEAR(at(result[joint], 5.5 - step).velocity[0],
+                at(result[joint], 5.5 + step).velocity[0], 1e-4);
+    EXPECT_NEAR(0.0, at(result[joint], 6.5).position[0], 1e-12);
+  }
+  // Another joint, or another velocity, has to be gone to: by that joint alone.
+  for (const Trajectory& detour : {begin(0.5, 0.0), begin(0.0, 0.5)}) {
+    EXPECT_GT(std::abs(at(current_[0], 5.2).position[0] - at(detour[0], 5.2).position[0]), 1e-3);
+    EXPECT_NEAR(at(current_[1], 5.2).position[0], at(detour[1], 5.2).position[0], 1e-12);
+  }
+}
+
 TEST_F(SpliceTest, DropsPointsOfThePast) {
   msg_.header.stamp = ros::Time(98.5);
   const Trajectory result = convert();

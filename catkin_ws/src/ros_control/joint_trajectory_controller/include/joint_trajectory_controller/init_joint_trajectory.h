@@ -10,6 +10,7 @@
 #include <trajectory_msgs/JointTrajectory.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -214,29 +215,49 @@ class TrajectoryInitializer {
                 TrajectoryPerJoint& result) const {
     const TrajectoryPerJoint& current = (*options_.current_trajectory)[joint];
     const Scalar arrival = timeOf(*first_point_);
-    // A first point at the very start of a later message leaves no time for the way to it: it is
-    // taken from now on, instead of in one jump.
-    Scalar departure = std::max(start_, now_);
-    if (departure >= arrival) {
-      departure = now_;
-    }
-    auto first = trajectory_interface::findSegment(current, now_);
-    auto last = trajectory_interface::findSegment(current, departure);
-    if (first == current.end()) {
-      first = current.begin();
-    }
-    if (last == current.end()) {
-      last = current.begin();
-    }
-    result.assign(first, last + 1);
-
-    State from;
-    last->sample(departure, from);
     const bool wraps = options_.angle_wraparound && (*options_.angle_wraparound)[joint];
-    const Scalar offset =
-        wraparoundJointOffset(from.position[0], Scalar(first_point_->positions[index]), wraps);
+    Scalar departure = std::max(start_, now_);
+    State from = stateAt(current, departure);
+    Scalar offset = offsetOf(from, index, wraps);
+    // A first point at the very start of a later message leaves no time for the way to it. Where
+    // the current trajectory does not come by there, the way is taken from now on, instead of in
+    // one jump.
+    if (departure >= arrival && jumps(from, stateOf(*first_point_, index, offset))) {
+      departure = now_;
+      from = stateAt(current, departure);
+      offset = offsetOf(from, index, wraps);
+    }
+    result.assign(segmentAt(current, now_), segmentAt(current, departure) + 1);
     append(departure, from, arrival, stateOf(*first_point_, index, offset), tolerances, result);
     return offset;
+  }
+
+  static typename TrajectoryPerJoint::const_iterator segmentAt(const TrajectoryPerJoint& trajectory,
+                                                               Scalar time) {
+    const auto found = trajectory_interface::findSegment(trajectory, time);
+    return found == trajectory.end() ? trajectory.begin() : found;
+  }
+
+  static State stateAt(const TrajectoryPerJoint& trajectory, Scalar time) {
+    State state;
+    segmentAt(trajectory, time)->sample(time, state);
+    return state;
+  }
+
+  Scalar offsetOf(const State& from, std::size_t index, bool wraps) const {
+    return wraparoundJointOffset(from.position[0], Scalar(first_point_->positions[index]), wraps);
+  }
+
+  /// Whether going on from one state to the other without time in between can be noticed.
+  ///
+  /// At 1 kHz, steps of this size are accelerations of 1 rad/s^2 each, and jerks of at most
+  /// 3000 rad/s^3 together: less than the least limits of a Panda's joints, 7.5 rad/s^2 and
+  /// 3750 rad/s^3. Rounding in what a planner took from our own states is far smaller.
+  static bool jumps(const State& from, const State& to) {
+    constexpr Scalar kPositionStep = 1e-6;  // [rad]
+    constexpr Scalar kVelocityStep = 1e-3;  // [rad/s]
+    return std::abs(to.position[0] - from.position[0]) > kPositionStep ||
+           (!to.velocity.empty() && std::abs(to.velocity[0] - from.velocity[0]) > kVelocityStep);
   }
 
   void append(Scalar start_time, const State& start, Scalar end_time, const State& end,
@@ -299,7 +320,9 @@ class TrajectoryInitializer {
 /// Turns a message into a trajectory, spliced to the current one.
 ///
 /// Points at or before `time` are dropped; each joint keeps its current trajectory until the
-/// message starts, then goes in one segment to the first point left.
+/// message starts, then goes in one segment to the first point left. A first point at the very
+/// start of a later message is where the joint must be by then: a joint whose current trajectory
+/// comes by there keeps it; another one leaves it at once, instead of jumping.
 ///
 /// @param time now, in the time base of the message
 /// @returns an empty trajectory, with a reason in the log and in the options' error string, when
