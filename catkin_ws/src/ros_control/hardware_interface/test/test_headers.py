@@ -21,7 +21,7 @@ ROS_CONTROL = HERE.parents[1]
 
 INVENTORY = {
     "combined_robot_hw": ["combined_robot_hw"],
-    "control_toolbox": ["pid", "pid_gains_setter"],
+    "control_toolbox": ["dither", "filters", "pid", "pid_gains_setter", "sine_sweep", "sinusoid"],
     "controller_interface": [
         "controller",
         "controller_base",

@@ -1,7 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <control_toolbox/dither.h>
+#include <control_toolbox/filters.h>
 #include <control_toolbox/pid.h>
 #include <control_toolbox/pid_gains_setter.h>
+#include <control_toolbox/sine_sweep.h>
+#include <control_toolbox/sinusoid.h>
 
 #include <string>
 
@@ -60,3 +64,12 @@ EXPECT_TYPE(void, of<PidGainsSetter>().advertise(of<const ros::NodeHandle>()));
 EXPECT_TYPE(void, of<PidGainsSetter>().advertise(std::string()));
 EXPECT_TYPE(bool, of<PidGainsSetter>().setGains(of<control_toolbox::SetPidGains::Request>(),
                                                 of<control_toolbox::SetPidGains::Response>()));
+
+EXPECT_TYPE(bool, control_toolbox::Dither().init(1.0, 2.0));
+EXPECT_TYPE(double, control_toolbox::Dither().update());
+EXPECT_TYPE(bool, control_toolbox::SineSweep().init(1.0, 2.0, 3.0, 4.0));
+EXPECT_TYPE(double, control_toolbox::SineSweep().update(1.0));
+EXPECT_TYPE(double, control_toolbox::Sinusoid().update(1.0, of<double>(), of<double>()));
+EXPECT_TYPE(control_toolbox::Sinusoid, control_toolbox::Sinusoid(1.0, 2.0, 3.0, 4.0));
+EXPECT_TYPE(double, filters::clamp(1.0, 2.0, 3.0));
+EXPECT_TYPE(double, filters::exponentialSmoothing(1.0, 2.0, 0.5));

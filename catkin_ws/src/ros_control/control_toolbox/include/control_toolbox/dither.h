@@ -1,0 +1,28 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <random>
+
+namespace control_toolbox {
+
+/// White noise with a normal distribution about zero, to keep a joint from sticking. The same seed
+/// gives the same noise. update() is real-time safe; not to be used by two threads at once.
+class Dither {
+ public:
+  /// @param amplitude standard deviation, in the unit of the result
+  /// @param seed its integer part counts
+  /// @returns false, changing nothing, for an amplitude not finite or below zero, or a seed that is
+  /// no 32-bit number
+  bool init(double amplitude, double seed);
+
+  /// The next value; zero before init().
+  double update();
+
+ private:
+  double amplitude_{0.0};
+  std::mt19937 random_;
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace control_toolbox
