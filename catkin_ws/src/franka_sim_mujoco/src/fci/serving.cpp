@@ -24,10 +24,14 @@ std::string toText(const std::array<double, 7>& values) {
   return text;
 }
 
-std::string errorNames(const std::array<bool, franka_core::kErrorCount>& errors) {
+std::string errorNames(const ControlUnit& unit) {
+  const std::array<bool, franka_core::kErrorCount>& errors = unit.state().errors;
   std::string text;
   for (std::size_t i = 0; i < errors.size(); i++) {
     text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
+    if (errors[i] && i == indexOf(ErrorFlag::kSelfCollision)) {
+      text += " (" + linksOf(unit.selfCollisionPair()) + ")";
+    }
   }
   return text.empty() ? " none" : text;
 }
@@ -55,10 +59,17 @@ SimRobot::Hand servedHand(HandPlant& fingers) {
   return hand;
 }
 
+std::string linksOf(const SelfCollision::Pair& pair) {
+  const auto name = [](int link) {
+    return link == kHandLink ? std::string("hand") : "link" + std::to_string(link);
+  };
+  return name(pair.first) + " and " + name(pair.second);
+}
+
 std::string describe(SimRobot& robot) {
   const franka_core::RobotState& state = robot.unit().state();
   return std::string(franka_core::fci::modeName(state.robot_mode)) + ", client of protocol " +
-         std::to_string(robot.server().version()) + ", errors" + errorNames(state.errors) + ", q" +
+         std::to_string(robot.server().version()) + ", errors" + errorNames(robot.unit()) + ", q" +
          toText(state.q);
 }
 

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/fci/serving.h>
 #include <franka_sim_mujoco/fci/sim_robot.h>
 #include <franka_sim_mujoco/robot/tick.h>
 
@@ -45,7 +46,18 @@ void SimRobot::restart() noexcept {
   hash_ = kHashStart;
 }
 
-void SimRobot::observe() { unit_.observe(arm_.measure()); }
+void SimRobot::observe() {
+  const bool before = collidesWithItself();
+  unit_.observe(arm_.measure());
+  if (tell_ && !before && collidesWithItself()) {
+    tell_("its " + linksOf(unit_.selfCollisionPair()) +
+          " came too close to each other (self_collision_avoidance_violation).");
+  }
+}
+
+bool SimRobot::collidesWithItself() const noexcept {
+  return unit_.state().errors[indexOf(ErrorFlag::kSelfCollision)];
+}
 
 void SimRobot::actuate() {
   const franka_core::RobotCommand* command = link_.pass(server_.takeCommand());

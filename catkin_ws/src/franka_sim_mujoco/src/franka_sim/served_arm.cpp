@@ -7,6 +7,7 @@
 #include <franka_sim_mujoco/ros/physics_config.h>
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "files.h"
@@ -116,6 +117,9 @@ ServedArm::ServedArm(const ArmOptions& options, World& world) : options_(options
   robot_.emplace(unit, world.arm(options.arm_id, options.arm_id),
                  fci::servedAt(options.ip, protocolsOf(options), unit.model),
                  servedHand(options, world, hand), vacuum);
+  robot_->onSelfCollision([name = options.arm_id + " at " + options.ip](const std::string& what) {
+    std::fprintf(stderr, "franka_sim: %s: %s\n", name.c_str(), what.c_str());
+  });
 }
 
 std::string ServedArm::protocols() const {

@@ -28,7 +28,11 @@ RobotServerParameters servedAt(const std::string& address, const ProtocolRange& 
 /// The hand on its fingers. @param fingers outlive it
 SimRobot::Hand servedHand(HandPlant& fingers);
 
-/// Mode, client, errors and joints in one line for a person.
+/// Which links came too close, as the description calls them without the arm's name: "link2 and
+/// hand".
+std::string linksOf(const SelfCollision::Pair& pair);
+
+/// Mode, client, errors (of a self-collision: its links) and joints in one line for a person.
 std::string describe(SimRobot& robot);
 
 }  // namespace franka_sim_mujoco::fci

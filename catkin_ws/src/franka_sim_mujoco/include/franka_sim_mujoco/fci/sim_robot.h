@@ -13,8 +13,11 @@
 #include <franka_sim_mujoco/robot/plant.h>
 #include <franka_sim_mujoco/robot/vacuum_gripper_unit.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace franka_sim_mujoco::fci {
 
@@ -46,6 +49,10 @@ class SimRobot final : public HostedRobot {
   std::uint16_t vacuumPort() const noexcept { return vacuum_ ? vacuum_->server.port() : 0; }
   /// Null where the robot has none.
   VacuumGripperUnit* vacuum() noexcept { return vacuum_ ? &vacuum_->unit : nullptr; }
+
+  /// Who is told when links come too close to each other (decision 17), once for each time the
+  /// error appears: what follows the robot's name and a colon. Called within `observe`.
+  void onSelfCollision(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
 
   /// Of all states that were answered and those after them up to rest, without their ids: equal
   /// hash, equal run (decision 21).
@@ -87,6 +94,7 @@ class SimRobot final : public HostedRobot {
   };
 
   void updateHash() noexcept;
+  bool collidesWithItself() const noexcept;
 
   ControlUnit unit_;
   ArmPlant& arm_;
@@ -95,6 +103,7 @@ class SimRobot final : public HostedRobot {
   CommandLink link_;
   std::unique_ptr<ServedHand> hand_;
   std::unique_ptr<ServedVacuum> vacuum_;
+  std::function<void(const std::string&)> tell_;
   bool hashing_{false};
   std::uint64_t hash_{0};
 };
