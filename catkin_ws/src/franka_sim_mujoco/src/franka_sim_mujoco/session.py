@@ -3,10 +3,12 @@
 """Starts a launch file on a master of its own and leaves nothing behind."""
 
 import os
+import random
 import signal
 import socket
 import subprocess
 import time
+from contextlib import suppress
 from pathlib import Path
 
 
@@ -15,10 +17,16 @@ class SessionError(RuntimeError):
 
 
 def free_port() -> int:
-    """A TCP port nobody listens on, on loopback."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """A TCP port nobody listens on, on loopback.
+
+    Below those that the system gives to connections (Linux: from 32768 on), or one of them might have it
+    before the master does.
+    """
+    for port in random.sample(range(20000, 32768), 100):
+        with socket.socket() as probe, suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
+    raise SessionError("No port for a ROS master is free: a hundred between 20000 and 32767 are taken.")
 
 
 class Session:
