@@ -257,8 +257,11 @@ class SimulationTest(unittest.TestCase):
         time.sleep(0.2)
         self.step(10)
         stopping = stop.send_goal(StopGoal())
-        time.sleep(0.2)
-        self.step(10)
+        deadline = time.monotonic() + WAIT
+        while stopping.get_comm_state() != actionlib.CommState.DONE:
+            self.assertLess(time.monotonic(), deadline, "The gripper does not stop.")
+            self.step(10)
+            time.sleep(0.02)
         status, _, text = result(moving)
         self.assertEqual(status, GoalStatus.ABORTED)
         self.assertIn("interrupted", text)
