@@ -7,6 +7,7 @@ repeats.
 """
 
 import struct
+import subprocess
 
 import pytest
 from fci_session import go_first, go_with_all, simulated
@@ -20,7 +21,9 @@ from fci_wire import (
     REFLEX,
     Client,
     command,
+    connected,
 )
+from genuine_clients import client_python
 
 GRAVITY = 9.81
 GUIDING, USER_STOPPED = 3, 5
@@ -48,7 +51,7 @@ def client(sim):
     with Client(sim.address, sim.version) as client:
         assert client.connect() == (0, sim.version)
         yield client
-    for line in ("user_stop off", "guiding off", "loss 0", "delay 0", "load 0 0 0 0"):
+    for line in ("fci on", "user_stop off", "guiding off", "loss 0", "delay 0", "load 0 0 0 0"):
         sim.ask(line)
 
 
@@ -84,9 +87,15 @@ def force(state):
 
 def finish(client, state, first):
     """Ends a motion where it stands; fails unless it ends well."""
-    states = drive(client, state, hold(first), 1, finish=True)
-    state = states[-1] if states[-1].mode != MOVE else client.state_until(lambda s: s.mode != MOVE)
+    while state.mode == MOVE:  # the command that says so may be late, or lost
+        state = drive(client, state, hold(first), 1, finish=True)[-1]
     assert state.mode == IDLE, state.reasons
+    assert client.reply()[1][0] == 0
+
+
+def set_load(client):
+    """Of nothing. The reply comes when the world has come to rest."""
+    client.request({5: 10, 10: 9}[client.version], struct.pack("<13d", *[0.0] * 13))
     assert client.reply()[1][0] == 0
 
 
@@ -230,3 +239,59 @@ def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
     assert moved.mode == GUIDING
     sim.ask("guiding off")
     client.state_until(lambda s: s.mode == IDLE)
+
+
+def test_guiding_keeps_nobody_waiting(sim, client):
+    """No joint is braked then: the pushed arm coasts, and comes to rest when it likes."""
+    sim.ask("guiding on")
+    sim.ask(f"push {sim.robot}_link5 0 8 0 100")
+    set_load(client)
+    assert client.state_until(lambda s: s.mode == GUIDING).mode == GUIDING
+
+
+GENUINE = {
+    "panda": ("panda", "from panda_py import libfranka; libfranka.Robot('{}')"),
+    "fr3": ("pylibfranka", "import pylibfranka as f; f.Robot('{}', f.RealtimeConfig.kIgnore)"),
+}
+
+
+def test_the_interface_that_is_switched_off_drops_its_client_and_refuses_others(sim, client):
+    state, first = begin(client)
+    drive(client, state, hold(first), 50)
+    sim.ask("fci off")
+    aborted = LAYOUTS[client.version].reflex + 3
+    assert client.reply()[1][0] == aborted
+    assert client.ended()
+    library, program = GENUINE[sim.robot]
+    refused = subprocess.run(
+        [client_python(library), "-c", program.format(sim.address)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert (
+        "libfranka: Connection to FCI refused. Please install FCI feature or enable FCI mode in Desk."
+        in refused.stderr
+    )
+    sim.ask("fci on")
+    with connected(sim) as again:
+        again.state_until(lambda s: s.mode == IDLE)
+        state, first = begin(again)
+        finish(again, state, first)
+
+
+def test_losses_repeat_after_a_reset(sim):
+    """What belongs to the link is set once; each run that begins with `reset` then loses the same."""
+    sim.ask("loss 0.2 3")
+    hashes = set()
+    for _ in range(2):
+        sim.ask("reset")
+        with connected(sim) as client:
+            state, first = begin(client)
+            states = drive(client, state, hold(first), 300)
+            assert states[-1].rate < 1.0
+            finish(client, states[-1], first)
+            set_load(client)
+        hashes.add(sim.ask("hash"))
+    sim.ask("loss 0")
+    assert len(hashes) == 1

@@ -10,5 +10,6 @@ sim_test(fci_test
     test/fci/own_client_test.cpp
     test/fci/robot_server_test.cpp
     test/fci/served_models_test.cpp
+    test/fci/sim_robot_test.cpp
     test/fci/vacuum_gripper_test.cpp
   LIBRARIES franka_sim_fci franka_sim_physics Franka::Franka PkgConfig::TINYXML2)

@@ -29,7 +29,9 @@ void ClientSlot::take(Connection connection, const sockaddr_in& peer) {
 }
 
 void ClientSlot::addDescriptors(std::vector<pollfd>& fds) const {
-  fds.push_back({listener_.descriptor(), POLLIN, 0});
+  if (listener_.isOpen()) {
+    fds.push_back({listener_.descriptor(), POLLIN, 0});
+  }
   if (client_) {
     const short events = client_->hasUnsent() ? POLLIN | POLLOUT : POLLIN;
     fds.push_back({client_->descriptor(), events, 0});

@@ -12,6 +12,7 @@ void CommandLink::setLoss(double probability, std::uint64_t seed) {
     throw std::invalid_argument("The probability of a loss is a number from 0 to 1.");
   }
   loss_ = probability;
+  seed_ = seed;
   engine_.seed(seed);
 }
 
@@ -20,7 +21,19 @@ void CommandLink::setDelay(double ticks) {
     throw std::invalid_argument("Commands are delayed by 0, 1 or 2 ticks.");
   }
   delay_ = static_cast<unsigned>(ticks);
-  slots_ = {};
+  clear();
+}
+
+void CommandLink::clear() noexcept {
+  for (Slot& slot : slots_) {
+    slot.full = false;
+  }
+}
+
+void CommandLink::restart() noexcept {
+  clear();
+  lose_next_ = 0;
+  engine_.seed(seed_);
 }
 
 bool CommandLink::loses() noexcept {

@@ -19,6 +19,10 @@ constexpr std::chrono::milliseconds kTick{1};
 /// (decision 21).
 constexpr std::uint64_t kTicksAfterAction = 100;
 
+/// In lock-step requests wait until the world has come to rest, but for no more ticks than this: it
+/// may never do so, as where two arms press on each other (our choice).
+constexpr std::uint64_t kLongestDeferral = 10000;
+
 /// A host that was held up for longer does not make up for it (our choice).
 constexpr std::chrono::milliseconds kForgivenDelay{50};
 
@@ -77,6 +81,11 @@ void Host::setPace(const Pace& pace) {
 
 void Host::letRun(std::uint64_t ticks) { rolling_ = std::max(rolling_, ticks + kTicksAfterAction); }
 
+void Host::beginAnew() {
+  rolling_ = 0;
+  letRun(1);
+}
+
 void Host::run(const std::atomic<bool>& stop) {
   restartClock();
   stop_ = &stop;
@@ -94,7 +103,7 @@ void Host::tick() {
   }
   if (pace_.lockstep) {
     waitInLockStep();
-    if (pace_.by_clock) {
+    if (heedsClock()) {
       listenUntil(nextDeadline());
     }
   } else {
@@ -145,14 +154,7 @@ void Host::serveIfDue() {
 void Host::serveAll() {
   requests_ready_ = false;
   served_at_ = Clock::now();
-  bool hand_busy = false;
-  for (const Guest& guest : guests_) {
-    hand_busy = hand_busy || guest.robot->handBusy();
-  }
-  // While the world comes to rest by itself, a request must not meet it at a tick that depends on
-  // how fast the client was.
-  const bool stops_only =
-      pace_.lockstep && !pace_.flows && rolling_ > 0 && !hand_busy && !clientsAreDue();
+  const bool stops_only = holdsRequestsBack();
   requests_left_ = stops_only;
   for (const Guest& guest : guests_) {
     guest.robot->serve(stops_only);
@@ -162,6 +164,15 @@ void Host::serveAll() {
   }
 }
 
+// While the world comes to rest by itself, a request must not meet it at a tick that depends on
+// how fast the client was.
+bool Host::holdsRequestsBack() const {
+  const bool hand_busy = std::any_of(guests_.begin(), guests_.end(),
+                                     [](const Guest& guest) { return guest.robot->handBusy(); });
+  return pace_.lockstep && !pace_.flows && rolling_ > 0 && held_back_ < kLongestDeferral &&
+         !hand_busy && !clientsAreDue() && !clientsAreAtLeisure();
+}
+
 bool Host::receiveAll() {
   bool all = true;
   for (Guest& guest : guests_) {
@@ -169,7 +180,7 @@ bool Host::receiveAll() {
     if (here) {
       guest.given_up = false;
     }
-    all = all && (here || !guest.robot->expectsCommand());
+    all = all && (here || !guest.isDue());
   }
   return all;
 }
@@ -222,20 +233,29 @@ void Host::listenUntil(Clock::time_point end) {
 
 bool Host::clientsAreDue() const {
   return std::any_of(guests_.begin(), guests_.end(),
-                     [](const Guest& guest) { return guest.robot->expectsCommand(); });
+                     [](const Guest& guest) { return guest.isDue(); });
 }
+
+bool Host::clientsAreAtLeisure() const {
+  return std::any_of(guests_.begin(), guests_.end(),
+                     [](const Guest& guest) { return guest.robot->asynchronous(); });
+}
+
+// In lock-step nothing but the clock says when the next tick of an asynchronous motion is due; in
+// time that flows the others do.
+bool Host::heedsClock() const { return pace_.by_clock || (!pace_.flows && clientsAreAtLeisure()); }
 
 // A client that was told of its motion's start takes states without answering until it sees the
 // motion in them.
 bool Host::startsAreDue() const {
   return std::any_of(guests_.begin(), guests_.end(), [](const Guest& guest) {
-    return guest.robot->expectsCommand() && !guest.robot->motionHasBegun() && !guest.given_up;
+    return guest.isDue() && !guest.robot->motionHasBegun() && !guest.given_up;
   });
 }
 
 bool Host::timeMustGoOn() {
   for (const Guest& guest : guests_) {
-    if (guest.robot->settling() || guest.robot->handBusy()) {
+    if (guest.robot->settling() || guest.robot->handBusy() || guest.robot->asynchronous()) {
       rolling_ = std::max(rolling_, kTicksAfterAction);
     }
   }
@@ -244,8 +264,7 @@ bool Host::timeMustGoOn() {
 
 void Host::giveUpOnTheSilent() {
   for (Guest& guest : guests_) {
-    guest.given_up =
-        guest.given_up || (guest.robot->expectsCommand() && !guest.robot->receiveCommand());
+    guest.given_up = guest.given_up || (guest.isDue() && !guest.robot->receiveCommand());
   }
 }
 
@@ -253,7 +272,7 @@ void Host::waitInLockStep() {
   const bool news = std::any_of(guests_.begin(), guests_.end(),
                                 [](const Guest& guest) { return guest.robot->hasNews(); });
   const bool due = clientsAreDue();
-  if (due || news || pace_.by_clock || Clock::now() - published_at_ >= kTick) {
+  if (due || news || heedsClock() || Clock::now() - published_at_ >= kTick) {
     publishAll();
   }
   starts_shown_ = due ? 1 : 0;
@@ -280,9 +299,11 @@ void Host::waitInLockStep() {
       return;
     }
     if (timeMustGoOn()) {
+      held_back_ = holdsRequestsBack() ? held_back_ + 1 : 0;
       rolling_--;
       return;
     }
+    held_back_ = 0;
     if (Clock::now() - published_at_ >= kTick) {
       publishAll(true);
     }

@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <franka_sim_mujoco/fci/robot_server.h>
 
+#include <iterator>
 #include <utility>
 
 namespace franka_sim_mujoco::fci {
@@ -45,6 +46,10 @@ RobotServer::~RobotServer() = default;
 
 void RobotServer::serve(bool stops_only) {
   collectEnds();
+  slot_.setOpen(desk_.active());
+  if (!desk_.active() && version_ == 0) {
+    slot_.drop();  // nobody yet; a client hears how its motion ends first (publish)
+  }
   slot_.serve(
       [this, stops_only](Connection& client, bool& progressed) {
         return serveOne(client, stops_only, progressed);
@@ -52,7 +57,15 @@ void RobotServer::serve(bool stops_only) {
       [this] { forgetClient(); });
 }
 
+void RobotServer::dropClient() noexcept {
+  slot_.drop();
+  forgetClient();
+}
+
 void RobotServer::forgetClient() noexcept {
+  if (version_ != 0) {
+    desk_.disconnected();
+  }
   version_ = 0;
   begun_ = false;
   answered_ = false;
@@ -122,13 +135,19 @@ bool RobotServer::answer(const codec::Header& header, const codec::Request& requ
   const Pending pending{codec::commandOf(request), header.command_id};
   switch (pending.command) {
     case Command::kLoadModelLibrary: {
-      const bool served = isForThisMachine(std::get<codec::LoadModelLibraryRequest>(request)) &&
-                          !parameters_.model_library.empty();
-      return served ? replyWithModel(pending) : reply(pending, Status::kError);
+      const std::vector<std::uint8_t>& library = parameters_.model_library;
+      const bool served =
+          isForThisMachine(std::get<codec::LoadModelLibraryRequest>(request)) && !library.empty();
+      return served ? replyWithModel(pending, {library.data(), library.size()})
+                    : reply(pending, Status::kError);
     }
-    case Command::kGetRobotModel:
-      return parameters_.urdf.empty() ? reply(pending, Status::kCommandNotPossibleRejected)
-                                      : replyWithModel(pending);
+    case Command::kGetRobotModel: {
+      const std::string* text = urdf();
+      return text == nullptr
+                 ? reply(pending, Status::kCommandNotPossibleRejected)
+                 : replyWithModel(pending, {reinterpret_cast<const std::uint8_t*>(text->data()),
+                                            text->size()});
+    }
     case Command::kGetCartesianLimit:
       return replyWithWall(pending, std::get<codec::GetCartesianLimitRequest>(request).id);
     default:
@@ -138,6 +157,8 @@ bool RobotServer::answer(const codec::Header& header, const codec::Request& requ
   if (pending.command == Command::kMove && status == Status::kMotionStarted) {
     move_ = pending;
     motion_end_.reset();
+    asynchronous_ = std::get<codec::MoveRequest>(request).use_async_motion_generator;
+    first_of_motion_ = message_id_ + 1;
     begun_ = false;
     answered_ = false;
   }
@@ -180,12 +201,13 @@ bool RobotServer::reply(const Pending& to, Status status) {
          slot_.client()->send(message.bytes());
 }
 
-bool RobotServer::replyWithModel(const Pending& to) {
-  const std::string& urdf = parameters_.urdf;
-  const Bytes model =
-      to.command == Command::kLoadModelLibrary
-          ? Bytes{parameters_.model_library.data(), parameters_.model_library.size()}
-          : Bytes{reinterpret_cast<const std::uint8_t*>(urdf.data()), urdf.size()};
+// Of the connected version: a robot's limits are those that its client knows.
+const std::string* RobotServer::urdf() const noexcept {
+  const auto next = parameters_.urdfs.upper_bound(version_);
+  return next == parameters_.urdfs.begin() ? nullptr : &std::prev(next)->second;
+}
+
+bool RobotServer::replyWithModel(const Pending& to, Bytes model) {
   std::vector<std::uint8_t> message;
   return codec::encodeModelReply(version_, to.command, to.id, model, message) ==
              CodecError::kNone &&
@@ -218,8 +240,7 @@ void RobotServer::replyTo(std::optional<Pending>& pending, std::optional<Status>
     return;
   }
   if (pending && slot_.client() != nullptr && !reply(*pending, *status)) {
-    slot_.drop();
-    forgetClient();
+    dropClient();
   }
   pending.reset();
   status.reset();
@@ -245,12 +266,21 @@ void RobotServer::publish(std::uint64_t ticks, bool same_moment) {
   }
   // The client must find the reason of an end in the state before it hears of the end.
   if (!replyToSetters()) {
-    slot_.drop();
-    forgetClient();
+    dropClient();
   }
   replyTo(move_, motion_end_);
   replyTo(stop_, stop_end_);
   replyTo(recovery_, recovery_end_);
+  if (!desk_.active()) {
+    dropClient();
+  }
+}
+
+// Each cycle has the command that answers its state, no other; where no answers are due, one that
+// does not stem from an earlier motion.
+bool RobotServer::answersAState(std::uint64_t message_id) const noexcept {
+  return message_id >= (asynchronous() ? first_of_motion_ : oldest_of_moment_) &&
+         message_id <= message_id_;
 }
 
 bool RobotServer::receiveCommand() noexcept {
@@ -270,8 +300,7 @@ bool RobotServer::receiveCommand() noexcept {
     const CodecError error =
         codec::decodeCommand(version_, {buffer.data(), static_cast<std::size_t>(size)}, command);
     const bool read = error == CodecError::kNone || error == CodecError::kNotFinite;
-    // Each cycle has the command that answers its state, no other.
-    if (read && command.message_id >= oldest_of_moment_ && command.message_id <= message_id_) {
+    if (read && answersAState(command.message_id)) {
       command_ = command;
       answered_ = true;
     }

@@ -49,7 +49,7 @@ RobotServerParameters servedAt(const std::string& address, const ProtocolRange& 
   server.oldest_version = protocols.oldest;
   server.newest_version = protocols.newest;
   server.model_library = servedLibrary(arm);
-  server.urdf = servedUrdf(arm, protocols.newest);
+  server.urdfs = {{8, servedUrdf(arm, 8)}, {10, servedUrdf(arm, 10)}};  // decision 8
   return server;
 }
 

@@ -36,6 +36,7 @@ SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServer
 
 void SimRobot::restart() noexcept {
   unit_.restart();
+  link_.restart();
   if (hand_) {
     hand_->unit.restart();
   }
@@ -60,6 +61,9 @@ bool SimRobot::collidesWithItself() const noexcept {
 }
 
 void SimRobot::actuate() {
+  if (!server_.motionHasBegun()) {
+    link_.clear();  // of what belonged to another motion
+  }
   const franka_core::RobotCommand* command = link_.pass(server_.takeCommand());
   hashing_ = hashing_ || command != nullptr;
   if (hashing_) {
@@ -122,9 +126,15 @@ bool SimRobot::hasClients() const {
 }
 
 bool SimRobot::settling() const {
-  const auto& dq = unit_.state().dq;
-  return unit_.settling() ||
-         std::any_of(dq.begin(), dq.end(), [](double v) { return std::abs(v) > kRest; });
+  const franka_core::RobotState& state = unit_.state();
+  if (state.robot_mode == franka_core::RobotMode::kGuiding) {
+    return false;  // nothing brakes an arm that a person leads: it may never come to rest
+  }
+  const bool abandoned =
+      state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
+  return unit_.settling() || abandoned ||
+         std::any_of(state.dq.begin(), state.dq.end(),
+                     [](double v) { return std::abs(v) > kRest; });
 }
 
 bool SimRobot::handBusy() const {

@@ -63,6 +63,8 @@ Descriptor bound(int type, const std::string& what, const std::string& address,
   return result;
 }
 
+constexpr int kBacklog = 8;
+
 bool wouldBlock(int error) noexcept { return error == EAGAIN || error == EWOULDBLOCK; }
 
 }  // namespace
@@ -83,14 +85,27 @@ void Descriptor::close() noexcept {
 
 Listener::Listener(const std::string& address, std::uint16_t port)
     : socket_(bound(SOCK_STREAM, "the robot's TCP port", address, port)) {
-  constexpr int kBacklog = 8;
   if (::listen(socket_.get(), kBacklog) != 0) {
     throw cannotOpen("the robot's TCP port", address, port, errno);
   }
-  sockaddr_in name{};
-  socklen_t size = sizeof(name);
-  ::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&name), &size);
-  port_ = ntohs(name.sin_port);
+  socklen_t size = sizeof(name_);
+  ::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&name_), &size);
+  port_ = ntohs(name_.sin_port);
+}
+
+void Listener::close() noexcept {
+  if (std::exchange(open_, false)) {
+    ::shutdown(socket_.get(), SHUT_RDWR);
+  }
+}
+
+bool Listener::open() noexcept {
+  if (!open_) {
+    // Fails where the socket still has its name, as it does where the system did not choose it.
+    ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&name_), sizeof(name_));
+    open_ = ::listen(socket_.get(), kBacklog) == 0;
+  }
+  return open_;
 }
 
 Descriptor Listener::accept(sockaddr_in& peer) noexcept {

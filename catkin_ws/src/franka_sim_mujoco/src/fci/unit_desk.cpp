@@ -61,7 +61,17 @@ struct Setter {
 
 }  // namespace
 
-void UnitDesk::connected(std::uint16_t version) noexcept { unit_.setProtocolVersion(version); }
+void UnitDesk::connected(std::uint16_t version) noexcept {
+  version_ = version;
+  applyVersion();
+}
+
+// A motion keeps the limits it began with, also where its client has died and another one is here.
+void UnitDesk::applyVersion() noexcept {
+  if (version_ != 0 && unit_.setProtocolVersion(version_) != RequestStatus::kNotPossible) {
+    version_ = 0;
+  }
+}
 
 std::optional<Status> UnitDesk::handle(const codec::Request& request) noexcept {
   if (const auto* move = std::get_if<codec::MoveRequest>(&request)) {
@@ -83,7 +93,10 @@ std::optional<codec::CartesianLimit> UnitDesk::wall(std::int32_t id) const noexc
   return wall == nullptr ? std::nullopt : std::optional<codec::CartesianLimit>(*wall);
 }
 
-std::optional<Status> UnitDesk::motionEnd() noexcept { return unit_.takeMotionEnd(); }
+std::optional<Status> UnitDesk::motionEnd() noexcept {
+  applyVersion();
+  return unit_.takeMotionEnd();
+}
 
 std::optional<Status> UnitDesk::stopEnd() noexcept { return unit_.takeStopEnd(); }
 

@@ -63,6 +63,7 @@ void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
     robot.unit().setFciActive(toSwitch(words.at(0)));
     return "";
   });
+    robot.serve(true);  // the port opens or closes before the answer goes
 }
 
 void addLink(LineServer& lines, fci::SimRobot& robot) {
@@ -140,7 +141,7 @@ void reset(const Scene& scene) {
     robot->restart();
     robot->observe();  // what was measured in this tick holds no longer
   }
-  scene.host.letRun(1);
+  scene.host.beginAnew();
 }
 
 void addRobot(LineServer& lines, fci::SimRobot& robot) {

@@ -44,6 +44,26 @@ TEST(CommandLink, losesTheNextOnes) {
   EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{0, 0, 3, 4}));
 }
 
+TEST(CommandLink, forgetsWhatIsUnderWay) {
+  CommandLink link;
+  link.setDelay(2);
+  send(link, 5);
+  link.clear();
+  EXPECT_EQ(link.pass(nullptr), nullptr);
+  EXPECT_EQ(link.pass(nullptr), nullptr);
+  EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{0, 0, 1, 2})) << "the delay stays";
+}
+
+TEST(CommandLink, losesTheSameAgainAfterARestart) {
+  CommandLink link;
+  link.setDelay(1);
+  link.setLoss(0.5, 7);
+  const std::vector<std::uint64_t> first = send(link, 100);
+  link.loseNext(3);
+  link.restart();
+  EXPECT_EQ(send(link, 100), first);
+}
+
 TEST(CommandLink, losesTheShareItIsToldAndTheSameEachTime) {
   constexpr std::uint64_t kCount = 20000;
   std::vector<std::uint64_t> first;

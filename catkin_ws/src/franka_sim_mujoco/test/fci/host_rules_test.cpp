@@ -24,7 +24,10 @@ class CountingRobot : public HostedRobot {
     actuated++;
     answered += moving && receiveCommand() ? 1 : 0;
   }
-  void serve(bool /*stops_only*/) override { served++; }
+  void serve(bool stops_only) override {
+    served++;
+    served_all += stops_only ? 0 : 1;
+  }
   void publish(std::uint64_t ticks, bool same_moment) override {
     (same_moment ? repeated : published)++;
     message_ids += ticks;
@@ -35,18 +38,19 @@ class CountingRobot : public HostedRobot {
   bool hasNews() const override { return false; }
   bool receiveCommand() override { return answers && Clock::now() - shown_at >= delay; }
   bool expectsCommand() const override { return moving; }
+  bool asynchronous() const override { return at_leisure; }
   bool motionHasBegun() const override { return true; }
-  bool settling() const override { return false; }
+  bool settling() const override { return restless; }
   bool handBusy() const override { return false; }
   void addCommandDescriptor(std::vector<pollfd>& /*fds*/) const override {}
   void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
 
-  bool moving{false};
+  bool moving{false}, at_leisure{false}, restless{false};
   bool answers{true};
   milliseconds delay{0};
   Clock::time_point shown_at;
   std::uint64_t message_ids{0};
-  int observed{0}, actuated{0}, answered{0}, served{0}, published{0}, repeated{0};
+  int observed{0}, actuated{0}, answered{0}, served{0}, served_all{0}, published{0}, repeated{0};
 };
 
 class HostRules : public ::testing::Test {
@@ -61,6 +65,21 @@ class HostRules : public ::testing::Test {
       host.tick();
     }
     return std::chrono::duration_cast<milliseconds>(Clock::now() - begin);
+  }
+
+  /// Runs until the world stands still, which it does after `due` steps or later.
+  int stepsUntilStill(int due) {
+    std::atomic<bool> stop{false};
+    std::thread running([&] { host.run(stop); });
+    const Clock::time_point deadline = Clock::now() + std::chrono::seconds(10);
+    while (steps < due && Clock::now() < deadline) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    std::this_thread::sleep_for(milliseconds(50));  // in which a world that runs would go on
+    const int ran = steps;
+    stop = true;
+    running.join();
+    return ran;
   }
 
   std::atomic<int> steps{0};
@@ -145,6 +164,46 @@ TEST_F(HostRules, ATickAtOnceHeedsNoClockButWaitsForTheClient) {
   EXPECT_EQ(2, steps);
 }
 
+TEST_F(HostRules, InLockStepAnAsynchronousMotionGoesByTheClockAndWaitsForNobody) {
+  Pace pace = waiting(false, false);
+  pace.silence = std::chrono::seconds(100);
+  const Clock::time_point begin = Clock::now();
+  use(pace);
+  robot.moving = robot.at_leisure = true;
+  robot.answers = false;
+  timeOf(51);
+  EXPECT_GE(Clock::now() - begin, milliseconds(50));
+  EXPECT_LT(Clock::now() - begin, pace.silence);
+  EXPECT_EQ(51, robot.published) << "its client sees each millisecond";
+  robot.moving = robot.at_leisure = false;
+  robot.restless = true;
+  timeOf(5000);
+  EXPECT_LT(robot.published, 5000) << "and no clock is heeded any more";
+}
+
+TEST_F(HostRules, AnotherRobotsAnswersAreWaitedForBesideAnAsynchronousMotion) {
+  CountingRobot other;
+  use(waiting(false, false));
+  host.add(other);
+  robot.moving = robot.at_leisure = true;
+  robot.answers = false;
+  other.moving = true;
+  other.delay = milliseconds(5);
+  EXPECT_GE(timeOf(10), milliseconds(50));
+  EXPECT_EQ(10, other.answered);
+}
+
+TEST_F(HostRules, ARobotThatNeverRestsHoldsNobodyBackForEver) {
+  use(waiting(false, false));
+  robot.restless = true;
+  timeOf(1);  // in which the world was still at rest
+  const int before = robot.served_all;
+  timeOf(9000);
+  EXPECT_EQ(before, robot.served_all);
+  timeOf(1100);
+  EXPECT_EQ(before + 1, robot.served_all);
+}
+
 TEST_F(HostRules, AWorldThatStandsStillIsShownWithoutATick) {
   use(waiting(true, true));
   host.standStill();
@@ -176,17 +235,15 @@ TEST_F(HostRules, WhoWasRemovedIsLeftAlone) {
 TEST_F(HostRules, InLockStepAPushLetsTheWorldRunForItsTimeAndUntilAllRests) {
   use(waiting(false, false));
   host.letRun(50);
-  std::atomic<bool> stop{false};
-  std::thread running([&] { host.run(stop); });
-  const Clock::time_point deadline = Clock::now() + std::chrono::seconds(10);
-  while (steps < 150 && Clock::now() < deadline) {
-    std::this_thread::sleep_for(milliseconds(1));
-  }
-  std::this_thread::sleep_for(milliseconds(50));  // in which a world that runs would go on
-  const int ran = steps;
-  stop = true;
-  running.join();
-  EXPECT_EQ(150, ran) << "50, and 100 for what was set in motion";
+  EXPECT_EQ(150, stepsUntilStill(150)) << "50, and 100 for what was set in motion";
+}
+
+TEST_F(HostRules, AWorldThatBeginsAnewRunsAsLongWhateverWasToRunBefore) {
+  use(waiting(false, false));
+  host.letRun(500);
+  timeOf(10);
+  host.beginAnew();
+  EXPECT_EQ(10 + 101, stepsUntilStill(10 + 101));
 }
 
 }  // namespace

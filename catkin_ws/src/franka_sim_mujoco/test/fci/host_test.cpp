@@ -10,6 +10,9 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <future>
+#include <mutex>
 #include <random>
 #include <sstream>
 #include <thread>
@@ -36,6 +39,32 @@ std::string urdfText() {
   return text.str();
 }
 
+/// Does what others ask for, between two ticks.
+class Errands final : public Service {
+ public:
+  void serve() override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::packaged_task<void()>& errand : due_) {
+      errand();
+    }
+    due_.clear();
+  }
+  void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
+  void run(std::function<void()> errand) {
+    std::packaged_task<void()> task(std::move(errand));
+    std::future<void> done = task.get_future();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      due_.push_back(std::move(task));
+    }
+    done.get();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::packaged_task<void()>> due_;
+};
+
 /// A Panda on the network, in a thread of its own.
 class Stage {
  public:
@@ -60,6 +89,7 @@ class Stage {
     hand.parameters.gains = {FingerGains{100, 0, 1}, FingerGains{100, 0, 1}};
     robot_ = std::make_unique<SimRobot>(unit, world_.arm("panda", "panda"), server, hand);
     host_.add(*robot_);
+    host_.add(errands_);
     thread_ = std::thread([this] { host_.run(stop_); });
   }
   ~Stage() { finish(); }
@@ -71,14 +101,29 @@ class Stage {
   }
 
   std::uint16_t port() const { return robot_->server().port(); }
+  std::uint16_t gripperPort() const { return robot_->gripperPort(); }
   /// Only after finish().
   std::uint64_t hash() const { return robot_->hash(); }
   std::uint64_t ticks() const { return host_.ticks(); }
+
+  /// Lets the host's thread do something between two ticks, and waits for it.
+  void between(std::function<void(SimRobot&, World&, Host&)> errand) {
+    errands_.run([&] { errand(*robot_, world_, host_); });
+  }
+  double width() {
+    double width = 0.0;
+    between([&](SimRobot&, World& world, Host&) {
+      const HandMeasurement hand = world.hand("panda", "panda").measure();
+      width = hand.q[0] + hand.q[1];
+    });
+    return width;
+  }
 
  private:
   World world_;
   std::unique_ptr<SimRobot> robot_;
   Host host_;
+  Errands errands_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
@@ -210,6 +255,88 @@ TEST(LockStep, treatsASilentClientAsLost) {
   }
   ASSERT_TRUE(state);
   EXPECT_TRUE(state->errors[25]);  // communication_constraints_violation
+}
+
+/// The first state in that mode; nothing when there is none in 20 s.
+std::optional<franka_core::RobotState> stateIn(TestClient& client, RobotMode mode) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  auto state = client.state();
+  while (state && state->robot_mode != mode && std::chrono::steady_clock::now() < deadline) {
+    state = client.state();
+  }
+  return state && state->robot_mode == mode ? state : std::nullopt;
+}
+
+TEST(LockStep, aClientThatDiesBeforeItsFirstCommandLeavesNoMotionBehind) {
+  Stage stage(lockStep());
+  {
+    TestClient client(stage.port());
+    connect(client);
+    client.request(codec::MoveRequest{});
+    ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+  }
+  TestClient next(stage.port());
+  connect(next);
+  const auto state = stateIn(next, RobotMode::kReflex);
+  ASSERT_TRUE(state) << "the robot is left in Move";
+  EXPECT_TRUE(state->errors[25]);  // communication_constraints_violation
+  next.request(codec::AutomaticErrorRecoveryRequest{});
+  const auto recovered = next.answer(Command::kAutomaticErrorRecovery);
+  ASSERT_TRUE(recovered);
+  EXPECT_EQ(recovered->reply.status, Status::kSuccess);
+}
+
+TEST(LockStep, anArmThatCoastsInGuidingKeepsNobodyWaiting) {
+  Stage stage(lockStep());
+  TestClient client(stage.port());
+  connect(client);
+  stage.between([](SimRobot& robot, World& world, Host& host) {
+    robot.unit().setGuiding(true);
+    world.push("panda_link5", {0, 8, 0}, {}, 100);
+    host.letRun(100);
+  });
+  for (int i = 0; i < 3; i++) {
+    client.request(codec::SetLoadRequest{});
+    const auto answer = client.answer(Command::kSetLoad, 20000);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->reply.status, Status::kSuccess);
+  }
+  double fastest = 0.0;
+  std::uint64_t ticks = 0;
+  stage.between([&](SimRobot& robot, World&, Host& host) {
+    for (const double dq : robot.unit().state().dq) {
+      fastest = std::max(fastest, std::abs(dq));
+    }
+    ticks = host.ticks();
+  });
+  EXPECT_GT(fastest, 1e-3) << "the arm has come to rest by itself: this test tells nothing";
+  const auto begin = client.state();
+  ASSERT_TRUE(begin);
+  for (int i = 0; i < 50; i++) {
+    ASSERT_TRUE(client.state());
+  }
+  stage.between([&](SimRobot&, World&, Host& host) { EXPECT_EQ(ticks, host.ticks()); });
+}
+
+TEST(LockStep, aHandWhoseClientDiesFinishesWhatItDoes) {
+  namespace hand = franka_core::fci::gripper;
+  Stage stage(lockStep());
+  {
+    TestClient client(stage.gripperPort());
+    hand::RequestMessage message;
+    hand::encodeRequest(0, hand::ConnectRequest{3, client.udpPort()}, message);
+    ASSERT_TRUE(client.sendBytes(message.data, message.size));
+    hand::encodeRequest(1, hand::MoveRequest{0.06, 0.02}, message);
+    ASSERT_TRUE(client.sendBytes(message.data, message.size));
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (stage.width() < 0.005 && std::chrono::steady_clock::now() < deadline) {
+    }
+  }
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (std::abs(stage.width() - 0.06) > 1e-3 && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_NEAR(stage.width(), 0.06, 1e-3);
 }
 
 TEST(LockStep, stopsAMotionOnDemand) {

@@ -97,7 +97,7 @@ class SimulatedRobots {
     server.port = 0;
     server.oldest_version = server.newest_version = place.version;
     server.model_library = servedLibrary(unit.model);
-    server.urdf = servedUrdf(unit.model, place.version);
+    server.urdfs = {{8, servedUrdf(unit.model, place.version)}};
     SimRobot::Hand hand{&world_.hand(name, name), {}, 0};
     hand.parameters.gains = {FingerGains{100, 0, 1}, FingerGains{100, 0, 1}};
     robots_.push_back(std::make_unique<SimRobot>(unit, world_.arm(name, name), server, hand));

@@ -2,124 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The robot's network face over real sockets, with a desk in the place of the control unit.
-#include <franka_sim_mujoco/fci/robot_server.h>
-
-#include <chrono>
 #include <cmath>
-#include <functional>
 #include <random>
-#include <thread>
+#include <string>
+#include <vector>
 
-#include "test_client.h"
+#include "robot_server_fixture.h"
 
 namespace franka_sim_mujoco::fci {
 namespace {
-
-namespace codec = franka_core::fci;
-using codec::Command;
-using codec::Status;
-using franka_core::ControllerMode;
-using franka_core::MotionGeneratorMode;
-using franka_core::RobotMode;
-using franka_test::TestClient;
-
-/// Answers what the test has written down.
-class FakeDesk final : public ArmDesk {
- public:
-  FakeDesk() { shown.robot_mode = RobotMode::kIdle; }
-  const franka_core::RobotState& state() const noexcept override { return shown; }
-  void connected(std::uint16_t version) noexcept override { last_version = version; }
-  std::optional<Status> handle(const codec::Request& request) noexcept override {
-    last = request;
-    handled++;
-    return answer;
-  }
-  std::optional<codec::CartesianLimit> wall(std::int32_t id) const noexcept override {
-    codec::CartesianLimit wall;
-    wall.object_world_size[0] = 2.0;
-    return id == 1 ? std::optional<codec::CartesianLimit>(wall) : std::nullopt;
-  }
-  std::optional<Status> motionEnd() noexcept override { return take(motion_end); }
-  std::optional<Status> stopEnd() noexcept override { return take(stop_end); }
-  std::optional<Status> recoveryEnd() noexcept override { return take(recovery_end); }
-
-  void startMotion() {
-    answer = Status::kMotionStarted;
-    shown.robot_mode = RobotMode::kMove;
-    shown.motion_generator_mode = MotionGeneratorMode::kJointPosition;
-    shown.controller_mode = ControllerMode::kJointImpedance;
-  }
-  void endMotion(Status status, RobotMode mode) {
-    motion_end = status;
-    shown.robot_mode = mode;
-    shown.motion_generator_mode = MotionGeneratorMode::kIdle;
-    shown.controller_mode = ControllerMode::kOther;
-  }
-
-  franka_core::RobotState shown;
-  std::optional<Status> answer{Status::kSuccess};
-  std::optional<Status> motion_end, stop_end, recovery_end;
-  codec::Request last;
-  int handled{0};
-  std::uint16_t last_version{0};
-
- private:
-  static std::optional<Status> take(std::optional<Status>& from) {
-    const std::optional<Status> result = from;
-    from.reset();
-    return result;
-  }
-};
-
-class RobotServerTest : public ::testing::Test {
- protected:
-  RobotServerTest() : server_(parameters(), desk_) {}
-
-  static RobotServerParameters parameters() {
-    RobotServerParameters result;
-    result.port = 0;
-    result.oldest_version = 3;
-    result.newest_version = 10;
-    result.model_library = {1, 2, 3};
-    result.urdf = "<robot/>";
-    return result;
-  }
-
-  /// Lets the server work until something is true; at most 5 s.
-  bool until(const std::function<bool()>& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline) {
-        return false;
-      }
-      server_.serve();
-    }
-    return true;
-  }
-  /// Loopback delivers in the sender's call; a few turns let the server take it all.
-  void serve(bool stops_only = false) {
-    for (int i = 0; i < 3; i++) {
-      server_.serve(stops_only);
-    }
-  }
-  void connect(TestClient& client, std::uint16_t version) {
-    client.connect(version);
-    serve();
-    const auto answer = client.answer(Command::kConnect);
-    ASSERT_TRUE(answer);
-    ASSERT_EQ(answer->reply.status, Status::kSuccess);
-    ASSERT_EQ(answer->reply.server_version, version);
-  }
-  std::optional<TestClient::Answer> ask(TestClient& client, const codec::Request& request) {
-    client.request(request);
-    serve();
-    server_.publish();
-    return client.answer(codec::commandOf(request), 1000);
-  }
-
-  FakeDesk desk_;
-  RobotServer server_;
-};
 
 TEST_F(RobotServerTest, acceptsEachVersionOfItsRange) {
   for (std::uint16_t version = 3; version <= 10; version++) {
@@ -263,6 +154,97 @@ TEST_F(RobotServerTest, takesTheAnswerToTheLastStateAlone) {
   EXPECT_TRUE(isTaken(id + 1));
 }
 
+TEST_F(RobotServerTest, takesTargetsOfAnAsynchronousMotionWheneverTheyCome) {
+  TestClient client(server_.port());
+  connect(client, 10);
+  server_.publish();
+  const std::uint64_t before = client.state()->message_id;
+  desk_.startMotion();
+  codec::MoveRequest request;
+  request.use_async_motion_generator = true;
+  request.maximum_velocity.fill(0.5);
+  client.request(request);
+  serve();
+  EXPECT_TRUE(server_.asynchronous());
+  server_.publish();
+  const std::uint64_t first = client.state()->message_id;
+  for (int i = 0; i < 49; i++) {
+    server_.publish();
+    EXPECT_FALSE(server_.receiveCommand());
+    EXPECT_EQ(server_.takeCommand(), nullptr);
+  }
+  const auto isTaken = [&](std::uint64_t of) {
+    franka_core::RobotCommand command;
+    command.message_id = of;
+    client.command(command);
+    server_.receiveCommand();
+    return server_.takeCommand() != nullptr;
+  };
+  EXPECT_TRUE(isTaken(first)) << "its client has read no other state";
+  EXPECT_FALSE(isTaken(before)) << "that was of the time before";
+  EXPECT_FALSE(isTaken(first + 50)) << "that has not been sent yet";
+  EXPECT_TRUE(isTaken(first + 49));
+  // The next motion is none of that kind.
+  desk_.endMotion(Status::kSuccess, RobotMode::kIdle);
+  server_.publish();
+  desk_.startMotion();
+  client.request(codec::MoveRequest{});
+  serve();
+  EXPECT_TRUE(server_.expectsCommands());
+  EXPECT_FALSE(server_.asynchronous());
+}
+
+TEST_F(RobotServerTest, tellsTheDeskOnceThatItsClientHasGone) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  EXPECT_EQ(desk_.farewells, 0);
+  client.close();
+  ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+  serve();
+  EXPECT_EQ(desk_.farewells, 1);
+}
+
+TEST_F(RobotServerTest, switchedOffTellsItsClientHowTheMotionEndedAndRefusesAllUntilItIsOn) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  desk_.startMotion();
+  client.request(codec::MoveRequest{});
+  serve();
+  ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+  TestClient waiting(server_.port());  // not yet taken
+  desk_.on = false;
+  desk_.endMotion(Status::kAborted, RobotMode::kIdle);
+  serve();
+  EXPECT_TRUE(waiting.ended());
+  server_.publish();
+  EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kAborted);
+  EXPECT_TRUE(client.ended());
+  EXPECT_FALSE(server_.hasClient());
+  EXPECT_FALSE(TestClient(server_.port()).connected());
+  std::vector<pollfd> fds;
+  server_.addDescriptors(fds);
+  EXPECT_TRUE(fds.empty()) << "a closed port wakes nobody up";
+  for (int i = 0; i < 2; i++) {
+    desk_.on = true;
+    serve();
+    TestClient next(server_.port());
+    ASSERT_TRUE(next.connected());
+    connect(next, 5);
+    desk_.on = false;
+    serve();
+    server_.publish();
+    EXPECT_TRUE(next.ended());
+  }
+}
+
+TEST_F(RobotServerTest, switchedOffDropsWhoHasNotSaidWhoItIs) {
+  TestClient client(server_.port());
+  serve();
+  desk_.on = false;
+  serve();
+  EXPECT_TRUE(client.ended());
+}
+
 TEST_F(RobotServerTest, dropsDatagramsThatAreNoCommands) {
   TestClient client(server_.port());
   connect(client, 5);
@@ -356,8 +338,6 @@ TEST_F(RobotServerTest, servesModelsWhereTheVersionHasThem) {
                                              codec::OperatingSystem::kLinux};
 #endif
   EXPECT_EQ(ask(client, other)->reply.status, Status::kError);
-  const auto urdf = ask(client, codec::GetRobotModelRequest{});
-  EXPECT_EQ(std::string(urdf->model.begin(), urdf->model.end()), "<robot/>");
 }
 
 TEST_F(RobotServerTest, tellsOfVirtualWalls) {

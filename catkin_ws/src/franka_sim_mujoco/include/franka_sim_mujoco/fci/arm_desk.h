@@ -22,6 +22,10 @@ class ArmDesk {
   virtual const franka_core::RobotState& state() const noexcept = 0;
   /// A client has connected with this protocol version.
   virtual void connected(std::uint16_t version) noexcept = 0;
+  /// The client has gone; a motion of its may still run.
+  virtual void disconnected() noexcept = 0;
+  /// Whether clients may connect. Off: who is connected is dropped.
+  virtual bool active() const noexcept = 0;
 
   /// The answer to any request but Connect and those for models. Move answers kMotionStarted, or
   /// why not. StopMove and AutomaticErrorRecovery may answer later: nothing now, and then by

@@ -31,6 +31,11 @@ class ClientSlot {
   void confirm() noexcept { confirmed_ = true; }
   void drop() noexcept;
 
+  /// Whether anybody can connect; closed, the port refuses. The client that is there stays.
+  void setOpen(bool open) noexcept {
+    open ? static_cast<void>(listener_.open()) : listener_.close();
+  }
+
   /// Accepts and reads.
   /// @param serve_one takes one request off the connection and sets its second argument if there
   /// was one; returns false when the connection must end.

@@ -24,6 +24,11 @@ class CommandLink {
   /// @param ticks 0, 1 or 2. @throws std::invalid_argument with a sentence for any other.
   void setDelay(double ticks);
 
+  /// Nothing is under way any more.
+  void clear() noexcept;
+  /// As when loss and delay were set: nothing under way, the same losses again.
+  void restart() noexcept;
+
   /// One tick: what comes in, or null; what comes out at the other end, or null. The result is
   /// valid until the next call.
   const franka_core::RobotCommand* pass(const franka_core::RobotCommand* command) noexcept;
@@ -37,6 +42,7 @@ class CommandLink {
   bool loses() noexcept;
 
   double loss_{0.0};
+  std::uint64_t seed_{0};
   unsigned lose_next_{0};
   unsigned delay_{0};
   std::mt19937_64 engine_;

@@ -34,8 +34,9 @@ class HandServer {
 
   std::uint16_t port() const noexcept { return slot_.port(); }
   bool hasClient() const noexcept { return slot_.confirmed(); }
-  /// A command runs whose outcome a client waits for.
-  bool busy() const noexcept { return running_.has_value(); }
+  /// A command runs, also one whose client has gone: a hand does not drop what it holds because a
+  /// program ends.
+  bool busy() const noexcept { return unit_.outcome(last_) == GripperOutcome::kRunning; }
 
   /// Accepts, reads and answers. @param stops_only leaves all but Connect and Stop.
   void serve(bool stops_only = false);
@@ -64,14 +65,14 @@ class HandServer {
   bool start(const Header& header, const Request& request);
   bool reply(Command command, std::uint32_t id, Status status, std::uint16_t version = 0);
   bool replyToEnded();
-  // What runs goes on: a hand does not drop what it holds because a program ends.
   void forgetClient() noexcept { running_.reset(); }
 
   Unit& unit_;
   ClientSlot slot_;
   Datagrams datagrams_;
   std::chrono::steady_clock::time_point state_sent_at_{};
-  std::optional<Running> running_;
+  std::optional<Running> running_;  // for the client that is there
+  TicketLog::Ticket last_{0};
   std::uint64_t message_id_{0};
 };
 
@@ -145,6 +146,7 @@ bool HandServer<Device>::start(const Header& header, const Request& request) {
   if (ticket == 0) {
     return reply(command, header.command_id, Status::kFail);
   }
+  last_ = ticket;
   // The unit has ended what ran before; its reply goes first.
   if (!replyToEnded()) {
     return false;

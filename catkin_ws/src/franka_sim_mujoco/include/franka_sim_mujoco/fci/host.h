@@ -18,8 +18,9 @@ namespace franka_sim_mujoco::fci {
 /// How simulated time follows the wall's.
 struct Pace {
   /// Waits within a motion for each answer, for as long as it takes up to `silence`; runs as fast
-  /// as machine and clients allow (decision 21). Otherwise ticks are due every millisecond divided
-  /// by `factor`, whatever the clients do.
+  /// as machine and clients allow (decision 21), but by the clock within an asynchronous motion,
+  /// whose client owes no answers. Otherwise ticks are due every millisecond divided by `factor`,
+  /// whatever the clients do.
   bool lockstep{false};
   /// With lock-step: time does not stand still between motions, but runs on as fast as the machine
   /// allows. For a world in which others live too.
@@ -52,11 +53,14 @@ class HostedRobot {
 
   /// Reads commands. @returns whether the one that answers the last state is there.
   virtual bool receiveCommand() = 0;
-  /// A motion runs for a client, so that a command is due.
+  /// A motion runs for a client, which commands it.
   virtual bool expectsCommand() const = 0;
+  /// That client sends commands when it likes: no tick waits for one.
+  virtual bool asynchronous() const = 0;
   /// That motion has had its first command.
   virtual bool motionHasBegun() const = 0;
-  /// The arm stops, recovers or is pushed: time must go on though no client answers.
+  /// The arm stops, recovers or is pushed, or its client has died in a motion: time must go on
+  /// though no client answers.
   virtual bool settling() const = 0;
   /// The hand is at work.
   virtual bool handBusy() const = 0;
@@ -106,6 +110,8 @@ class Host {
   /// For lock-step: lets this many ticks run without waiting for anybody, for what is done to the
   /// world from outside (a push) to take its course.
   void letRun(std::uint64_t ticks);
+  /// After the world was reset: the same for a single tick, and nothing of what was to run before.
+  void beginAnew();
 
   std::uint64_t ticks() const noexcept { return ticks_; }
 
@@ -115,11 +121,14 @@ class Host {
   struct Guest {
     HostedRobot* robot;
     bool given_up{false};  // silent for too long in lock-step
+
+    bool isDue() const { return robot->expectsCommand() && !robot->asynchronous(); }
   };
 
   void publishAll(bool same_moment = false);
   void serveAll();
   void serveIfDue();
+  bool holdsRequestsBack() const;
   bool receiveAll();
   void pollUntil(Clock::time_point deadline);
   void waitInRealTime();
@@ -129,6 +138,8 @@ class Host {
   void awaitSwiftAnswers(Clock::time_point begin);
   bool waitForClients(Clock::time_point begin, bool all_answered);
   bool clientsAreDue() const;
+  bool clientsAreAtLeisure() const;
+  bool heedsClock() const;
   bool startsAreDue() const;
   bool timeMustGoOn();
   void giveUpOnTheSilent();
@@ -151,6 +162,7 @@ class Host {
   Clock::time_point published_at_{};
   std::uint64_t unpublished_ticks_{1};
   std::uint64_t rolling_{0};
+  std::uint64_t held_back_{0};  // ticks in a row in which requests had to wait
   std::uint64_t ticks_{0};
 };
 

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +24,8 @@ struct RobotServerParameters {
   std::uint16_t oldest_version{3};                   ///< of the range that is answered
   std::uint16_t newest_version{5};                   ///< told to clients outside the range
   std::vector<std::uint8_t> model_library;           ///< for versions up to 9; empty: there is none
-  std::string urdf;                                  ///< for versions from 8 on
+  /// For versions from 8 on; each from its version up to the next one's. Empty: there is none.
+  std::map<std::uint16_t, std::string> urdfs;
 };
 
 /// The network face of one robot: the TCP channel of requests and the UDP exchange of states and
@@ -32,7 +34,8 @@ struct RobotServerParameters {
 ///
 /// One client at a time; a second one is turned away (its connection is reset, so that it fails at
 /// once instead of waiting). A client that vanishes leaves its motion without commands; the control
-/// unit then does what it does when commands stay away.
+/// unit then does what it does when commands stay away. With the interface switched off (see
+/// ArmDesk::active) the client is dropped, after what it is due, and nobody can connect.
 ///
 /// One thread. publish, receiveCommand and takeCommand are real-time safe; serve allocates only
 /// when a client connects or asks for a model.
@@ -65,8 +68,11 @@ class RobotServer {
   bool receiveCommand() noexcept;
   /// The answer to the last state, once; nothing if there is none.
   const franka_core::RobotCommand* takeCommand() noexcept;
-  /// A motion runs for this client, so that a command is due.
+  /// A motion runs for this client, which commands it.
   bool expectsCommands() const noexcept;
+  /// That motion is one of the asynchronous generator: the client sends a target when it has one,
+  /// and any state of the motion may be the last it has read. Otherwise a command is due each tick.
+  bool asynchronous() const noexcept { return asynchronous_ && expectsCommands(); }
   /// The motion has had its first command.
   bool motionHasBegun() const noexcept { return begun_; }
 
@@ -87,14 +93,17 @@ class RobotServer {
   static constexpr std::size_t kMostAnswered = 8;  // genuine clients have one at a time
 
   void forgetClient() noexcept;
+  void dropClient() noexcept;
   bool serveOne(Connection& client, bool stops_only, bool& progressed);
   bool connect(const franka_core::fci::Header& header,
                const franka_core::fci::ConnectRequest& request);
   bool answer(const franka_core::fci::Header& header, const franka_core::fci::Request& request);
   bool refuse(const franka_core::fci::Header& header, franka_core::fci::CodecError error);
   bool reply(const Pending& to, franka_core::fci::Status status);
-  bool replyWithModel(const Pending& to);
+  const std::string* urdf() const noexcept;
+  bool replyWithModel(const Pending& to, Bytes model);
   bool replyWithWall(const Pending& to, std::int32_t id);
+  bool answersAState(std::uint64_t message_id) const noexcept;
   void collectEnds() noexcept;
   bool replyToSetters();
   void replyTo(std::optional<Pending>& pending, std::optional<franka_core::fci::Status>& status);
@@ -112,6 +121,8 @@ class RobotServer {
 
   std::uint64_t message_id_{0};
   std::uint64_t oldest_of_moment_{0};
+  std::uint64_t first_of_motion_{0};  // the first state after its start
+  bool asynchronous_{false};
   bool begun_{false};
   bool answered_{false};
   franka_core::fci::StateBuffer state_bytes_{};

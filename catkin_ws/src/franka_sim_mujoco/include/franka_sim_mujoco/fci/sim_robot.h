@@ -68,6 +68,7 @@ class SimRobot final : public HostedRobot {
   bool hasNews() const override { return server_.hasNews(); }
   bool receiveCommand() override { return server_.receiveCommand(); }
   bool expectsCommand() const override { return server_.expectsCommands(); }
+  bool asynchronous() const override { return server_.asynchronous(); }
   bool motionHasBegun() const override { return server_.motionHasBegun(); }
   bool settling() const override;
   bool handBusy() const override;

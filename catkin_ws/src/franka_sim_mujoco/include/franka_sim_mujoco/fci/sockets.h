@@ -48,8 +48,16 @@ class Listener {
   /// The next connection and where it comes from; an empty descriptor when there is none.
   Descriptor accept(sockaddr_in& peer) noexcept;
 
+  /// Closed: whoever connects is refused; the port stays this listener's.
+  bool isOpen() const noexcept { return open_; }
+  void close() noexcept;
+  /// @returns false when another program has taken the port meanwhile.
+  bool open() noexcept;
+
  private:
   Descriptor socket_;
+  sockaddr_in name_{};
+  bool open_{true};
   std::uint16_t port_{0};
 };
 

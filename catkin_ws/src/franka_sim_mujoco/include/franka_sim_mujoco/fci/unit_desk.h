@@ -5,6 +5,9 @@
 #include <franka_sim_mujoco/fci/arm_desk.h>
 #include <franka_sim_mujoco/robot/control_unit.h>
 
+#include <cstdint>
+#include <optional>
+
 namespace franka_sim_mujoco::fci {
 
 /// Hands requests to a control unit and its outcomes back, in the words of the protocol.
@@ -15,6 +18,8 @@ class UnitDesk final : public ArmDesk {
 
   const franka_core::RobotState& state() const noexcept override { return unit_.state(); }
   void connected(std::uint16_t version) noexcept override;
+  void disconnected() noexcept override { unit_.clientGone(); }
+  bool active() const noexcept override { return unit_.fciActive(); }
   std::optional<Status> handle(const franka_core::fci::Request& request) noexcept override;
   std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept override;
   std::optional<Status> motionEnd() noexcept override;
@@ -22,7 +27,10 @@ class UnitDesk final : public ArmDesk {
   std::optional<Status> recoveryEnd() noexcept override;
 
  private:
+  void applyVersion() noexcept;
+
   ControlUnit& unit_;
+  std::uint16_t version_{0};  // of a client that came while the motion of another one ran; else 0
 };
 
 }  // namespace franka_sim_mujoco::fci

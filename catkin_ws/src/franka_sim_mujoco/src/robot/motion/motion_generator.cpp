@@ -95,7 +95,8 @@ MotionStep MotionGenerator::step(const franka_core::RobotCommand* command,
   MotionStep result;
   const bool asked = command != nullptr && command->motion_generation_finished;
   if (start_.asynchronous) {
-    result.fault = advanceAsync(command);
+    // What ends the motion is no target: genuine clients leave its numbers zero.
+    result.fault = advanceAsync(asked ? nullptr : command);
     finishing_ = finishing_ || asked;
     result.finished = finishing_ && async_.atRest();
   } else {
