@@ -190,10 +190,7 @@ class SpawnerTest(unittest.TestCase):
             cases = (
                 ("- a\n", "names of controllers"),
                 ("42\n", "names of controllers"),
-                ("1.5\n", "names of controllers"),
-                ("true\n", "names of controllers"),
                 ("---\n", "names of controllers"),
-                ("1: {type: dummy/Good}\n", "names of controllers"),
                 ("a: {type: null}\n", "names of controllers"),
                 ("{a: [\n", "could not be read"),
             )
