@@ -10,6 +10,7 @@
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/robot_instance.h>
 #include <franka_sim_mujoco/ros/served_robot.h>
+#include <ros/console.h>
 #include <std_srvs/SetBool.h>
 
 #include <algorithm>
@@ -74,6 +75,9 @@ ServedRobot::ServedRobot(const RobotPlan& plan, World& world, BetweenTicks betwe
     : between_ticks_(std::move(between_ticks)),
       robot_(makeRobot(plan, world)),
       desk_(ros::NodeHandle(ros::NodeHandle(plan.robot_namespace), "franka_sim")) {
+  robot_.onSelfCollision([name = plan.description.name](const std::string& what) {
+    ROS_WARN_STREAM("Robot '" << name << "': " << what);
+  });
   offerSwitches();
   offerLink();
   offerStates();
