@@ -4,6 +4,8 @@
 
 #include <franka_sim_mujoco/fci/serving.h>
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -61,9 +63,9 @@ void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   });
   lines.add("fci on|off", [&](const Words& words) {
     robot.unit().setFciActive(toSwitch(words.at(0)));
+    robot.serve(true);  // the port opens or closes before the answer goes
     return "";
   });
-    robot.serve(true);  // the port opens or closes before the answer goes
 }
 
 void addLink(LineServer& lines, fci::SimRobot& robot) {
@@ -130,6 +132,39 @@ void addVacuum(LineServer& lines, VacuumGripperUnit& unit) {
   });
 }
 
+franka_core::fci::CartesianLimit toWall(const Words& words) {
+  franka_core::fci::CartesianLimit wall;
+  wall.object_frame = franka_core::kIdentityTransform;
+  wall.active = words.at(1) != "off";
+  if (!wall.active) {
+    return wall;
+  }
+  Eigen::Map<Eigen::Matrix4d> frame(wall.object_frame.data());
+  frame.topRightCorner<3, 1>() = Eigen::Vector3d(toVector(words, 1).data());
+  wall.object_world_size = toVector(words, 4);
+  if (words.size() > 7) {
+    const Eigen::Quaterniond turn(toNumber(words.at(7)), toNumber(words.at(8)),
+                                  toNumber(words.at(9)), toNumber(words.at(10)));
+    if (turn.norm() == 0.0) {
+      throw std::invalid_argument("Four zeros are no orientation; 1 0 0 0 turns nothing.");
+    }
+    frame.topLeftCorner<3, 3>() = turn.normalized().toRotationMatrix();
+  }
+  return wall;
+}
+
+void addWalls(LineServer& lines, fci::SimRobot& robot) {
+  lines.add("wall NUMBER off|X Y Z DX DY DZ [QW QX QY QZ]", [&robot](const Words& words) {
+    const double number = toNumber(words.at(0));
+    if (!(number >= 0.0 && number < VirtualWalls::kCount) || number != std::floor(number)) {
+      throw std::invalid_argument("'" + words.at(0) + "' is no number of a wall: 0 to 7.");
+    }
+    require(robot.unit().setVirtualWall(static_cast<std::int32_t>(number), toWall(words)),
+            "The wall was refused: it has a negative edge, or the robot moves.");
+    return "";
+  });
+}
+
 void reset(const Scene& scene) {
   for (const fci::SimRobot* robot : scene.robots) {
     if (robot->expectsCommand()) {
@@ -166,6 +201,7 @@ void addPersonCommands(fci::LineServer& lines, const Scene& scene) {
   addLink(lines, scene.robot);
   addWorld(lines, scene.host, scene.world);
   addRobot(lines, scene.robot);
+  addWalls(lines, scene.robot);
   if (VacuumGripperUnit* vacuum = scene.robot.vacuum()) {
     addVacuum(lines, *vacuum);
   }
