@@ -41,33 +41,39 @@ def undisturbed(seen: dict) -> bool:
     cycles, and the reflexes that are meant have no reason besides."""
     lost = [
         seen["leap"].count('"') != 2,  # one error, in quotes
-        "communication_constraints_violation" in seen["leap"] + seen.get("contact", ""),
-        seen.get("retreat", "ok") != "ok",
+        "communication_constraints_violation" in seen["leap"] + seen["contact"],
+        seen["retreat"] != "ok",
         seen.get("again", "ok") != "ok",
     ]
     motions = seen["motions"].values()
     return not any(lost) and all(motion["outcome"] == "ok" and saw_its_cycles(motion) for motion in motions)
 
 
-@pytest.fixture(scope="module", params=["lockstep", "realtime"])
-def panda(request, tmp_path_factory):
+@pytest.fixture(scope="module")
+def world(tmp_path_factory) -> str:
+    """A block below the hand."""
     world = tmp_path_factory.mktemp("world") / "block.xml"
     world.write_text(FLOOR.format(height=0.3))
+    return str(world)
+
+
+@pytest.fixture(scope="module", params=["lockstep", "realtime"])
+def panda(request, world):
     address = "127.0.21.1" if request.param == "lockstep" else "127.0.21.2"
 
     def attempt():
-        with running("--robot", "panda", "--ip", address, "--pace", request.param, "--world", str(world)):
+        with running("--robot", "panda", "--ip", address, "--pace", request.param, "--world", world):
             return run_session("panda", "panda_client.py", address)
 
     return dict(in_time(attempt, undisturbed), pace=request.param)
 
 
 @pytest.fixture(scope="module", params=["lockstep", "realtime"])
-def fr3(request):
+def fr3(request, world):
     address = "127.0.21.3" if request.param == "lockstep" else "127.0.21.4"
 
     def attempt():
-        with running("--robot", "fr3", "--ip", address, "--pace", request.param):
+        with running("--robot", "fr3", "--ip", address, "--pace", request.param, "--world", world):
             return run_session("pylibfranka", "pylibfranka_client.py", address)
 
     return dict(in_time(attempt, undisturbed), pace=request.param)
@@ -86,6 +92,18 @@ def check_motions(seen, names):
         assert saw_its_cycles(motion), (name, motion)
         if seen["pace"] == "realtime":
             assert motion["wall seconds"] >= motion["robot seconds"] - 0.05, (name, motion)
+
+
+def check_block(seen: dict, reflex: str):
+    """At a tenth of a metre a second; what the client says of it, and that it gets away again."""
+    assert seen["thresholds"] == "ok"
+    assert "motion aborted by reflex!" in seen["contact"], seen["contact"]
+    assert '"cartesian_reflex"' in seen["contact"] or '"joint_reflex"' in seen["contact"], seen["contact"]
+    assert seen["mode after contact"] == reflex
+    assert seen["recovery after contact"] == "ok"
+    assert seen["retreat"] == "ok"
+    # Of 0.05; in real time cycles that the wall clock took are extrapolated.
+    assert seen["height after retreat"] - seen["height"] == pytest.approx(0.05, abs=0.005)
 
 
 def test_panda_connects(panda):
@@ -123,11 +141,7 @@ def test_panda_reflex_and_recovery(panda):
 
 
 def test_panda_meets_a_block(panda):
-    assert panda["thresholds"] == "ok"
-    assert "_reflex" in panda["contact"], panda["contact"]
-    assert panda["mode after contact"] == "kReflex"
-    assert panda["recovery after contact"] == "ok"
-    assert panda["retreat"] == "ok"
+    check_block(panda, "kReflex")
 
 
 def test_panda_gripper(panda):
@@ -151,7 +165,11 @@ def test_fr3_connects(fr3):
 def test_fr3_setters(fr3):
     setters = dict(fr3["setters"])
     assert setters.pop("m_load") == 0.5
+    # Single precision.
+    assert setters.pop("F_T_EE") == pytest.approx(0.1034 + 0.05, abs=1e-6)
+    assert setters.pop("EE_T_K") == pytest.approx(0.05, abs=1e-6)
     assert "invalid argument!" in setters.pop("bad impedance")
+    assert "invalid argument!" in setters.pop("bad cartesian impedance")
     assert set(setters.values()) == {"ok"}, setters
 
 
@@ -162,6 +180,7 @@ def test_fr3_moves(fr3):
 
 def test_fr3_reflex_and_recovery(fr3):
     assert "motion aborted by reflex!" in fr3["leap"], fr3["leap"]
+    assert '["joint_position_motion_generator_start_pose_invalid"]' in fr3["leap"], fr3["leap"]
     assert fr3["mode after leap"] == "Reflex"
     assert fr3["recovery"] == "ok"
     assert fr3["mode after recovery"] == "Idle"
@@ -169,9 +188,19 @@ def test_fr3_reflex_and_recovery(fr3):
     assert fr3["second client"] != "ok"
 
 
+def test_fr3_meets_a_block(fr3):
+    check_block(fr3, "Reflex")
+
+
 def test_fr3_gripper(fr3):
-    assert fr3["gripper"]["homing"] and fr3["gripper"]["move"]
-    assert fr3["gripper"]["width"] == pytest.approx(0.02, abs=1e-3)
+    assert fr3["gripper"] == {
+        "homing": True,
+        "move": True,
+        "width": pytest.approx(0.02, abs=1e-3),
+        "empty grasp": False,
+        "is grasped": False,
+        "stop": True,
+    }
 
 
 def test_versions_are_told_apart():
@@ -230,6 +259,57 @@ except Exception as error:
     assert "libfranka: Move command aborted: User Stop pressed!" in output
     assert "kUserStopped" in output
     assert 'not possible in the current mode ("User stopped")' in output
+
+
+def test_a_virtual_wall_keeps_the_hand_out():
+    """As a person draws it in Desk: the hand goes down to its top, and through when it is gone."""
+    script = """
+import math, sys
+from panda_py import libfranka
+robot = libfranka.Robot(sys.argv[1])
+time = [0.0]
+def down(state, period):
+    time[0] += period.to_sec()
+    speed = 0.1 * math.sin(math.pi * min(time[0] / 2.0, 1.0)) ** 2
+    command = libfranka.CartesianVelocities([0, 0, -speed, 0, 0, 0])
+    command.motion_finished = time[0] >= 2.0
+    return command
+before = robot.read_once().O_T_EE[14]
+try:
+    robot.control_cartesian_velocity(down, libfranka.ControllerMode.kJointImpedance, False)
+    print("ended well")
+except Exception as error:
+    print(error)
+    robot.automatic_error_recovery()
+print(before, robot.read_once().O_T_EE[14])
+"""
+    address = "127.0.21.9"
+
+    def go_down():
+        done = subprocess.run(
+            [client_python("panda"), "-c", script, address], capture_output=True, text=True, timeout=60
+        )
+        assert done.returncode == 0, done.stderr
+        before, after = map(float, done.stdout.split()[-2:])
+        return done.stdout, before, after
+
+    with running("--robot", "panda", "--ip", address, "--pace", "lockstep"):
+        assert ask(address, "wall 2 0.3 0 0.2 1 1 0.5 0 0 0 2") == "ok"  # turned by half a turn: no matter
+        told, before, after = go_down()
+        assert before > 0.48
+        assert '["cartesian_position_limits_violation"]' in told
+        assert after == pytest.approx(0.45, abs=0.005)
+        assert ask(address, "wall 2 off") == "ok"
+        told, before, after = go_down()
+        assert "ended well" in told
+        assert after == pytest.approx(before - 0.1, abs=1e-3)
+        for line, sentence in (
+            ("wall 8 off", "no number of a wall"),
+            ("wall 0 0 0 0 1 1 1 0 0 0 0", "no orientation"),
+            ("wall 0 0 0 0 -1 1 1", "negative edge"),
+            ("wall 0 1 2 3", "Words are missing"),
+        ):
+            assert ask(address, line).startswith("error: ") and sentence in ask(address, line)
 
 
 def test_runs_repeat_bit_for_bit():

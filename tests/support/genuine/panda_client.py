@@ -165,11 +165,14 @@ def session(address):
         lambda: robot.set_collision_behavior([20.0] * 7, [20.0] * 7, [10.0] * 6, [15.0] * 6)
     )
     seen["contact"] = attempt(
-        lambda: robot.control_cartesian_velocity(Motion(5.0, down(0.05)), IMPEDANCE, False)
+        lambda: robot.control_cartesian_velocity(Motion(5.0, down(0.1)), IMPEDANCE, False)
     )
     seen["mode after contact"] = mode(robot)
+    seen["height"] = robot.read_once().O_T_EE[14]
     seen["recovery after contact"] = attempt(robot.automatic_error_recovery)
     seen["retreat"] = attempt(lambda: robot.control_cartesian_pose(Motion(2.0, rise(0.05)), IMPEDANCE, False))
+
+    seen["height after retreat"] = robot.read_once().O_T_EE[14]
 
     gripper = libfranka.Gripper(address)
     seen["gripper"] = {

@@ -9,6 +9,7 @@ import time
 import pylibfranka as franka
 
 IMPEDANCE = franka.ControllerMode.JointImpedance
+FRAME = [1.0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.05, 1]
 
 
 def smooth(x):
@@ -64,6 +65,41 @@ def pose(amplitude):
     return command
 
 
+def down(speed):
+    def command(_, x):
+        return franka.CartesianVelocities([0, 0, -speed * smooth(x / 0.1), 0, 0, 0])
+
+    return command
+
+
+def rise(height):
+    def command(first, x):
+        values = list(first["pose"])
+        values[14] += height * smooth(x)
+        return franka.CartesianPose(values)
+
+    return command
+
+
+def meet_a_block(robot):
+    """Down at a tenth of a metre a second until something is in the way, and back up."""
+    seen = {
+        "thresholds": attempt(
+            lambda: robot.set_collision_behavior([20.0] * 7, [20.0] * 7, [10.0] * 6, [15.0] * 6)
+        )
+    }
+    seen["contact"] = attempt(
+        lambda: drive(robot.start_cartesian_velocity_control(IMPEDANCE), 5.0, down(0.1))
+    )
+    state = fresh(robot)
+    seen["mode after contact"] = state.robot_mode.name
+    seen["height"] = state.O_T_EE[14]
+    seen["recovery after contact"] = attempt(robot.automatic_error_recovery)
+    seen["retreat"] = attempt(lambda: drive(robot.start_cartesian_pose_control(IMPEDANCE), 2.0, rise(0.05)))
+    seen["height after retreat"] = fresh(robot).O_T_EE[14]
+    return seen
+
+
 def session(address):
     robot = franka.Robot(address, franka.RealtimeConfig.kIgnore)
     state = robot.read_once()
@@ -74,11 +110,17 @@ def session(address):
         "load": attempt(lambda: robot.set_load(0.5, [0, 0, 0.1], [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0.001])),
         "m_load": robot.read_once().m_load,
         "no load": attempt(lambda: robot.set_load(0.0, [0.0] * 3, [0.0] * 9)),
+        "ee": attempt(lambda: robot.set_EE(FRAME)),
+        "k": attempt(lambda: robot.set_K(FRAME)),
+        "F_T_EE": fresh(robot).F_T_EE[14],
+        "EE_T_K": fresh(robot).EE_T_K[14],
         "joint impedance": attempt(lambda: robot.set_joint_impedance([2000.0] * 7)),
+        "cartesian impedance": attempt(lambda: robot.set_cartesian_impedance([1000.0] * 3 + [100.0] * 3)),
         "collision behavior": attempt(
             lambda: robot.set_collision_behavior([100.0] * 7, [100.0] * 7, [200.0] * 6, [200.0] * 6)
         ),
         "bad impedance": attempt(lambda: robot.set_joint_impedance([1e6] * 7)),
+        "bad cartesian impedance": attempt(lambda: robot.set_cartesian_impedance([1e6] * 6)),
     }
     starts = {
         "torque": (robot.start_torque_control, (), lambda first, x: franka.Torques([0.0] * 7), 1.0),
@@ -117,11 +159,15 @@ def session(address):
     seen["mode after recovery"] = fresh(robot).robot_mode.name
     seen["again"] = attempt(lambda: drive(robot.start_joint_position_control(IMPEDANCE), 1.0, joints(-0.1)))
     seen["second client"] = attempt(lambda: franka.Robot(address, franka.RealtimeConfig.kIgnore))
+    seen.update(meet_a_block(robot))
     gripper = franka.Gripper(address)
     seen["gripper"] = {
         "homing": gripper.homing(),
         "move": gripper.move(0.02, 0.1),
         "width": gripper.read_once().width,
+        "empty grasp": gripper.grasp(0.01, 0.1, 20.0, 0.001, 0.001),
+        "is grasped": gripper.read_once().is_grasped,
+        "stop": gripper.stop(),
     }
     return seen
 
