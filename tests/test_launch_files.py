@@ -131,7 +131,7 @@ def check_names(config: ROSLaunchConfig) -> None:
     """Of an arm of another name, nothing is called panda; only the pair of two arms may be."""
     told = {name: param.value for name, param in config.params.items()}
     told.update({f"node {node.name}": node.args for node in config.nodes})
-    of_others = re.compile("description|/dual_arm_")
+    of_others = re.compile("description|/dual_arm_|/robot_type$")
     offending = {key: value for key, value in told.items() if re.search(r"\bpanda", f"{key} {value}")}
     assert not [key for key in offending if not of_others.search(key)]
 
@@ -161,6 +161,13 @@ def test_it_is_read_with_every_switch_turned(name):
     calls = [f"{switch}:={turned[now]}" for switch, now in switches.items() if now in turned]
     for given in [*calls, "sim:=true"]:  # a switch of nearly all, often of a file that is included
         check_nodes(read(path, [*needed(path), given], Reader(with_descriptions=False)))
+
+
+@pytest.mark.parametrize("robot", ["panda", "fr3"])
+def test_the_simulation_is_told_which_robot_an_arm_is(robot):
+    given = [f"robot:={robot}", "arm_id:=other"]
+    config = read(FILES["franka_gazebo/robot.launch"], given, Reader(with_descriptions=False))
+    assert config.params["/robot_type"].value == robot
 
 
 def test_all_launch_files_are_known_here():

@@ -30,6 +30,7 @@ struct RobotHandle {
   std::string urdf;          ///< the text of its description
   JointPhysics arm_physics;  ///< what the world's joints have of rotor inertia and friction
   BetweenTicks between_ticks;
+  std::string robot_type;  ///< what the arm is, "panda" or "fr3"; empty where there is none
 };
 
 /// Base class of simulated hardware, shaped like gazebo_ros_control's (decision 34): plugins of

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/lowpass_filter.h>
 #include <franka_core/error_names.h>
+#include <franka_sim_mujoco/fci/serving.h>
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/controller_check.h>
@@ -22,8 +23,6 @@ namespace {
 constexpr char kLog[] = "franka_hw_sim";
 constexpr double kDefaultTauExtLowpassFilter = 1.0;
 constexpr double kReportPeriod = 1.0;  ///< [s]
-/// Whose limits hold (decision 25).
-constexpr unsigned kPandaProtocol = 5, kFr3Protocol = 10;
 
 using franka_hw::ControlMode;
 using transmission_interface::TransmissionInfo;
@@ -112,7 +111,7 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   ControlUnitParameters parameters =
       readArmParameters(node, robot.urdf, arm_id_, model.getLink(arm_id_ + "_hand") != nullptr,
                         gravityInBase(world, arm_id_ + "_link0"));
-  parameters.protocol_version = model.getName() == "fr3" ? kFr3Protocol : kPandaProtocol;
+  parameters.protocol_version = fci::protocolsOf(robot.robot_type).newest;
   parameters.has_hand = has_hand;
   parameters.setters_in_motion = true;
   parameters.reflexes = readBool(node, "reflexes").value_or(false);

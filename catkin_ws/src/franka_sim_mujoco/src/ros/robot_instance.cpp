@@ -94,8 +94,9 @@ void RobotInstance::startHardware(const RobotPlan& plan, World& world, HardwareL
                              "' cannot be loaded: " + error.what());
   }
   const ros::NodeHandle node(plan.robot_namespace);
-  RobotHandle robot{&world, name_, plan.description.urdf, plan.arm_physics,
-                    std::move(between_ticks)};
+  RobotHandle robot{
+      &world,         name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks),
+      plan.robot_type};
   if (!hardware_->initSim(plan.robot_namespace, node, std::move(robot), &plan.urdf,
                           plan.transmissions)) {
     const std::string reason = hardware_->failure();

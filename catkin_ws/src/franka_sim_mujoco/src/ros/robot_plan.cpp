@@ -5,6 +5,7 @@
 #include <franka_sim_mujoco/ros/param_reader.h>
 #include <franka_sim_mujoco/ros/physics_config.h>
 #include <franka_sim_mujoco/ros/robot_instance.h>
+#include <franka_sim_mujoco/ros/robot_type.h>
 #include <ros/console.h>
 #include <ros/package.h>
 #include <tinyxml2.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace franka_sim_mujoco {
@@ -66,7 +68,28 @@ PluginElement readPluginElement(const std::string& urdf) {
   return result;
 }
 
-JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& urdf_name) {
+/// "panda" or "fr3"; the log tells which, and why.
+std::string chooseRobotType(const ros::NodeHandle& node, const RobotPlan& plan) {
+  const std::string parameter = node.resolveName("robot_type");
+  const std::optional<std::string> asked = readString(node, "robot_type");
+  if (asked && !isRobotType(*asked)) {
+    throw std::invalid_argument("The parameter " + parameter + " is '" + *asked +
+                                "'; it must be panda or fr3.");
+  }
+  const RobotType type = tellRobotType(asked, plan.urdf, plan.arm_id);
+  if (!type.warning.empty()) {
+    ROS_WARN_NAMED(kLog, "'%s' is simulated as %s, as the parameter %s says, although %s.",
+                   plan.description.name.c_str(), type.name.c_str(), parameter.c_str(),
+                   type.warning.c_str());
+  } else {
+    ROS_INFO_NAMED(kLog, "'%s' is simulated as %s: %s (parameter %s).",
+                   plan.description.name.c_str(), type.name.c_str(), type.why.c_str(),
+                   parameter.c_str());
+  }
+  return type.name;
+}
+
+JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& robot_type) {
   const std::string friction = readString(node, "friction").value_or("none");
   const std::string folder = ros::package::getPath("franka_description");
   if (folder.empty()) {
@@ -74,8 +97,7 @@ JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& urdf_
                    "The package franka_description was not found: joints get the default physics.");
     return JointPhysics{};
   }
-  return readJointPhysics(folder + "/config/physics.yaml", urdf_name == "fr3" ? "fr3" : "panda",
-                          friction);
+  return readJointPhysics(folder + "/config/physics.yaml", robot_type, friction);
 }
 
 }  // namespace
@@ -134,7 +156,8 @@ RobotPlan planRobot(const SpawnOrder& order) {
     }
   }
   if (plan.urdf.getJoint(plan.arm_id + "_joint1")) {
-    plan.arm_physics = choosePhysics(node, plan.urdf.getName());
+    plan.robot_type = chooseRobotType(node, plan);
+    plan.arm_physics = choosePhysics(node, plan.robot_type);
     applyJointPhysics(plan.arm_physics, plan.arm_id, plan.description);
   }
   return plan;

@@ -34,7 +34,7 @@ ControlUnitParameters unitParameters(const RobotPlan& plan, World& world, bool h
   parameters.rotor_inertia = plan.arm_physics.rotor_inertia;
   parameters.coulomb_friction = plan.arm_physics.coulomb_friction;
   parameters.viscous_friction = plan.arm_physics.damping;
-  behaveAsOverFci(parameters, fci::protocolsOf(plan.urdf.getName()).newest);
+  behaveAsOverFci(parameters, fci::protocolsOf(plan.robot_type).newest);
   return parameters;
 }
 
@@ -50,9 +50,9 @@ fci::SimRobot makeRobot(const RobotPlan& plan, World& world) {
     hand = fci::servedHand(world.hand(name, plan.arm_id));
   }
   const ControlUnitParameters unit = unitParameters(plan, world, hand.has_value());
-  return fci::SimRobot(
-      unit, world.arm(name, plan.arm_id),
-      fci::servedAt(plan.fci_ip, fci::protocolsOf(plan.urdf.getName()), unit.model), hand);
+  return fci::SimRobot(unit, world.arm(name, plan.arm_id),
+                       fci::servedAt(plan.fci_ip, fci::protocolsOf(plan.robot_type), unit.model),
+                       hand);
 }
 
 void fill(fci::SimRobot& robot, GetServedRobot::Response& response) {

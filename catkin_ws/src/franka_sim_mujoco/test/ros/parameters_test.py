@@ -5,6 +5,7 @@
 
 import subprocess
 import sys
+import time
 import unittest
 
 import rospy
@@ -21,6 +22,7 @@ from franka_sim_mujoco.srv import (
     SpawnRobotRequest,
     Step,
 )
+from rosgraph_msgs.msg import Log
 from std_srvs.srv import Empty
 
 WAIT = 30
@@ -61,8 +63,21 @@ WRONG = [
     ("cutoff_frequency", 0, "cutoff_frequency"),
     ("internal_controller", "soft", "joint_impedance or cartesian_impedance"),
     ("reflexes", "on", "reflexes"),
+    ("robot_type", "ur5", "robot_type is 'ur5'; it must be panda or fr3"),
+    ("robot_type", 3, "robot_type"),
     ("motion_generators/position/gains/panda_joint3/p", -1, "stiffnesses"),
 ]
+
+PLATFORM = """
+  <link name="world"/>
+  <link name="platform">
+    <inertial><mass value="50"/><inertia ixx="2" iyy="2" izz="2" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>
+  <joint name="drive" type="prismatic">
+    <parent link="world"/><child link="platform"/><origin xyz="0 0 0.3"/><axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" effort="100" velocity="1"/><dynamics damping="100"/>
+  </joint>
+"""
 
 
 def service(name, kind):
@@ -150,6 +165,36 @@ class ParametersTest(unittest.TestCase):
         self.assertTrue(answer.success, answer.error)
         self.assertTrue(self.delete("panda").success)
         self.assertTrue(self.delete("right").success)
+
+    def spawn_bent(self, urdf, namespace):
+        """With joint 6 where an FR3 may go, but no Panda."""
+        rospy.set_param(namespace + "/arm_id", "right")
+        bent = [("right_joint2", -0.8), ("right_joint4", -2.4), ("right_joint6", 4.3)]
+        return self.spawn("machine", namespace, urdf, bent)
+
+    def test_an_fr3_is_one_whatever_its_urdf_is_called(self):
+        fr3 = rospy.get_param("/fr3_description")
+        carried = rospy.get_param("/carried_fr3_description").replace("</robot>", PLATFORM + "</robot>")
+        for number, urdf in enumerate((fr3, carried)):
+            renamed = urdf.replace('name="fr3"', 'name="machine"')
+            self.assertNotEqual(renamed, urdf)
+            answer = self.spawn_bent(renamed, f"/renamed{number}")
+            self.assertTrue(answer.success, answer.error)
+            self.assertTrue(self.delete("machine").success)
+
+    def test_who_says_what_a_robot_is_is_believed_and_told_of_a_contradiction(self):
+        heard = []
+        log = rospy.Subscriber("/rosout", Log, heard.append)
+        rospy.set_param("/believed/robot_type", "panda")
+        answer = self.spawn_bent(rospy.get_param("/fr3_description"), "/believed")
+        self.assertFalse(answer.success)
+        self.assertIn("its stops are at -0.0375 and 3.7725", answer.error)
+        told = "'machine' is simulated as panda, as the parameter /believed/robot_type says, although it"
+        end = time.monotonic() + WAIT
+        while not any(told in said.msg and said.level == Log.WARN for said in heard):
+            self.assertLess(time.monotonic(), end, [said.msg for said in heard])
+            time.sleep(0.05)
+        log.unregister()
 
     def test_a_position_gain_is_the_stiffness_of_its_joint(self):
         stiffness, force = 500.0, 5.0

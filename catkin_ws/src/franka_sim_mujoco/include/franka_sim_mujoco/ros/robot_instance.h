@@ -33,6 +33,7 @@ struct RobotPlan {
   RobotDescription description;
   std::string robot_namespace;
   std::string arm_id;
+  std::string robot_type;  ///< "panda" or "fr3"; empty for a body without such an arm
   JointPhysics arm_physics;
   std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a body without hardware
   std::string fci_ip;         ///< where it is served instead, by a ServedRobot; empty: nowhere
