@@ -1,0 +1,74 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the loop calls, built by a compiler that knows real time (clang 20 and later).
+
+Its sanitizer ends the program at the first allocation, lock or blocking system call below a
+function marked nonblocking, also inside libraries. Without such a compiler guard_test.cpp is what
+watches.
+"""
+
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+
+TEST = pathlib.Path(__file__).parent
+PACKAGES = TEST.parents[1]
+SOURCES = [
+    TEST / "realtime_sanitizer_program.cpp",
+    *(
+        TEST.parent / "src" / name
+        for name in ("command_guard.cpp", "controller_watch.cpp", "switch_request.cpp")
+    ),
+]
+INCLUDES = [
+    f"-I{PACKAGES / package / 'include'}"
+    for package in (
+        "controller_interface",
+        "controller_manager",
+        "hardware_interface",
+        "realtime_tools",
+    )
+]
+LIBRARIES = ["-lroscpp", "-lrosconsole", "-lrostime", "-lpthread"]
+COMPILERS = ["clang++", *(f"clang++-{version}" for version in range(30, 19, -1))]
+
+
+def accepts(compiler, folder):
+    probe = folder / "probe.cpp"
+    probe.write_text("int main() { return 0; }\n", encoding="utf-8")
+    command = [compiler, "-fsanitize=realtime", str(probe), "-o", str(folder / "probe")]
+    return subprocess.run(command, capture_output=True, check=False, timeout=60).returncode == 0
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("realtime_sanitizer")
+    found = [name for name in COMPILERS if shutil.which(name) and accepts(name, folder)]
+    if not found:
+        pytest.skip("no clang++ here accepts -fsanitize=realtime; clang 20 was the first")
+    path = folder / "program"
+    command = [found[0], "-std=c++17", "-O1", "-g", "-fsanitize=realtime", *INCLUDES]
+    command += [*map(str, SOURCES), "-o", str(path), *LIBRARIES]
+    build = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    assert build.returncode == 0, build.stderr
+    return path
+
+
+def run(*command):
+    return subprocess.run(
+        list(map(str, command)), capture_output=True, text=True, check=False, timeout=60
+    )
+
+
+def test_the_sanitizer_sees_an_allocation(program):
+    result = run(program, "misbehave")
+    assert result.returncode != 0, result.stdout
+    assert "malloc" in result.stderr
+
+
+def test_the_loop_neither_allocates_nor_blocks(program):
+    result = run(program)
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert result.stdout == "done\n"
