@@ -57,9 +57,7 @@ def program(tmp_path_factory):
 
 
 def run(*command):
-    return subprocess.run(
-        list(map(str, command)), capture_output=True, text=True, check=False, timeout=60
-    )
+    return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=60)
 
 
 def test_the_sanitizer_sees_an_allocation(program):
