@@ -18,6 +18,12 @@ namespace {
 using franka::Frame;
 using franka::RobotState;
 
+constexpr const char* kOfPositions =
+    "The same for joint positions, 7 [rad], and the poses of EE in F and K in EE, 4x4.";
+constexpr const char* kOfLoad =
+    "The same for joint positions, 7 [rad], and what hangs on the flange: inertia about its centre "
+    "of mass, 3x3 [kg m^2], mass [kg], centre of mass in F, 3 [m].";
+
 template <typename Model>
 void bindKinematics(py::class_<Model>& type) {
   type.def(
@@ -34,8 +40,7 @@ void bindKinematics(py::class_<Model>& type) {
                                   arrayOf<16>(EE_T_K, "EE_T_K")),
                         Shape::kMatrix4);
           },
-          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"),
-          "The same for joint positions, 7 [rad], and the poses of EE and K, 4x4.")
+          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions)
       .def(
           "zero_jacobian",
           [](const Model& self, Frame frame, const RobotState& state) {
@@ -43,11 +48,29 @@ void bindKinematics(py::class_<Model>& type) {
           },
           py::arg("frame"), py::arg("state"), "Jacobian of a frame in O, 6x7, linear rows first.")
       .def(
+          "zero_jacobian",
+          [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+             const py::object& EE_T_K) {
+            return copy(self.zeroJacobian(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
+                                          arrayOf<16>(EE_T_K, "EE_T_K")),
+                        Shape::kJacobian);
+          },
+          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions)
+      .def(
           "body_jacobian",
           [](const Model& self, Frame frame, const RobotState& state) {
             return copy(self.bodyJacobian(frame, state), Shape::kJacobian);
           },
-          py::arg("frame"), py::arg("state"), "Jacobian of a frame in its own axes, 6x7.");
+          py::arg("frame"), py::arg("state"), "Jacobian of a frame in its own axes, 6x7.")
+      .def(
+          "body_jacobian",
+          [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+             const py::object& EE_T_K) {
+            return copy(self.bodyJacobian(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
+                                          arrayOf<16>(EE_T_K, "EE_T_K")),
+                        Shape::kJacobian);
+          },
+          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
 }
 
 template <typename Model>
@@ -59,11 +82,33 @@ void bindDynamics(py::class_<Model>& type) {
           },
           py::arg("state"), "Mass matrix, 7x7 [kg m^2].")
       .def(
+          "mass",
+          [](const Model& self, const py::object& q, const py::object& I_total, double m_total,
+             const py::object& F_x_Ctotal) {
+            return copy(self.mass(arrayOf<7>(q, "q"), arrayOf<9>(I_total, "I_total"), m_total,
+                                  arrayOf<3>(F_x_Ctotal, "F_x_Ctotal")),
+                        Shape::kMass);
+          },
+          py::arg("q"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"), kOfLoad)
+      .def(
           "coriolis",
           [](const Model& self, const RobotState& state) {
             return copy(self.coriolis(state), Shape::kVector);
           },
           py::arg("state"), "Coriolis torques C(q, dq) dq, 7 [Nm].")
+      .def(
+          "coriolis",
+          [](const Model& self, const py::object& q, const py::object& dq,
+             const py::object& I_total, double m_total, const py::object& F_x_Ctotal) {
+            return copy(self.coriolis(arrayOf<7>(q, "q"), arrayOf<7>(dq, "dq"),
+                                      arrayOf<9>(I_total, "I_total"), m_total,
+                                      arrayOf<3>(F_x_Ctotal, "F_x_Ctotal")),
+                        Shape::kVector);
+          },
+          py::arg("q"), py::arg("dq"), py::arg("I_total"), py::arg("m_total"),
+          py::arg("F_x_Ctotal"),
+          "The same for joint positions, 7 [rad], joint velocities, 7 [rad/s], and a load as for "
+          "mass.")
       .def(
           "gravity",
           [](const Model& self, const RobotState& state) {
@@ -77,7 +122,20 @@ void bindDynamics(py::class_<Model>& type) {
                         Shape::kVector);
           },
           py::arg("state"), py::arg("gravity_earth"),
-          "The same with another gravity in O, 3 [m/s^2].");
+          "The same with another gravity in O, 3 [m/s^2].")
+      .def(
+          "gravity",
+          [](const Model& self, const py::object& q, double m_total, const py::object& F_x_Ctotal,
+             const py::object& gravity_earth) {
+            return copy(
+                self.gravity(arrayOf<7>(q, "q"), m_total, arrayOf<3>(F_x_Ctotal, "F_x_Ctotal"),
+                             arrayOf<3>(gravity_earth, "gravity_earth")),
+                Shape::kVector);
+          },
+          py::arg("q"), py::arg("m_total"), py::arg("F_x_Ctotal"),
+          py::arg("gravity_earth") = py::make_tuple(0.0, 0.0, -9.81),
+          "The same for joint positions, 7 [rad], and what hangs on the flange: mass [kg], centre "
+          "of mass in F, 3 [m].");
 }
 
 std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, const std::string& root,

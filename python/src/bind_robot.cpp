@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/command_types.h>
+#include <franka/extensions.h>
 #include <franka/model.h>
 #include <franka/robot.h>
 #include <pybind11/functional.h>
@@ -104,6 +106,16 @@ void bindControl(py::class_<Robot>& robot) {
   bindStart<&Robot::startJointVelocityControl>(robot, "start_joint_velocity_control");
   bindStart<&Robot::startCartesianPoseControl>(robot, "start_cartesian_pose_control");
   bindStart<&Robot::startCartesianVelocityControl>(robot, "start_cartesian_velocity_control");
+  robot.def(
+      "start_async_joint_position_control",
+      [](Robot& self, const std::vector<double>& maximum_velocities, ControllerMode mode) {
+        return Motion(self.startAsyncJointPositionControl(moveMode(mode), maximum_velocities));
+      },
+      py::arg("maximum_velocities"), py::arg("controller_mode") = ControllerMode::kJointImpedance,
+      py::call_guard<py::gil_scoped_release>(),
+      "Starts a motion whose way to each commanded position the robot plans itself (FR3, protocol "
+      "10), no joint faster than allowed, 7 [rad/s]; returns an ActiveControl. Commands need not "
+      "come every millisecond.\n\nRaises CommandException where the robot has no such motion.");
 }
 
 void bindSetters(py::class_<Robot>& robot) {
@@ -123,6 +135,29 @@ void bindSetters(py::class_<Robot>& robot) {
           py::arg("lower_torque"), py::arg("upper_torque"), py::arg("lower_force"),
           py::arg("upper_force"),
           "Thresholds of contact (lower) and collision (upper): 7 [Nm] and 6 [N, Nm].")
+      .def(
+          "set_collision_behavior",
+          [](Robot& self, const py::object& lower_torque_acceleration,
+             const py::object& upper_torque_acceleration, const py::object& lower_torque_nominal,
+             const py::object& upper_torque_nominal, const py::object& lower_force_acceleration,
+             const py::object& upper_force_acceleration, const py::object& lower_force_nominal,
+             const py::object& upper_force_nominal) {
+            const auto a = arrayOf<7>(lower_torque_acceleration, "lower_torque_acceleration");
+            const auto b = arrayOf<7>(upper_torque_acceleration, "upper_torque_acceleration");
+            const auto c = arrayOf<7>(lower_torque_nominal, "lower_torque_nominal");
+            const auto d = arrayOf<7>(upper_torque_nominal, "upper_torque_nominal");
+            const auto e = arrayOf<6>(lower_force_acceleration, "lower_force_acceleration");
+            const auto f = arrayOf<6>(upper_force_acceleration, "upper_force_acceleration");
+            const auto g = arrayOf<6>(lower_force_nominal, "lower_force_nominal");
+            const auto h = arrayOf<6>(upper_force_nominal, "upper_force_nominal");
+            const release free;
+            self.setCollisionBehavior(a, b, c, d, e, f, g, h);
+          },
+          py::arg("lower_torque_acceleration"), py::arg("upper_torque_acceleration"),
+          py::arg("lower_torque_nominal"), py::arg("upper_torque_nominal"),
+          py::arg("lower_force_acceleration"), py::arg("upper_force_acceleration"),
+          py::arg("lower_force_nominal"), py::arg("upper_force_nominal"),
+          "The same, apart for phases of acceleration and for all others (nominal).")
       .def(
           "set_joint_impedance",
           [](Robot& self, const py::object& K_theta) {
@@ -167,7 +202,69 @@ void bindSetters(py::class_<Robot>& robot) {
             self.setLoad(mass, com, load_inertia);
           },
           py::arg("mass"), py::arg("F_x_Cload"), py::arg("load_inertia"),
-          "Mass [kg], centre of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.");
+          "Mass [kg], centre of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.")
+      .def("set_filters", &Robot::setFilters, py::call_guard<release>(),
+           py::arg("joint_position_filter_frequency"), py::arg("joint_velocity_filter_frequency"),
+           py::arg("cartesian_position_filter_frequency"),
+           py::arg("cartesian_velocity_filter_frequency"), py::arg("controller_filter_frequency"),
+           "The robot's own filters of commands, each 1 to 1000 [Hz], where 1000 means none "
+           "(Panda only).");
+}
+
+void bindControlOptions(py::module_& module, py::class_<Robot>& robot) {
+  py::enum_<CallbackOrder>(module, "CallbackOrder",
+                           "Which callback of a motion with torques is called first in a cycle.")
+      .value("MotionFirst", CallbackOrder::kMotionFirst)
+      .value("ControlFirst", CallbackOrder::kControlFirst);
+  py::enum_<FirstCycleReference>(
+      module, "FirstCycleReference",
+      "What the first position or pose of a motion is filtered and limited against.")
+      .value("RobotState", FirstCycleReference::kRobotState)
+      .value("Command", FirstCycleReference::kCommand);
+  robot.def(
+      "set_control_options",
+      [](Robot& self, CallbackOrder order, FirstCycleReference reference) {
+        self.setControlOptions({order, reference});
+      },
+      py::arg("callback_order") = CallbackOrder::kMotionFirst,
+      py::arg("first_cycle_reference") = FirstCycleReference::kRobotState,
+      "Chooses the behaviour of another version of libfranka for the motions started from now "
+      "on; without arguments that of 0.9.");
+}
+
+void bindReading(py::module_& module, py::class_<Robot>& robot) {
+  py::class_<VirtualWallCuboid>(module, "VirtualWallCuboid",
+                                "A box that the end effector must not leave.")
+      .def_readonly("id", &VirtualWallCuboid::id, "Number of the wall.")
+      .def_property_readonly(
+          "object_world_size",
+          [](const py::object& self) {
+            return view(self.cast<const VirtualWallCuboid&>().object_world_size, Shape::kVector,
+                        self);
+          },
+          "Edges, 3 [m].")
+      .def_property_readonly(
+          "p_frame",
+          [](const py::object& self) {
+            return view(self.cast<const VirtualWallCuboid&>().p_frame, Shape::kMatrix4, self);
+          },
+          "Pose of the box in O, 4x4.")
+      .def_readonly("active", &VirtualWallCuboid::active, "Whether the robot enforces it.");
+  robot
+      .def("get_virtual_wall", &Robot::getVirtualWall, py::call_guard<py::gil_scoped_release>(),
+           py::arg("id"), "A virtual wall by its number (Panda only).")
+      .def(
+          "get_upper_joint_velocity_limits",
+          [](const Robot& self, const py::object& q) {
+            return copy(self.getUpperJointVelocityLimits(arrayOf<7>(q, "q")), Shape::kVector);
+          },
+          py::arg("q"), "Highest velocities that the rate limiter allows at q [rad], 7 [rad/s].")
+      .def(
+          "get_lower_joint_velocity_limits",
+          [](const Robot& self, const py::object& q) {
+            return copy(self.getLowerJointVelocityLimits(arrayOf<7>(q, "q")), Shape::kVector);
+          },
+          py::arg("q"), "Lowest velocities, likewise.");
 }
 
 }  // namespace
@@ -207,7 +304,9 @@ void bindRobot(py::module_& module) {
       .def("load_model", &Robot::loadModel, py::call_guard<release>(), "The robot's Model.")
       .def("get_robot_model", &Robot::getRobotModel, py::call_guard<release>(),
            "The robot's URDF (FR3 from system 5.7 on).");
+  bindReading(module, robot);
   bindSetters(robot);
+  bindControlOptions(module, robot);
   bindControl(robot);
 }
 

@@ -1,45 +1,17 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""pyfranka against simulated robots in lock-step: states, settings, motions of every kind, models."""
+"""pyfranka against simulated robots in lock-step: states, settings, motions of every kind."""
 
 import copy
 import math
-import re
 import threading
-import time
-from contextlib import ExitStack
 
 import numpy as np
 import pyfranka
 import pytest
-from fci_session import simulated
 
-ADDRESSES = {"panda": "127.0.32.1", "fr3": "127.0.32.2"}
-Frame, Mode = pyfranka.Frame, pyfranka.ControllerMode
+Mode = pyfranka.ControllerMode
 EYE = np.eye(4)
-
-
-@pytest.fixture(scope="module")
-def robots():
-    with ExitStack() as stack:
-        for robot in ADDRESSES:
-            stack.enter_context(simulated(robot, ADDRESSES[robot], "lockstep"))
-        yield {
-            name: pyfranka.Robot(address, pyfranka.RealtimeConfig.Ignore)
-            for name, address in ADDRESSES.items()
-        }
-
-
-@pytest.fixture(params=["panda", "fr3"])
-def name(request):
-    return request.param
-
-
-@pytest.fixture
-def robot(robots, name):
-    robots[name].automatic_error_recovery()
-    yield robots[name]
-    assert robots[name].read_once().robot_mode == pyfranka.RobotMode.Idle
 
 
 # --- states and settings ----------------------------------------------------------------------------------
@@ -122,6 +94,79 @@ def test_settings_reach_the_robot(robot):
     robot.set_load(0.0, [0.0] * 3, np.zeros((3, 3)))
 
 
+def test_thresholds_may_differ_while_the_robot_accelerates(robot):
+    """A lower threshold of 0 makes a contact of whatever is felt; a robot at rest has the nominal ones."""
+    sensitive, dull = [0.0] * 7, [50.0] * 7
+    upper = [87.0] * 7
+
+    def contacts(while_accelerating, nominal):
+        robot.set_collision_behavior(
+            lower_torque_acceleration=while_accelerating,
+            upper_torque_acceleration=upper,
+            lower_torque_nominal=nominal,
+            upper_torque_nominal=upper,
+            lower_force_acceleration=[20.0] * 6,
+            upper_force_acceleration=[40.0] * 6,
+            lower_force_nominal=[20.0] * 6,
+            upper_force_nominal=[40.0] * 6,
+        )
+        found = []
+        drive = Driver("torques")
+
+        def note(state, period):
+            found.append(state.joint_contact.any())
+            return drive(state, period)
+
+        robot.control_torques(note)
+        return found[-1]
+
+    assert contacts(dull, sensitive)
+    assert not contacts(sensitive, dull)
+
+
+def test_walls_and_filters_are_those_of_a_panda(robot, name):
+    filters = [100.0, 100.0, 100.0, 100.0, 1000.0]
+    if name == "fr3":
+        for refused in (lambda: robot.get_virtual_wall(1), lambda: robot.set_filters(*filters)):
+            with pytest.raises(pyfranka.CommandException, match="protocol version 10"):
+                refused()
+        return
+    wall = robot.get_virtual_wall(1)
+    assert wall.id == 1 and not wall.active
+    assert wall.object_world_size.shape == (3,) and wall.p_frame.shape == (4, 4)
+    with pytest.raises(pyfranka.CommandException):
+        robot.get_virtual_wall(-1)
+    robot.set_filters(*filters)
+    with pytest.raises(pyfranka.CommandException):
+        robot.set_filters(0.5, *filters[1:])
+    robot.set_filters(*[1000.0] * 5)
+
+
+# FR3: the formula of its description, less the margin of the rate limiter.
+VELOCITY = np.array([2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26])
+OFFSET = np.array([0.6599, 0.2517, 0.2, 0.3533, 0.5757, 0.4878, 0.4628])
+DECELERATION = np.array([6.0, 2.585, 3.5, 4.0, 17.0, 5.5, 17.0])
+LOWEST = np.array([-2.9007, -1.8361, -2.9007, -3.0770, -2.8763, 0.4398, -3.0508])
+HIGHEST = np.array([2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508])
+MARGIN = 1e-3
+
+
+def test_the_limits_of_velocity_are_told(robots):
+    q = np.array([2.6, -1.7, 0.0, -0.3, -2.8, 4.4, 0.1])
+    panda, fr3 = robots["panda"], robots["fr3"]
+    # Panda: what three lost packets at the limit of acceleration may add is taken off.
+    acceleration = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0]) - MARGIN
+    expected = np.array([2.175] * 4 + [2.61] * 3) - (MARGIN + 3e-3 * acceleration)
+    np.testing.assert_allclose(panda.get_upper_joint_velocity_limits(q), expected, atol=1e-9)
+    np.testing.assert_array_equal(
+        panda.get_lower_joint_velocity_limits(q), -panda.get_upper_joint_velocity_limits(q)
+    )
+    upper = np.minimum(VELOCITY, np.sqrt(2 * DECELERATION * (HIGHEST - q)) - OFFSET) - MARGIN
+    lower = np.maximum(-VELOCITY, OFFSET - np.sqrt(2 * DECELERATION * (q - LOWEST))) + MARGIN
+    np.testing.assert_allclose(fr3.get_upper_joint_velocity_limits(q), upper, atol=1e-6)
+    np.testing.assert_allclose(fr3.get_lower_joint_velocity_limits(q), lower, atol=1e-6)
+
+
 @pytest.mark.parametrize(
     "call, sentence",
     [
@@ -129,6 +174,11 @@ def test_settings_reach_the_robot(robot):
         (lambda robot: robot.set_cartesian_impedance("stiff"), "K_x needs 6 numbers"),
         (lambda robot: robot.set_EE(np.eye(3)), "NE_T_EE needs 16 numbers, not 9"),
         (lambda robot: robot.set_load(1.0, None, [0.0] * 9), "F_x_Cload needs 3 numbers"),
+        (
+            lambda robot: robot.set_collision_behavior(*[[1.0] * 7] * 4, *[[1.0] * 6] * 3, [1.0] * 7),
+            "upper_force_nominal needs 6 numbers, not 7",
+        ),
+        (lambda robot: robot.get_upper_joint_velocity_limits([0.0]), "q needs 7 numbers, not 1"),
         (lambda robot: pyfranka.Torques([0.0] * 8), "needs 7 numbers, not 8"),
         (lambda robot: pyfranka.CartesianPose(EYE, [0.0]), "elbow needs 2 numbers, not 1"),
     ],
@@ -243,6 +293,73 @@ def test_torques_go_along_with_a_motion(robots, kind):
     check_moved(kind, drive.begin, drive.last)
 
 
+@pytest.mark.parametrize(
+    "options, first",
+    [({}, "motion"), ({"callback_order": pyfranka.CallbackOrder.ControlFirst}, "torques")],
+)
+def test_the_order_of_callbacks_can_be_chosen(robot, options, first):
+    drive, order = Driver("joint_positions"), []
+
+    def motion(state, period):
+        order.append("motion")
+        return drive(state, period)
+
+    def torques(state, period):
+        order.append("torques")
+        return pyfranka.Torques(200.0 * (state.q_d - state.q) - 20.0 * state.dq)
+
+    robot.set_control_options(**options)
+    try:
+        robot.control_joint_positions(motion, torques, limit_rate=False, cutoff_frequency=1000.0)
+    finally:
+        robot.set_control_options()
+    assert order[0] == first and set(order[:2]) == {"motion", "torques"}
+
+
+@pytest.mark.parametrize("reference, is_exact", [("RobotState", False), ("Command", True)])
+def test_the_first_value_may_stand_for_itself(robots, reference, is_exact):
+    """Through the filter: its first answer lies between the state and the command, or is the command."""
+    robot, drive = robots["panda"], Driver("joint_positions")
+    begins = []
+
+    def motion(state, period):
+        begins.append((state, drive(state, period)))
+        if len(begins) == 1:
+            return pyfranka.JointPositions(state.q_d + 5e-4)
+        begins.append(state)
+        raise StopIteration
+
+    robot.set_control_options(first_cycle_reference=getattr(pyfranka.FirstCycleReference, reference))
+    try:
+        with pytest.raises(StopIteration):
+            robot.control_joint_positions(motion, limit_rate=False, cutoff_frequency=100.0)
+    finally:
+        robot.set_control_options()
+    moved = begins[-1].q_d - begins[0][0].q_d
+    gain = 1e-3 / (1e-3 + 1 / (2 * math.pi * 100.0))
+    np.testing.assert_allclose(moved, 5e-4 * (1.0 if is_exact else gain), rtol=1e-6)
+
+
+def test_the_robot_finds_its_own_way_to_a_position(robot, name):
+    velocities = [1.0] * 7
+    if name == "panda":
+        with pytest.raises(pyfranka.CommandException, match="5.9.0"):
+            robot.start_async_joint_position_control(velocities)
+        return
+    with pytest.raises(ValueError, match="seven"):
+        robot.start_async_joint_position_control([1.0] * 6)
+    with robot.start_async_joint_position_control(velocities) as motion:
+        state, _ = motion.read_once()
+        target = state.q_d + 0.01
+        for _ in range(5000):
+            motion.write_once(pyfranka.JointPositions(target))
+            state, _ = motion.read_once()
+            if np.abs(state.q_d - target).max() < 1e-5 and np.abs(state.dq_d).max() < 1e-4:
+                break
+        motion.write_once(pyfranka.motion_finished(pyfranka.JointPositions(target)))
+    np.testing.assert_allclose(robot.read_once().q_d, target, atol=1e-4)
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_programs_drive_the_robot_themselves(robot, kind):
     begin = robot.read_once()
@@ -355,138 +472,3 @@ def test_two_robots_in_one_program_do_not_disturb_each_other(robots):
     assert not errors
     for name, robot in robots.items():
         check_moved("joint_positions", begins[name], robot.read_once())
-
-
-def test_the_hand_and_threads_that_run_while_it_moves(robots, name):
-    hand = pyfranka.Gripper(ADDRESSES[name])
-    assert hand.server_version == 3
-    assert hand.move(0.07, 0.1)
-    state = hand.read_once()
-    assert state.width == pytest.approx(0.07, abs=1e-3)
-    assert state.max_width == pytest.approx(0.08)
-    assert not state.is_grasped and state.temperature > 0 and state.time > 0
-
-    counted, moving = [0], threading.Event()
-
-    def count():
-        while not moving.is_set():
-            counted[0] += 1
-            time.sleep(1e-3)
-
-    counter = threading.Thread(target=count)
-    counter.start()
-    before = counted[0]
-    assert hand.move(0.05, 0.05)
-    # Were the interpreter held, nothing would be counted meanwhile; a busy machine counts less than 400.
-    assert counted[0] - before > 5
-    moving.set()
-    counter.join()
-    assert not hand.grasp(0.02, 0.1, 20.0)  # nothing there
-    with pytest.raises(pyfranka.CommandException):
-        hand.move(0.5, 0.1)
-
-
-def test_states_of_the_hand_come_thirty_times_a_second(robots, name):
-    hand = pyfranka.Gripper(ADDRESSES[name])
-    hand.read_once()
-    begin = time.monotonic()
-    for _ in range(30):
-        hand.read_once()
-    # Not sooner; a busy machine may be late.
-    assert 0.9 < time.monotonic() - begin < 3.0
-
-
-def test_a_hand_is_stopped_from_another_thread(robots, name):
-    hand = pyfranka.Gripper(ADDRESSES[name])
-    hand.move(0.08, 0.1)
-    ended = threading.Event()
-
-    # In lock-step a homing may be over in a tenth of a second, or not yet have begun after that.
-    def stop_until_it_ended():
-        while not ended.wait(0.005):
-            hand.stop()
-
-    stopper = threading.Thread(target=stop_until_it_ended)
-    stopper.start()
-    try:
-        with pytest.raises(pyfranka.CommandException):
-            hand.homing()
-    finally:
-        ended.set()
-        stopper.join(20)
-
-
-# --- models -----------------------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def urdf(robots):
-    return robots["fr3"].get_robot_model()
-
-
-@pytest.fixture(scope="module")
-def offline(urdf):
-    prefix = re.search(r'link name="(\w*)link0"', urdf).group(1)
-    return pyfranka.ModelKDL(urdf, prefix + "link0", prefix + "link8")
-
-
-Q = np.array([0.3, -0.5, 0.2, -2.0, 0.4, 1.8, 0.6])
-
-
-def test_the_flange_of_a_stretched_arm_is_where_the_drawing_says(offline):
-    pose = offline.pose(Frame.Flange, np.zeros(7), EYE, EYE)
-    np.testing.assert_allclose(pose[:3, 3], [0.088, 0.0, 0.333 + 0.316 + 0.384 - 0.107], atol=1e-9)
-
-
-def test_poses_chain_and_take_either_form_of_a_matrix(offline):
-    tool = np.array([[0.0, -1, 0, 0.1], [1, 0, 0, 0.2], [0, 0, 1, 0.3], [0, 0, 0, 1]])
-    flange = offline.pose(Frame.Flange, Q, EYE, EYE)
-    np.testing.assert_allclose(offline.pose(Frame.EndEffector, Q, tool, EYE), flange @ tool, atol=1e-12)
-    np.testing.assert_allclose(
-        offline.pose(Frame.Stiffness, Q, tool.T.reshape(16), tool), flange @ tool @ tool, atol=1e-12
-    )
-
-
-def test_both_models_agree_at_the_robots_state(robot, name, offline):
-    """The robot's own library and KDL are two implementations of one arm's model."""
-    state, own = robot.read_once(), robot.load_model()
-    if name == "panda":
-        assert own.mass(state).shape == (7, 7)
-        assert own.pose(Frame.Joint1, state)[2, 3] == pytest.approx(0.333)
-        return
-    for frame in Frame.__members__.values():
-        np.testing.assert_allclose(own.pose(frame, state), offline.pose(frame, state), atol=1e-9)
-        for jacobian in ("zero_jacobian", "body_jacobian"):
-            mine = getattr(own, jacobian)(frame, state)
-            assert mine.shape == (6, 7)
-            np.testing.assert_allclose(mine, getattr(offline, jacobian)(frame, state), atol=1e-9)
-    np.testing.assert_allclose(own.pose(Frame.EndEffector, state), state.O_T_EE, atol=1e-6)
-    mass = own.mass(state)
-    np.testing.assert_allclose(mass, mass.T, atol=1e-9)
-    np.testing.assert_allclose(mass, offline.mass(state), atol=1e-6)
-    np.testing.assert_allclose(own.coriolis(state), offline.coriolis(state), atol=1e-6)
-    np.testing.assert_allclose(own.gravity(state), offline.gravity(state), atol=1e-6)
-    np.testing.assert_allclose(
-        own.gravity(state, [0.0, 0.0, -9.81]), offline.gravity(state, [0.0, 0.0, -9.81]), atol=1e-6
-    )
-
-
-def test_a_model_at_rest_gives_the_torques_that_the_robot_measures(robot):
-    state = robot.read_once()
-    expected = robot.load_model().gravity(state, state.O_ddP_O)
-    np.testing.assert_allclose(state.tau_J - state.tau_J_d, expected, atol=0.05)
-
-
-@pytest.mark.parametrize(
-    "arguments, error",
-    [
-        (("no urdf", "fr3_link0", "fr3_link8"), ValueError),
-        ((None, "fr3_link0", "nowhere"), Exception),
-        ((None, "nowhere", "fr3_link8"), Exception),
-    ],
-)
-def test_a_model_that_cannot_be_is_refused(urdf, arguments, error):
-    text, root, tip = arguments
-    with pytest.raises(error) as caught:
-        pyfranka.ModelKDL(text or urdf, root, tip)
-    assert str(caught.value)
