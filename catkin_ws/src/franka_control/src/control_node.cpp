@@ -18,8 +18,7 @@ namespace franka_control {
 
 namespace {
 
-constexpr double kComplaintPeriod = 5.0;  // [s]
-const ros::WallDuration kAtOnce(0.001);   // a timer of zero is none
+const ros::WallDuration kAtOnce(0.001);  // a timer of zero is none
 
 }  // namespace
 
@@ -200,11 +199,7 @@ void ControlNode::watchIdleRobot() {
 }
 
 void ControlNode::controllerThrew(const std::string& what) {
-  ROS_ERROR_STREAM_THROTTLE(
-      kComplaintPeriod, "franka_control_node: a controller threw an exception: "
-                            << what
-                            << " The robot is not moved until the controller has been stopped "
-                               "(controller_manager/switch_controller) and error_recovery called.");
+  thrown_report_.report(what);
   robot_stopped_ = false;  // the error does not end because the robot is Idle
   if (!has_error_) {
     interrupted_ = true;

@@ -22,6 +22,7 @@
 
 #include "loop_health.h"
 #include "robot_health.h"
+#include "thrown_report.h"
 
 namespace franka_control {
 
@@ -89,6 +90,7 @@ class ControlNode {
   std::atomic_bool robot_stopped_{false};  // the error is the robot's, and ends when it is Idle
   bool interrupted_{false};                // the last motion, by an error; of the loop
   bool restarts_controllers_{true};
+  ThrownReport thrown_report_;            // of the loop
   franka_hw::Reconnection reconnection_;  // of the loop
   std::string arm_id_;
   ros::Time last_update_;

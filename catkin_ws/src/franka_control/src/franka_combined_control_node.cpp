@@ -21,6 +21,7 @@
 #include "flag.h"
 #include "loop_health.h"
 #include "robot_health.h"
+#include "thrown_report.h"
 
 namespace {
 
@@ -74,16 +75,12 @@ franka::Duration ownMilliseconds() {
 
 /// One cycle of the controllers. One that throws stops all arms, like an error of theirs.
 void updateControllers(controller_manager::ControllerManager& controllers,
-                       franka_hw::FrankaCombinedHW& robots, const ros::Time& time,
-                       const ros::Duration& period) {
+                       franka_hw::FrankaCombinedHW& robots, franka_control::ThrownReport& thrown,
+                       const ros::Time& time, const ros::Duration& period) {
   try {
     controllers.update(time, period, robots.controllerNeedsReset());
   } catch (const std::exception& error) {
-    ROS_ERROR_STREAM_THROTTLE(
-        5.0, "franka_combined_control_node: a controller threw an exception: "
-                 << error.what()
-                 << " The robots are not moved until the controller has been stopped "
-                    "(controller_manager/switch_controller) and error_recovery called.");
+    thrown.report(error.what());
     robots.triggerError();
   }
 }
@@ -119,6 +116,7 @@ int main(int argc, char** argv) {
 
   const ros::Duration period(0.001);
   franka_hw::RobotClock clock;
+  franka_control::ThrownReport thrown;
   ros::Rate rate(period);
   while (ros::ok()) {
     rate.sleep();
@@ -128,7 +126,7 @@ int main(int argc, char** argv) {
       arm->update();
     }
     loop_health.cycleBegins();
-    updateControllers(controllers, robots, now, period);
+    updateControllers(controllers, robots, thrown, now, period);
     loop_health.cycleEnds();
     if (!robots.hasError()) {
       robots.write(now, period);

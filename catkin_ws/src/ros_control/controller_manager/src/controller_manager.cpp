@@ -3,6 +3,7 @@
 #include <controller_manager/controller_loader.h>
 #include <controller_manager/controller_manager.h>
 #include <controller_manager/internal/controller_registry.h>
+#include <controller_manager/internal/first_exception.h>
 #include <controller_manager/internal/loop_gate.h>
 #include <controller_manager/internal/manager_services.h>
 #include <controller_manager/internal/supervisor.h>
@@ -48,28 +49,30 @@ void ControllerManager::update(const ros::Time& time, const ros::Duration& perio
                                bool reset_controllers) {
   const internal::LoopGate::Visit visit(*gate_);
   const internal::ControllerList& list = registry_->forLoop();
+  internal::FirstException thrown;
   if (reset_controllers) {
-    restartRunning(list, time);
+    for (const ControllerSpec& spec : list.specs()) {
+      thrown.keepOf([&] { restart(spec, time); });
+    }
   }
   if (supervisor_) {
-    supervisor_->update(list, time, period);
+    thrown.keepOf([&] { supervisor_->update(list, time, period); });
   } else {
     for (ControllerBase* controller : list.controllers()) {
-      controller->updateRequest(time, period);
+      thrown.keepOf([&] { controller->updateRequest(time, period); });
     }
   }
-  desk_->serve(*robot_hw_, time);
+  // Also where one throws in every cycle: this is how it is stopped.
+  thrown.keepOf([&] { desk_->serve(*robot_hw_, time); });
+  thrown.rethrow();
 }
 
-void ControllerManager::restartRunning(const internal::ControllerList& list,
-                                       const ros::Time& time) {
-  for (const ControllerSpec& spec : list.specs()) {
-    if (spec.watch) {
-      spec.watch->restart(time);
-    } else if (spec.c->isRunning()) {
-      spec.c->stopRequest(time);
-      spec.c->startRequest(time);
-    }
+void ControllerManager::restart(const ControllerSpec& spec, const ros::Time& time) {
+  if (spec.watch) {
+    spec.watch->restart(time);
+  } else if (spec.c->isRunning()) {
+    spec.c->stopRequest(time);
+    spec.c->startRequest(time);
   }
 }
 

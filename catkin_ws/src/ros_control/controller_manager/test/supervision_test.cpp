@@ -27,6 +27,21 @@ TEST_F(SupervisionTest, withoutTheParameterExceptionsPassAsInTheOriginal) {
   EXPECT_THROW(step(), std::runtime_error);
 }
 
+TEST_F(SupervisionTest, oneThatThrowsInEveryCycleHoldsUpNobodyElse) {
+  renew();
+  load({"faulty", "a"});
+  ASSERT_TRUE(doSwitch({"faulty", "a"}, {}));
+  FaultyController::inUpdate() = Mischief::kThrow;
+  const int updates = controller("a").updates_;
+  EXPECT_THROW(step(), std::runtime_error);
+  EXPECT_EQ(updates + 1, controller("a").updates_);
+  std::future<bool> answer = postSwitch({}, {"faulty"});
+  EXPECT_GE(stepThroughExceptions(answer), 1);
+  EXPECT_TRUE(answer.get());
+  EXPECT_NO_THROW(step());
+  EXPECT_FALSE(controller("faulty").isRunning());
+}
+
 TEST_F(SupervisionTest, withoutTheParameterAStartThatThrowsEndsTheSwitch) {
   renew();
   load({"a", "faulty", "c"});

@@ -38,11 +38,12 @@ class SwitchDesk;
 /// the loop, lets the other requests through meanwhile, and fails after its timeout.
 ///
 /// What a controller or the robot throws in the loop leaves update(), as in the original, unless
-/// abort_faulty_controllers holds it back. The controller keeps the state that the throwing
-/// callback found, so one whose starting() threw does not run. A switch that was thrown out of is
-/// over: its caller gets false, and what it had still to start or to stop is aborted, without
-/// another callback; the next update() works. Who catches the exception must tell the robot
-/// himself.
+/// abort_faulty_controllers holds it back; but only after the other controllers were updated and a
+/// switch carried on, so that one that throws in every cycle can be stopped. The controller keeps
+/// the state that the throwing callback found, so one whose starting() threw does not run. A switch
+/// that was thrown out of is over: its caller gets false, and what it had still to start or to stop
+/// is aborted, without another callback; the next update() works. Who catches the exception must
+/// tell the robot himself.
 ///
 /// Parameters in `<nh>/controller_manager/`, read once, turn on what the original does not have:
 /// * `statistics_rate` [Hz]: publish `statistics` (controller_manager_msgs/ControllersStatistics).
@@ -123,7 +124,8 @@ class ControllerManager {
   std::vector<DeclaredType> getDeclaredTypes();
 
  private:
-  static void restartRunning(const internal::ControllerList& list, const ros::Time& time);
+  /// If it runs.
+  static void restart(const ControllerSpec& spec, const ros::Time& time);
   bool refusedInLoop(const char* action) const;
   bool reloadLoaders();
   controller_interface::ControllerBaseSharedPtr createController(const std::string& name,

@@ -1,0 +1,37 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <utility>
+
+namespace controller_manager {
+namespace internal {
+
+/// Makes calls one after another, whatever they throw, and throws the first exception again when
+/// all are done. Real-time safe while nothing is thrown.
+class FirstException {
+ public:
+  template <class Call>
+  void keepOf(Call&& call) {
+    try {
+      std::forward<Call>(call)();
+    } catch (...) {
+      if (!first_) {
+        first_ = std::current_exception();
+      }
+    }
+  }
+
+  void rethrow() const {
+    if (first_) {
+      std::rethrow_exception(first_);
+    }
+  }
+
+ private:
+  std::exception_ptr first_;
+};
+
+}  // namespace internal
+}  // namespace controller_manager
