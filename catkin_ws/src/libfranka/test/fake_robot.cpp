@@ -26,6 +26,7 @@ using franka_core::RobotMode;
 constexpr double kDeltaT = 1e-3;
 constexpr std::chrono::milliseconds kPace{1};
 constexpr std::chrono::milliseconds kPatience{50};
+constexpr std::chrono::milliseconds kPatienceAfterAbort{500};
 
 sockaddr_in loopback(std::uint16_t port) {
   sockaddr_in address{};
@@ -164,7 +165,7 @@ void FakeRobot::acceptClient() {
     connections_++;
     stream_.clear();
     client_udp_port_ = 0;
-    silent_ = false;
+    silent_ = awaits_request_ = false;
   }
 }
 
@@ -205,6 +206,7 @@ void FakeRobot::readRequests() {
 }
 
 void FakeRobot::handle(const fci::Header& header, const fci::Request& request) {
+  awaits_request_ = false;
   const Command command = fci::commandOf(request);
   if (script_.fatal.count(command) != 0) {
     closeClient();
@@ -264,6 +266,7 @@ void FakeRobot::handleMove(std::uint32_t id, const fci::MoveRequest& request) {
     return;
   }
   move_id_ = id;
+  answered_id_ = state_.message_id;
   exchanges_.clear();
   was_answered_ = false;
   if (script_.shows_motion) {
@@ -328,10 +331,9 @@ void FakeRobot::readCommands() {
     franka_core::RobotCommand command;
     const bool valid = fci::decodeCommand(version_, {buffer, static_cast<std::size_t>(size)},
                                           command) == fci::CodecError::kNone;
-    // Until the first answer states go on at their pace, and one may be answered a little late.
-    const std::uint64_t late = was_answered_ ? 0 : 50;
+    // However late: a machine that stands still for a while is no fault of the client.
     if (valid && move_id_ && command.message_id <= state_.message_id &&
-        command.message_id + late >= state_.message_id) {
+        command.message_id > answered_id_) {
       obey(command);
     }
   }
@@ -339,6 +341,7 @@ void FakeRobot::readCommands() {
 
 void FakeRobot::obey(const franka_core::RobotCommand& command) {
   was_answered_ = true;
+  answered_id_ = command.message_id;
   exchanges_.push_back({state_, command});
   exchanges_.back().state.message_id = command.message_id;
   switch (state_.motion_generator_mode) {
@@ -412,6 +415,8 @@ void FakeRobot::applyScriptToMotion() {
       state_.reflex_reason[index] = state_.errors[index] = true;
     }
     if (script_.abort_replies) {
+      sendState();
+      awaits_request_ = true;
       reply(Command::kMove, id, script_.abort_status);
     }
   }
@@ -433,9 +438,9 @@ bool FakeRobot::isTimeForState() const {
   if (client_udp_port_ == 0 || silent_ || !script_.sends_states) {
     return false;
   }
-  const bool answered =
-      !exchanges_.empty() && exchanges_.back().command.message_id >= state_.message_id;
-  const auto wait = move_id_ && was_answered_ ? kPatience : kPace;
+  const bool answered = was_answered_ && answered_id_ >= state_.message_id;
+  const auto patience = awaits_request_ ? kPatienceAfterAbort : kPatience;
+  const auto wait = awaits_request_ || (move_id_ && was_answered_) ? patience : kPace;
   return (move_id_ && answered) || Clock::now() - last_state_at_ >= wait;
 }
 

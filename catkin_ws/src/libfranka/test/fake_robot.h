@@ -25,9 +25,12 @@ namespace franka_test {
 /// one can ask for.
 ///
 /// A motion runs in lock-step: from the first answered state on, the next one goes out as soon as
-/// the answer has come (or 50 ms have passed); else states go out every millisecond. What it is
-/// commanded it does at once and exactly: q_d, dq_d, ddq_d, O_T_EE_c, ... are the commands and
-/// their backward differences. Serves one client after the other.
+/// the answer has come (or 50 ms have passed); else states go out every millisecond. An answer
+/// counts however late it comes. After an abort that it replies to, the state that shows it is the
+/// last one until the client's next request (or half a second has passed): a client finds it
+/// however late it looks. What it is commanded it does at once and exactly: q_d, dq_d, ddq_d,
+/// O_T_EE_c, ... are the commands and their backward differences. Serves one client after the
+/// other.
 class FakeRobot {
  public:
   using Command = franka_core::fci::Command;
@@ -133,6 +136,8 @@ class FakeRobot {
   franka_core::RobotState state_;
   Clock::time_point last_state_at_;
   bool was_answered_{false};
+  std::uint64_t answered_id_{0};  // of the newest state that was, or of the last before the motion
+  bool awaits_request_{false};
   bool silent_{false};
   std::optional<std::uint32_t> move_id_;
   std::optional<std::uint64_t> shown_abort_at_;  // message id
