@@ -10,6 +10,7 @@ import csv
 import json
 import sys
 import time
+from statistics import median
 
 import numpy as np
 import rigid_arm
@@ -165,6 +166,12 @@ def bad_values():
     ]
 
 
+def rate_of(headers):
+    """Of messages one after the other [Hz]. The median: a machine that stands still delays some of them."""
+    pairs = zip(headers, headers[1:])
+    return 1.0 / median((b.stamp - a.stamp).to_sec() for a, b in pairs if b.seq == a.seq + 1)
+
+
 class Topics:
     """Everything that the state controller publishes, kept by its number."""
 
@@ -206,13 +213,11 @@ class Topics:
             cycle = {name: messages[stamp] for name, messages in kept.items()}
             for name, difference in self._differences(cycle).items():
                 differences[name] = max(differences[name], difference)
-        first, last = (kept["franka_states"][complete[i]].header for i in (0, -1))
-        rate = (last.seq - first.seq) / (last.stamp - first.stamp).to_sec()
         wrench, joints, frames = (kept[name][complete[0]] for name in ("F_ext", "joint_states", "tf"))
         return {
             "cycles": len(complete),
             "differences": differences,
-            "rate": rate,
+            "rate": rate_of([kept["franka_states"][stamp].header for stamp in sorted(kept["franka_states"])]),
             "wrench_frame": wrench.header.frame_id,
             "names": joints.name,
             "frames": [[t.header.frame_id, t.child_frame_id] for t in frames.transforms],

@@ -333,11 +333,12 @@ def test_a_starved_client_of_a_patient_robot_loses_nothing(patient):
 
 
 def test_a_starved_client_goes_on_or_is_told_why_not(slow):
+    """Twenty states in a row are too many; fewer may already be a leap from where the robot went alone."""
     with starved(slow):
         results = run(slow)
     for station, result in zip(slow, results):
         if result["outcome"] != "ok":
-            assert LOST in result["outcome"], result
+            assert LOST in result["outcome"] or "discontinuity" in result["outcome"], result
             recover([station])
     assert all(result["outcome"] == "ok" for result in run(slow, seconds=0.2, amplitude=0.0))
 

@@ -51,6 +51,8 @@ class RobotHWSim : public hardware_interface::RobotHW {
   virtual std::string failure() const { return ""; }
   virtual void readSim(ros::Time time, ros::Duration period) = 0;
   virtual void writeSim(ros::Time time, ros::Duration period) = 0;
+  /// A controller threw an exception: what it commanded must not go on. Every cycle in which it
+  /// does; there is no call with false.
   virtual void eStopActive(bool /*active*/) {}
   /// The world was reset, or joints were put elsewhere: forget velocities and filters.
   virtual void worldWasReset() {}

@@ -201,6 +201,12 @@ void FrankaHWSim::writeSim(ros::Time /*time*/, ros::Duration period) {
   devices_->write(period);
 }
 
+void FrankaHWSim::eStopActive(bool active) {
+  if (active && arm_->mode() != ControlMode::None) {
+    arm_->control(ControlMode::None, ControlMode::None);
+  }
+}
+
 void FrankaHWSim::worldWasReset() {
   arm_->worldWasReset();
   devices_->worldWasReset();

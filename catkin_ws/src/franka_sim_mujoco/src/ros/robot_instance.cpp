@@ -5,6 +5,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +14,7 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
+constexpr double kComplaintPeriod = 5.0;  // [s]
 
 /// The URDF names the hardware by the original's name; where the package franka_gazebo is not ours
 /// (it steps aside for the original) the same hardware has our own. So has Gazebo's default.
@@ -127,7 +129,7 @@ void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
     if (times != nullptr) {
       watch.lap(sums.read);
     }
-    manager_->update(time, period, restart_controllers_);
+    updateControllers(time, period);
     if (times != nullptr) {
       watch.lap(sums.update);
     }
@@ -137,6 +139,19 @@ void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
   hardware_->writeSim(time, tick);
   if (times != nullptr) {
     watch.lap(sums.write);
+  }
+}
+
+void RobotInstance::updateControllers(const ros::Time& time, const ros::Duration& period) {
+  try {
+    manager_->update(time, period, restart_controllers_);
+  } catch (const std::exception& error) {
+    // One controller is no reason to end the simulation of everything else.
+    ROS_ERROR_THROTTLE_NAMED(kComplaintPeriod, kLog,
+                             "A controller of '%s' threw an exception: %s The robot is stopped "
+                             "until another controller is started in its place.",
+                             name_.c_str(), error.what());
+    hardware_->eStopActive(true);
   }
 }
 

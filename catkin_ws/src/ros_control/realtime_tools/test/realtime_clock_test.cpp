@@ -14,8 +14,13 @@ using realtime_tools::RealtimeClock;
 
 namespace {
 
-/// The thread looks at the clock every 1.33 ms: enough for some looks on a busy machine.
-void letTheThreadLook() { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
+/// The thread looks at the clock every 1.33 ms. One long sleep may be one stall of the machine,
+/// after which both threads wake at once; many short ones leave it its turns.
+void letTheThreadLook() {
+  for (int nap = 0; nap < 50; ++nap) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
 
 /// The system's time is what the test says.
 class RealtimeClockTest : public testing::Test {

@@ -48,6 +48,7 @@ class FrankaHWSim : public RobotHWSim {
   std::string failure() const override { return failure_; }
   void readSim(ros::Time time, ros::Duration period) override;
   void writeSim(ros::Time time, ros::Duration period) override;
+  void eStopActive(bool active) override;
   void worldWasReset() override;
 
   /// The claim rules of franka_hw; the log says what is refused.

@@ -93,6 +93,7 @@ class RobotInstance {
   void serve(const RobotPlan& plan, World& world, BetweenTicks between_ticks);
   void startHardware(const RobotPlan& plan, World& world, HardwareLoader& loader,
                      BetweenTicks between_ticks);
+  void updateControllers(const ros::Time& time, const ros::Duration& period);
 
   std::string name_;
   std::set<std::string> joints_;
