@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Controllers and the errors of robots; prints what came of it as JSON.
 
-Run by test_controllers_and_errors.py with ROS's interpreter. Arguments: what to do (throw, or stop: the node
-was told to stop controllers before a recovery), the node, and its arms as fr3=127.0.0.1.
+Run by test_controllers_and_errors.py with ROS's interpreter. Arguments: what to do (throw; simulate: the same
+in the simulation's process; stop: the node was told to stop controllers before a recovery), the node, and its
+arms as fr3=127.0.0.1.
 """
 
 import json
@@ -94,14 +95,29 @@ class Node:
         return waits(lambda: all(condition(arm) for arm in self.arms))
 
 
+def states_go_on(node):
+    before = [arm.states for arm in node.arms]
+    return waits(lambda: all(arm.states > count + 20 for arm, count in zip(node.arms, before)))
+
+
+def thrown_in_simulation(node, where):
+    """The same where the controllers run in the simulation's process: no error, but a robot at rest."""
+    node.start("thrower", where)
+    outcome = {"moved": where == "starting" or node.all(Arm.moves)}
+    outcome["rests"] = node.all(Arm.rests)
+    outcome["states_go_on"] = states_go_on(node)
+    outcome["stopped"] = node.stop("thrower")
+    node.start("good", "none")
+    outcome["moves"] = node.all(Arm.moves)
+    node.stop("good")
+    return outcome
+
+
 def thrown(node, where):
     """What happens when a controller throws, and afterwards."""
     node.start("thrower", where)
     outcome = {"has_error": node.all(lambda arm: arm.has_error)}
-    before = [arm.states for arm in node.arms]
-    outcome["states_go_on"] = waits(
-        lambda: all(arm.states > count + 20 for arm, count in zip(node.arms, before))
-    )
+    outcome["states_go_on"] = states_go_on(node)
     outcome["stopped"] = node.stop("thrower")
     outcome["recovered"] = node.recover()
     outcome["error_gone"] = node.all(lambda arm: not arm.has_error)
@@ -146,8 +162,9 @@ def main():
         raise RuntimeError("no states")
     if not (node.load("thrower") and node.load("good")):
         raise RuntimeError("the controllers could not be loaded")
-    if sys.argv[1] == "throw":
-        print(json.dumps({where: thrown(node, where) for where in ("starting", "update")}))
+    if sys.argv[1] in ("throw", "simulate"):
+        task = thrown if sys.argv[1] == "throw" else thrown_in_simulation
+        print(json.dumps({where: task(node, where) for where in ("starting", "update")}))
     else:
         print(json.dumps(stopped_first(node)))
 

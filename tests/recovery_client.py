@@ -148,6 +148,9 @@ def main():
     report["user_stop"] = user_stop(robot, person)
     report["stopped"] = switch(stop_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
     report["idle"] = robot.shows(FrankaState.ROBOT_MODE_IDLE)
+    person.does(f"push {sys.argv[1]}_link7 {PUSH}")
+    report["hit_at_rest"] = robot.shows(FrankaState.ROBOT_MODE_REFLEX)
+    report["recovered_at_rest"] = [robot.recover()[0], robot.shows(FrankaState.ROBOT_MODE_IDLE)]
     report["succeeded"] = GoalStatus.SUCCEEDED
     print(json.dumps(report))
 

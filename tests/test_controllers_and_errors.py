@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Controllers and errors on both nodes of franka_control.
+"""Controllers and errors on both nodes of franka_control, and in the simulation.
 
-One that throws, in starting() or in update(), ends neither; and where they are told not to start controllers
-again after a recovery, no arm moves by itself.
+One that throws, in starting() or in update(), ends none of them; and where the nodes are told not to start
+controllers again after a recovery, no arm moves by itself.
 """
 
 import json
@@ -29,6 +29,7 @@ PLUGINS = """<library path="lib/libfranka_control_throwing_controller">
 # A node, and its arms with their addresses.
 ONE = ("/franka_control", {"fr3": "127.0.7.31"})
 TWO = ("/combined_panda", {"panda_1": "127.0.7.32", "panda_2": "127.0.7.33"})
+SIMULATED = ("/franka_control", {"panda": "nowhere"})  # the controllers run in the simulation's process
 LAUNCH = """<launch>
   <param name="{node}/restart_controllers_after_recovery" value="{restart}"/>
   <include file="$(find franka_control)/launch/{file}"> {arguments} <arg name="sim" value="true"/> </include>
@@ -36,6 +37,9 @@ LAUNCH = """<launch>
 
 
 def launch(node, arms, restart):
+    if arms == SIMULATED[1]:
+        return """<launch> <include file="$(find franka_sim_mujoco)/launch/panda.launch">
+          <arg name="headless" value="true"/> </include> </launch>"""
     if node == ONE[0]:
         file = "franka_control.launch"
         given = {"robot": "fr3", "load_gripper": "false", "robot_ip": arms["fr3"]}
@@ -70,6 +74,11 @@ def report(request, tmp_path_factory):
     return told("throw", *request.param, "true", tmp_path_factory.mktemp("throwing"))
 
 
+@pytest.fixture(scope="module")
+def simulated(tmp_path_factory):
+    return told("simulate", *SIMULATED, "true", tmp_path_factory.mktemp("simulated"))
+
+
 @pytest.fixture(scope="module", params=[ONE, TWO], ids=["one arm", "two arms"])
 def without_restart(request, tmp_path_factory):
     return told("stop", *request.param, "false", tmp_path_factory.mktemp("stopping"))
@@ -93,6 +102,12 @@ def test_after_it_was_stopped_the_robot_is_recovered_and_moved_by_another(report
     assert outcome["recovered"] == SUCCEEDED, outcome
     assert outcome["moves"], outcome
     assert outcome["error_gone"], outcome
+
+
+@pytest.mark.parametrize("where", WORDS)
+def test_the_simulation_goes_on_with_the_robot_at_rest(simulated, where):
+    assert all(simulated[where].values()), simulated[where]
+    assert WORDS[where] in simulated["log"]
 
 
 def test_controllers_that_shall_not_start_again_are_stopped_before_a_recovery(without_restart):

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 SEEDS = range(1, 21)
-SEEDS_IN_SHORT = range(1, 9)
+SEEDS_IN_SHORT = range(1, 6)
 
 
 def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int, list[dict], str]:

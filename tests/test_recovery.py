@@ -78,3 +78,8 @@ def test_a_person_has_to_release_the_user_stop(report):
 
 def test_it_stops_as_always(report):
     assert report["stopped"] and report["idle"]
+
+
+def test_a_robot_that_is_hit_at_rest_recovers(report):
+    assert report["hit_at_rest"]
+    assert report["recovered_at_rest"] == [SUCCEEDED, True]

@@ -9,6 +9,7 @@
 #include <std_msgs/Bool.h>
 
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 #include "commanding_controllers.h"
@@ -126,21 +127,27 @@ bool ControlNode::disconnectRequested(TriggerRequest& /*request*/, TriggerRespon
   return true;
 }
 
+bool ControlNode::needsRecovery() const {
+  const franka::RobotMode mode = franka_hw_.robotMode();
+  return has_error_ || (mode != franka::RobotMode::kIdle && mode != franka::RobotMode::kMove);
+}
+
 void ControlNode::recover() {
-  if (!has_error_) {
-    // The robot is not touched: a recovery ahead of time must not clear an error still to come.
-    ROS_WARN("franka_control_node: error_recovery was called, but there is nothing to recover.");
-    recovery_server_->setSucceeded();
-    return;
-  }
-  ROS_INFO("franka_control_node: recovering from the error.");
   try {
-    if (!restarts_controllers_) {
+    if (!restarts_controllers_ && needsRecovery()) {
       stopCommandingControllers(public_nh_);
     }
-    const auto lock = franka_hw::RobotWanted::take(franka_hw_.robotMutex());
+    const auto lock = franka_hw::RobotWanted::takeWhile(franka_hw_.robotMutex(),
+                                                        [this] { return needsRecovery(); });
+    if (!lock) {
+      // The robot is not touched: a recovery ahead of time must not clear an error still to come.
+      ROS_WARN("franka_control_node: error_recovery was called, but there is nothing to recover.");
+      recovery_server_->setSucceeded();
+      return;
+    }
+    ROS_INFO("franka_control_node: recovering from the error.");
     // An error of the controllers' own (NaN, a lost connection) leaves the robot Idle.
-    if (franka_hw_.robotMode() != franka::RobotMode::kIdle) {
+    if (franka_hw_.robot().readOnce().robot_mode != franka::RobotMode::kIdle) {
       franka_hw_.robot().automaticErrorRecovery();
     }
     setError(false);
@@ -199,7 +206,9 @@ void ControlNode::watchIdleRobot() {
 }
 
 void ControlNode::controllerThrew(const std::string& what) {
-  thrown_report_.report(what);
+  thrown_report_.report("franka_control_node", what,
+                        "The robot is not moved until the controller has been stopped "
+                        "(controller_manager/switch_controller) and error_recovery called.");
   robot_stopped_ = false;  // the error does not end because the robot is Idle
   if (!has_error_) {
     interrupted_ = true;
@@ -273,7 +282,13 @@ bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& perio
 void ControlNode::updateControllers(const ros::Time& time, const ros::Duration& period,
                                     bool reset) {
   loop_health_->cycleBegins();
-  controller_manager_->update(time, period, reset);
+  try {
+    controller_manager_->update(time, period, reset);
+  } catch (const std::exception&) {
+    throw;
+  } catch (...) {
+    throw std::runtime_error("something that is no std::exception.");
+  }
   loop_health_->cycleEnds();
 }
 

@@ -8,6 +8,7 @@
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/reconnection.h>
 #include <franka_hw/services.h>
+#include <franka_hw/thrown_report.h>
 #include <franka_msgs/ErrorRecoveryAction.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
@@ -22,7 +23,6 @@
 
 #include "loop_health.h"
 #include "robot_health.h"
-#include "thrown_report.h"
 
 namespace franka_control {
 
@@ -53,6 +53,8 @@ class ControlNode {
   void withdrawRobot();
   bool connectRequested(TriggerRequest& request, TriggerResponse& response);
   bool disconnectRequested(TriggerRequest& request, TriggerResponse& response);
+  /// Whether there is an error, or the robot was stopped while no controller moved it.
+  bool needsRecovery() const;
   void recover();
 
   void connectRobot();
@@ -90,8 +92,8 @@ class ControlNode {
   std::atomic_bool robot_stopped_{false};  // the error is the robot's, and ends when it is Idle
   bool interrupted_{false};                // the last motion, by an error; of the loop
   bool restarts_controllers_{true};
-  ThrownReport thrown_report_;            // of the loop
-  franka_hw::Reconnection reconnection_;  // of the loop
+  franka_hw::ThrownReport thrown_report_;  // of the loop
+  franka_hw::Reconnection reconnection_;   // of the loop
   std::string arm_id_;
   ros::Time last_update_;
 };

@@ -5,6 +5,7 @@
 #include <franka/control_tools.h>
 #include <franka_hw/franka_combined_hw.h>
 #include <franka_hw/robot_clock.h>
+#include <franka_hw/thrown_report.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/rate.h>
@@ -21,7 +22,6 @@
 #include "flag.h"
 #include "loop_health.h"
 #include "robot_health.h"
-#include "thrown_report.h"
 
 namespace {
 
@@ -75,13 +75,20 @@ franka::Duration ownMilliseconds() {
 
 /// One cycle of the controllers. One that throws stops all arms, like an error of theirs.
 void updateControllers(controller_manager::ControllerManager& controllers,
-                       franka_hw::FrankaCombinedHW& robots, franka_control::ThrownReport& thrown,
+                       franka_hw::FrankaCombinedHW& robots, franka_hw::ThrownReport& thrown,
                        const ros::Time& time, const ros::Duration& period) {
+  const auto stop = [&](const char* what) {
+    thrown.report("franka_combined_control_node", what,
+                  "No arm is moved until the controller has been stopped "
+                  "(controller_manager/switch_controller) and error_recovery called.");
+    robots.triggerError();
+  };
   try {
     controllers.update(time, period, robots.controllerNeedsReset());
   } catch (const std::exception& error) {
-    thrown.report(error.what());
-    robots.triggerError();
+    stop(error.what());
+  } catch (...) {
+    stop("something that is no std::exception.");
   }
 }
 
@@ -116,7 +123,7 @@ int main(int argc, char** argv) {
 
   const ros::Duration period(0.001);
   franka_hw::RobotClock clock;
-  franka_control::ThrownReport thrown;
+  franka_hw::ThrownReport thrown;
   ros::Rate rate(period);
   while (ros::ok()) {
     rate.sleep();

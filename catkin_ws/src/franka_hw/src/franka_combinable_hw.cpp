@@ -152,7 +152,7 @@ void FrankaCombinableHW::beforeRecovery(std::function<void()> task) {
 
 void FrankaCombinableHW::recover() {
   try {
-    if (has_error_ && before_recovery_) {
+    if (needsRecovery() && before_recovery_) {
       before_recovery_();
     }
     resetError();
@@ -164,15 +164,14 @@ void FrankaCombinableHW::recover() {
 }
 
 void FrankaCombinableHW::resetError() {
-  if (!has_error_) {
-    // The robot is not touched: a recovery ahead of time must not clear an error still to come, and
-    // would wait for the end of a motion.
-    ROS_WARN_STREAM("FrankaCombinableHW: a recovery of '"
-                    << arm_id_ << "' was asked for, but there is nothing to recover.");
-    return;
-  }
   {
-    const auto lock = RobotWanted::take(robot_mutex_);
+    const auto lock = RobotWanted::takeWhile(robot_mutex_, [this] { return needsRecovery(); });
+    if (!lock) {
+      // The robot is not touched: a recovery ahead of time must not clear an error still to come.
+      ROS_WARN_STREAM("FrankaCombinableHW: a recovery of '"
+                      << arm_id_ << "' was asked for, but there is nothing to recover.");
+      return;
+    }
     if (!robot_) {
       throw franka::NetworkException("FrankaCombinableHW: '" + arm_id_ +
                                      "' is not connected, so it cannot recover. Call the service "
@@ -183,8 +182,15 @@ void FrankaCombinableHW::resetError() {
       robot_->automaticErrorRecovery();
     }
   }
-  error_recovered_ = true;
+  if (has_error_) {
+    error_recovered_ = true;
+  }
   setError(false);
+}
+
+bool FrankaCombinableHW::needsRecovery() const noexcept {
+  const franka::RobotMode mode = robotMode();
+  return has_error_ || (mode != franka::RobotMode::kIdle && mode != franka::RobotMode::kMove);
 }
 
 void FrankaCombinableHW::triggerError() { setError(true); }

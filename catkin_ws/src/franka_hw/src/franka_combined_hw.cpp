@@ -65,7 +65,8 @@ void FrankaCombinedHW::beforeRecovery(const std::function<void()>& task) {
 }
 
 void FrankaCombinedHW::recover() {
-  if (!anyOwnError()) {
+  if (std::none_of(arms_.begin(), arms_.end(),
+                   [](const auto* arm) { return arm->needsRecovery(); })) {
     ROS_WARN("FrankaCombinedHW: error_recovery was called, but there is nothing to recover.");
     recovery_server_->setSucceeded();
     return;
@@ -76,8 +77,8 @@ void FrankaCombinedHW::recover() {
   is_recovering_ = true;
   std::string failures;
   for (FrankaCombinableHW* const arm : arms_) {
-    if (!arm->hasOwnError()) {
-      continue;
+    if (!arm->hasOwnError() && !(arm->connected() && arm->needsRecovery())) {
+      continue;  // it has none, or was given up and keeps nobody waiting
     }
     try {
       arm->resetError();

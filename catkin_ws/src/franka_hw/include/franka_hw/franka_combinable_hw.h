@@ -71,10 +71,13 @@ class FrankaCombinableHW : public FrankaHW {
   /// Ends the motion while another arm has an error, and lets it go on, with the controllers
   /// started anew, when that has recovered. Real-time safe.
   void waitForOthers(bool waits);
-  /// Clears the robot's errors and the one noted here. A robot that is Idle has none. Where no
-  /// error is noted, only a warning is logged.
+  /// Clears the robot's errors and the one noted here. A robot that is Idle has none. Where nothing
+  /// needs it, only a warning is logged.
   /// @throws franka::Exception when it refuses or is not connected
   void resetError();
+  /// Whether an error is noted here, or the robot was stopped while no controller moved it: by what
+  /// it met, or by the user stop.
+  bool needsRecovery() const noexcept;
   /// What the action error_recovery does before it clears an error. To be set before the first.
   void beforeRecovery(std::function<void()> task);
   /// Whether the controllers have to start anew, because an error was cleared.

@@ -28,6 +28,18 @@ class RobotWanted {
     return std::unique_lock<std::mutex>(robot_mutex);
   }
 
+  /// The same as long as there is a reason to wait: a motion that has begun meanwhile holds the
+  /// mutex until it ends. @returns without the mutex when there is none any more
+  template <typename Reason>
+  static std::unique_lock<std::mutex> takeWhile(std::mutex& robot_mutex, Reason&& reason) {
+    const RobotWanted wanted;
+    std::unique_lock<std::mutex> lock(robot_mutex, std::defer_lock);
+    while (reason() && !lock.try_lock()) {
+      std::this_thread::sleep_for(kMoment);
+    }
+    return lock;
+  }
+
   /// For a loop between two reads, without the mutex: sleeps for a moment, and longer while
   /// somebody wants a robot of this process. 5 ms at most: states go on meanwhile.
   static void giveWay() {

@@ -14,7 +14,6 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
-constexpr double kComplaintPeriod = 5.0;  // [s]
 
 /// The URDF names the hardware by the original's name; where the package franka_gazebo is not ours
 /// (it steps aside for the original) the same hardware has our own. So has Gazebo's default.
@@ -147,10 +146,8 @@ void RobotInstance::updateControllers(const ros::Time& time, const ros::Duration
     manager_->update(time, period, restart_controllers_);
   } catch (const std::exception& error) {
     // One controller is no reason to end the simulation of everything else.
-    ROS_ERROR_THROTTLE_NAMED(kComplaintPeriod, kLog,
-                             "A controller of '%s' threw an exception: %s The robot is stopped "
-                             "until another controller is started in its place.",
-                             name_.c_str(), error.what());
+    thrown_report_.report(name_, error.what(),
+                          "The robot is stopped until another controller is started in its place.");
     hardware_->eStopActive(true);
   }
 }

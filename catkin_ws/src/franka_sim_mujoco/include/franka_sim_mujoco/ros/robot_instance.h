@@ -3,6 +3,7 @@
 #pragma once
 
 #include <controller_manager/controller_manager.h>
+#include <franka_hw/thrown_report.h>
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 #include <franka_sim_mujoco/ros/served_robot.h>
@@ -100,6 +101,7 @@ class RobotInstance {
   int control_ticks_;
   int ticks_to_control_{0};
   bool restart_controllers_{false};
+  franka_hw::ThrownReport thrown_report_;
   std::unique_ptr<ServedRobot> served_;
   std::shared_ptr<RobotHWSim> hardware_;  ///< destroyed after the manager that uses it
   std::unique_ptr<controller_manager::ControllerManager> manager_;

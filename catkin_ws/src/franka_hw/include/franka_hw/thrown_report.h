@@ -7,23 +7,22 @@
 
 #include <string>
 
-namespace franka_control {
+namespace franka_hw {
 
 /// Says in the log what a controller threw; the same again only every few seconds, for it may
-/// throw in every cycle. One thread.
+/// throw in every cycle. One thread; not for real time.
 class ThrownReport {
  public:
-  void report(const std::string& what) {
+  /// @param where whose controller it is, a name of a node or a robot
+  /// @param advice what became of the robot, and what to do; a sentence
+  void report(const std::string& where, const std::string& what, const std::string& advice) {
     const ros::WallTime now = ros::WallTime::now();
     if (what == last_ && now - said_ < ros::WallDuration(kPeriod)) {
       return;
     }
     last_ = what;
     said_ = now;
-    ROS_ERROR_STREAM("franka_control: a controller threw an exception: "
-                     << what
-                     << " The robot is not moved until the controller has been stopped "
-                        "(controller_manager/switch_controller) and error_recovery called.");
+    ROS_ERROR_STREAM(where << ": a controller threw an exception: " << what << " " << advice);
   }
 
  private:
@@ -33,4 +32,4 @@ class ThrownReport {
   ros::WallTime said_;
 };
 
-}  // namespace franka_control
+}  // namespace franka_hw
