@@ -127,10 +127,7 @@ bool ControlNode::disconnectRequested(TriggerRequest& /*request*/, TriggerRespon
   return true;
 }
 
-bool ControlNode::needsRecovery() const {
-  const franka::RobotMode mode = franka_hw_.robotMode();
-  return has_error_ || (mode != franka::RobotMode::kIdle && mode != franka::RobotMode::kMove);
-}
+bool ControlNode::needsRecovery() const { return has_error_ || franka_hw_.robotStopped(); }
 
 void ControlNode::recover() {
   try {

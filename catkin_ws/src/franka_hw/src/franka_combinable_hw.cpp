@@ -188,10 +188,7 @@ void FrankaCombinableHW::resetError() {
   setError(false);
 }
 
-bool FrankaCombinableHW::needsRecovery() const noexcept {
-  const franka::RobotMode mode = robotMode();
-  return has_error_ || (mode != franka::RobotMode::kIdle && mode != franka::RobotMode::kMove);
-}
+bool FrankaCombinableHW::needsRecovery() const noexcept { return has_error_ || robotStopped(); }
 
 void FrankaCombinableHW::triggerError() { setError(true); }
 

@@ -138,6 +138,11 @@ std::mutex& FrankaHW::robotMutex() { return robot_mutex_; }
 
 franka::RobotMode FrankaHW::robotMode() const { return robot_mode_; }
 
+bool FrankaHW::robotStopped() const noexcept {
+  const franka::RobotMode mode = robot_mode_;
+  return mode == franka::RobotMode::kReflex || mode == franka::RobotMode::kUserStopped;
+}
+
 // --- interfaces ----------------------------------------------------------------------------------
 
 void FrankaHW::initROSInterfaces(ros::NodeHandle& /*robot_hw_nh*/) {

@@ -75,8 +75,7 @@ class FrankaCombinableHW : public FrankaHW {
   /// needs it, only a warning is logged.
   /// @throws franka::Exception when it refuses or is not connected
   void resetError();
-  /// Whether an error is noted here, or the robot was stopped while no controller moved it: by what
-  /// it met, or by the user stop.
+  /// Whether an error is noted here, or the robot was stopped while no controller moved it.
   bool needsRecovery() const noexcept;
   /// What the action error_recovery does before it clears an error. To be set before the first.
   void beforeRecovery(std::function<void()> task);

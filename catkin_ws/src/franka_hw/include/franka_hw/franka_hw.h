@@ -150,6 +150,9 @@ class FrankaHW : public hardware_interface::RobotHW {
   virtual std::mutex& robotMutex();
   /// As of the last state.
   franka::RobotMode robotMode() const;
+  /// Whether the last state shows a robot that was stopped, by what it met or by the user stop: it
+  /// has to recover before it can be moved.
+  bool robotStopped() const noexcept;
   /// When the last state was measured, on the clock of ROS: the time that controllers are told.
   /// Never goes back.
   const ros::Time& stateTime() const noexcept { return clock_.time(); }

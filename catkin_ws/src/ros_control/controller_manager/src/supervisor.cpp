@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <controller_manager/internal/first_exception.h>
 #include <controller_manager/internal/supervisor.h>
 #include <ros/console.h>
 
@@ -85,14 +86,16 @@ void Supervisor::update(const ControllerList& list, const ros::Time& time,
     cycle_[window].add(std::chrono::duration<double>(begin - last_cycle_).count());
   }
   last_cycle_ = begin;
+  FirstException thrown;
   for (const ControllerSpec& spec : list.specs()) {
-    spec.watch->update(time, period, window);
+    thrown.keepOf([&] { spec.watch->update(time, period, window); });
   }
   const std::chrono::duration<double> elapsed = Clock::now() - begin;
   execution_[window].add(elapsed.count());
   if (period > ros::Duration(0.0) && elapsed.count() > period.toSec()) {
     execution_[window].addOverrun(time.toSec());
   }
+  thrown.rethrow();
 }
 
 // --- outside -------------------------------------------------------------------------------------

@@ -28,18 +28,24 @@ TEST_F(SupervisionTest, withoutTheParameterExceptionsPassAsInTheOriginal) {
 }
 
 TEST_F(SupervisionTest, oneThatThrowsInEveryCycleHoldsUpNobodyElse) {
-  renew();
-  load({"faulty", "a"});
-  ASSERT_TRUE(doSwitch({"faulty", "a"}, {}));
-  FaultyController::inUpdate() = Mischief::kThrow;
-  const int updates = controller("a").updates_;
-  EXPECT_THROW(step(), std::runtime_error);
-  EXPECT_EQ(updates + 1, controller("a").updates_);
-  std::future<bool> answer = postSwitch({}, {"faulty"});
-  EXPECT_GE(stepThroughExceptions(answer), 1);
-  EXPECT_TRUE(answer.get());
-  EXPECT_NO_THROW(step());
-  EXPECT_FALSE(controller("faulty").isRunning());
+  for (const double statistics_rate : {0.0, 100.0}) {
+    if (statistics_rate > 0.0) {
+      own_.setParam("statistics_rate", statistics_rate);
+    }
+    FaultyController::inUpdate() = Mischief::kNone;
+    renew();
+    load({"faulty", "a"});
+    ASSERT_TRUE(doSwitch({"faulty", "a"}, {}));
+    FaultyController::inUpdate() = Mischief::kThrow;
+    const int updates = controller("a").updates_;
+    EXPECT_THROW(step(), std::runtime_error);
+    EXPECT_EQ(updates + 1, controller("a").updates_) << statistics_rate;
+    std::future<bool> answer = postSwitch({}, {"faulty"});
+    EXPECT_GE(stepThroughExceptions(answer), 1);
+    EXPECT_TRUE(answer.get());
+    EXPECT_NO_THROW(step());
+    EXPECT_FALSE(controller("faulty").isRunning());
+  }
 }
 
 TEST_F(SupervisionTest, withoutTheParameterAStartThatThrowsEndsTheSwitch) {
