@@ -288,7 +288,8 @@ def tree(robot):
 def pushed(robot, person, topics, duration=PUSHED):
     """Pushes the arm; returns its state before, and one late in the push, when the arm has come to rest.
 
-    Topics drop what a busy machine has no time for: when too much is missing, it is pushed once more.
+    Topics drop what a busy machine has no time for: when too much is missing, the arm is pushed again, for
+    twice as long each time.
     """
     robot.waits(lambda: robot.state.robot_mode == FrankaState.ROBOT_MODE_MOVE)
     before = robot.state
@@ -307,6 +308,7 @@ def pushed(robot, person, topics, duration=PUSHED):
         late = [s for s in felt if s.time - felt[0].time > 0.6e-3 * duration]
         if late:
             return before, late[-1]
+        duration *= 2
     raise RuntimeError(f"Too few states were published under a push: {len(felt)} of {len(states)}.")
 
 

@@ -75,7 +75,7 @@ def run_ctest(kind: str, names: list[str]) -> None:
 def run_pytest(title: str, paths: list[Path], long: bool) -> int:
     if not paths:
         return 0
-    command = [sys.executable, "-m", "pytest", "-q", "--durations=8"]
+    command = [sys.executable, "-m", "pytest", "-q", "-rs", "--durations=8"]
     command += [f"--junitxml={PYTEST_RESULTS / (title.replace(' ', '-') + '.xml')}"]
     command += ["--timeout=900"] + (["--long"] if long else []) + [str(path) for path in paths]
     return run(f"pytest {title}", command, cwd=TOP)

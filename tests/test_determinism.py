@@ -162,12 +162,11 @@ def test_the_wall_clock_gives_the_same_trajectory(robot, within):
     """Within 1e-9 rad; an FR3's states are single precision, which is 1e-7 rad of resolution."""
     stepped, rate, _ = trajectory(robot, "127.0.26.4", "lockstep")
     assert rate == 1.0
-    for _ in range(3):
-        by_clock, rate, _ = trajectory(robot, "127.0.26.5", "0.25" if not LONG else "realtime")
+    for pace in (["realtime"] if LONG else []) + ["0.25", "0.1", "0.05"]:
+        by_clock, rate, _ = trajectory(robot, "127.0.26.5", pace)
         if rate == 1.0:
-            break
-    else:
-        pytest.skip("The robot has lost commands on this busy machine in each of three runs.")
+            break  # A busy machine loses commands of a robot that is fast for it.
+    assert rate == 1.0, "The robot lost commands at each pace."
     assert difference(by_clock, stepped) <= within
 
 

@@ -33,7 +33,7 @@ from fci_proxy import (
 )
 from fci_session import go_first, go_with_all
 from fci_wire import COMMUNICATION, connected
-from stalls import in_time
+from stalls import TRIES, in_time
 from stations import (
     AMPLITUDE,
     LOST,
@@ -291,12 +291,14 @@ def freeze(group, seconds, motion=SECONDS):
 
 
 def test_five_cycles_frozen_are_survived(slow):
-    results = freeze(slow, 5 * TICK)
-    for station, result in zip(slow, results):
-        if LOST in result["outcome"] and result["longest"] > 0.018:
-            recover([station])
-            pytest.skip("The machine let the client rest for longer than it was told to.")
-        assert result["outcome"] == "ok", result
+    for _ in range(TRIES):
+        results = freeze(slow, 5 * TICK)
+        # A busy machine lets a client rest for longer than it was told to.
+        overslept = [s for s, r in zip(slow, results) if LOST in r["outcome"] and r["longest"] > 0.018]
+        if not overslept:
+            break
+        recover(overslept)
+    assert all(result["outcome"] == "ok" for result in results), results
 
 
 @pytest.mark.parametrize("cycles", [50, 500] if LONG else [50])
