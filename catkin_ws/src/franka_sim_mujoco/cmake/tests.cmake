@@ -55,6 +55,7 @@ sim_test(physics_test
     test/physics/model_agreement_test.cpp
     test/physics/renderer_test.cpp
     test/physics/sdf_meshes_test.cpp
+    test/physics/sdf_text_test.cpp
     test/physics/sdf_world_test.cpp
     test/physics/urdf_robot_test.cpp
     test/physics/world_objects_test.cpp

@@ -58,29 +58,6 @@ std::vector<std::string> searchedFolders() {
   return folders;
 }
 
-std::string childText(const XMLElement& element, const char* name) {
-  const XMLElement* child = element.FirstChildElement(name);
-  return child != nullptr && child->GetText() != nullptr ? child->GetText() : "";
-}
-
-void replaceText(XMLElement* element, const char* name, const std::string& text) {
-  XMLElement* child = element->FirstChildElement(name);
-  if (child == nullptr) {
-    child = append(element, name);
-  }
-  child->SetText(text.c_str());
-}
-
-/// What an include may say beside the URI.
-void takeOver(const XMLElement& include, XMLElement* model) {
-  if (!childText(include, "name").empty()) {
-    model->SetAttribute("name", childText(include, "name").c_str());
-  }
-  if (!childText(include, "pose").empty()) {
-    replaceText(model, "pose", childText(include, "pose"));
-  }
-}
-
 }  // namespace
 
 std::string SdfFiles::find(const std::string& uri, const std::string& folder) const {
@@ -118,6 +95,27 @@ std::string SdfFiles::find(const std::string& uri, const std::string& folder) co
   // Packages offer their meshes as model://<package>/...
   const std::string found = resolve_ ? resolve_("package://" + name) : std::string();
   return found.empty() ? found : ifThere(found);
+}
+
+void takeOver(const XMLElement& include, XMLElement* model) {
+  if (!childText(include, "name").empty()) {
+    model->SetAttribute("name", childText(include, "name").c_str());
+  }
+  if (!childText(include, "placement_frame").empty()) {
+    model->SetAttribute("placement_frame", childText(include, "placement_frame").c_str());
+  }
+  for (const char* name : {"pose", "static"}) {
+    if (const XMLElement* said = include.FirstChildElement(name)) {
+      if (XMLElement* own = model->FirstChildElement(name)) {
+        model->DeleteChild(own);
+      }
+      model->InsertFirstChild(said->DeepClone(model->GetDocument()));
+    }
+  }
+  for (auto* plugin = include.FirstChildElement("plugin"); plugin != nullptr;
+       plugin = plugin->NextSiblingElement("plugin")) {
+    model->InsertEndChild(plugin->DeepClone(model->GetDocument()));
+  }
 }
 
 std::string withStandardModels(const std::string& text, const SdfFiles& files,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_sim_mujoco/physics/world.h>
+#include <tinyxml2.h>
 
 #include <string>
 
@@ -21,6 +22,10 @@ class SdfFiles {
   std::string folder_;
   ResourceResolver resolve_;
 };
+
+/// Gives an included model what its <include> says of it: name, pose, static, placement_frame,
+/// plugins.
+void takeOver(const tinyxml2::XMLElement& include, tinyxml2::XMLElement* model);
 
 /// The text with `model://sun` and `model://ground_plane`, which every Gazebo has, written out
 /// where no such model is found. @param model_name when not empty, the root's model gets this name.

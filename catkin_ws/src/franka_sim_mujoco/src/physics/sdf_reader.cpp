@@ -1,258 +1,294 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <sdf/Actor.hh>
-#include <sdf/Camera.hh>
-#include <sdf/Collision.hh>
-#include <sdf/Console.hh>
-#include <sdf/Joint.hh>
-#include <sdf/JointAxis.hh>
-#include <sdf/Light.hh>
-#include <sdf/Link.hh>
-#include <sdf/Model.hh>
-#include <sdf/ParserConfig.hh>
-#include <sdf/Root.hh>
-#include <sdf/Scene.hh>
-#include <sdf/Sensor.hh>
-#include <sdf/Visual.hh>
-#include <sdf/World.hh>
 #include <stdexcept>
 
 #include "physics/sdf_files.h"
+#include "physics/sdf_frames.h"
 #include "physics/sdf_scene.h"
 #include "physics/sdf_shapes.h"
+#include "physics/sdf_text.h"
+#include "physics/xml_util.h"
 
 namespace franka_sim_mujoco::physics {
 namespace {
 
+using tinyxml2::XMLElement;
+
 constexpr double kNoLimit = 1e15;  ///< SDF writes "unlimited" as 1e16
+/// Of the sum of the moments of inertia: rounding in the text.
+constexpr double kInertiaTolerance = 1e-6;
+
+/// Calls `act` for each child of a name.
+template <typename Act>
+void forEach(const XMLElement& parent, const char* name, Act act) {
+  for (const XMLElement* child = parent.FirstChildElement(name); child != nullptr;
+       child = child->NextSiblingElement(name)) {
+    act(*child);
+  }
+}
+
+Eigen::Vector3d toVector(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
+
+std::array<double, 3> rgb(const std::array<double, 4>& colour) {
+  return {colour[0], colour[1], colour[2]};
+}
+
+/// A model that is being read: where it stands, and what its poses refer to.
+struct Place {
+  std::string name;  ///< with the models around it
+  const SdfFrames& frames;
+  Eigen::Isometry3d pose;  ///< in the world
+  bool is_static;
+};
 
 class Reader {
  public:
-  Reader(std::string title, const SdfFiles& files) : title_(std::move(title)), files_(files) {}
+  explicit Reader(std::string title) : title_(std::move(title)) {}
 
   SdfScene take() { return std::move(scene_); }
 
-  void readWorld(const sdf::World& world) {
-    scene_.gravity = {world.Gravity().X(), world.Gravity().Y(), world.Gravity().Z()};
-    for (uint64_t i = 0; i < world.ModelCount(); ++i) {
-      readTopModel(*world.ModelByIndex(i));
-    }
-    for (uint64_t i = 0; i < world.LightCount(); ++i) {
-      readLight(*world.LightByIndex(i), -1);
-    }
-    if (const sdf::Scene* look = world.Scene()) {
-      scene_.ambient = rgb(look->Ambient());
-      if (world.Element()->GetElement("scene")->HasElement("background")) {
-        scene_.background = rgb(look->Background());
-      }
-    }
-    for (uint64_t i = 0; i < world.ActorCount(); ++i) {
-      note("actor '" + world.ActorByIndex(i)->Name() + "'");
-    }
-    notePlugins(world.Element(), "the world");
-    if (world.WindLinearVelocity() != ignition::math::Vector3d::Zero) {
+  void readWorld(const XMLElement& world) {
+    const SdfFrames frames(world, title_);
+    scene_.gravity = {0, 0, -9.8};
+    const std::vector<double> gravity = childNumbers(world, "gravity", {0, 0, -9.8}, title_);
+    std::copy(gravity.begin(), gravity.end(), scene_.gravity.begin());
+    forEach(world, "model", [&](const XMLElement& model) { readTopModel(model, frames); });
+    forEach(world, "light",
+            [&](const XMLElement& light) { readLight(light, frames.poseOf(light, ""), -1); });
+    const XMLElement* look = world.FirstChildElement("scene");
+    const XMLElement& scene = look == nullptr ? world : *look;  // a world has no colours of its own
+    scene_.ambient = rgb(readColour(scene, "ambient", {0.4, 0.4, 0.4, 1}, title_));
+    scene_.background = rgb(readColour(scene, "background", {0.7, 0.7, 0.7, 1}, title_));
+    forEach(world, "actor",
+            [&](const XMLElement& actor) { note("actor '" + optional(actor, "name") + "'"); });
+    forEach(world, "population", [&](const XMLElement& population) {
+      note("population '" + optional(population, "name") + "'");
+    });
+    notePlugins(world, "the world");
+    const XMLElement* wind = world.FirstChildElement("wind");
+    if (wind != nullptr &&
+        !toVector(childNumbers(*wind, "linear_velocity", {0, 0, 0}, title_)).isZero(0)) {
       note("wind");
     }
   }
 
-  void readTopModel(const sdf::Model& model) {
-    scene_.models.push_back({model.Name(), poseOf(model), {}, model.SelfCollide()});
-    readModel(model, model.Name(), Eigen::Isometry3d::Identity(), false);
+  /// @param frames of what stands around it
+  void readTopModel(const XMLElement& model, const SdfFrames& frames) {
+    const std::string name = required(model, "name", title_);
+    const Place place{name, frames.model(name), frames.pose(name), false};
+    scene_.models.push_back({name, place.pose, {}, isTrue(model, "self_collide")});
+    readModel(model, place);
   }
 
  private:
   void note(const std::string& what) { scene_.unsupported.insert(what); }
 
-  void notePlugins(const sdf::ElementPtr& element, const std::string& of) {
-    if (element && element->HasElement("plugin")) {
-      for (auto plugin = element->GetElement("plugin"); plugin;
-           plugin = plugin->GetNextElement("plugin")) {
-        note("plugin '" + plugin->Get<std::string>("name") + "' of " + of);
-      }
+  void notePlugins(const XMLElement& element, const std::string& of) {
+    forEach(element, "plugin", [&](const XMLElement& plugin) {
+      note("plugin '" + optional(plugin, "name") + "' of " + of);
+    });
+  }
+
+  void readModel(const XMLElement& model, Place place) {
+    place.is_static = place.is_static || isTrue(model, "static");
+    if (!place.is_static && model.FirstChildElement("link") == nullptr &&
+        model.FirstChildElement("model") == nullptr) {
+      throw std::runtime_error(title_ + ": model '" + place.name + "' needs at least one link.");
+    }
+    forEach(model, "link", [&](const XMLElement& link) { readLink(link, place); });
+    forEach(model, "model", [&](const XMLElement& inner) {
+      const std::string name = required(inner, "name", title_);
+      readModel(inner, {place.name + "::" + name, place.frames.model(name),
+                        place.pose * place.frames.pose(name), place.is_static});
+    });
+    forEach(model, "joint", [&](const XMLElement& joint) { readJoint(joint, place); });
+    notePlugins(model, "model '" + place.name + "'");
+    if (model.FirstChildElement("gripper") != nullptr) {
+      note("<gripper> of model '" + place.name + "'");
     }
   }
 
-  template <typename Thing>
-  Eigen::Isometry3d poseOf(const Thing& thing, const std::string& in = "") const {
-    ignition::math::Pose3d pose;
-    const sdf::Errors errors = thing.SemanticPose().Resolve(pose, in);
-    if (!errors.empty()) {
-      throw std::runtime_error(title_ + ": the pose of '" + thing.Name() +
-                               "' cannot be resolved: " + errors.front().Message());
+  UrdfInertial readInertial(const XMLElement& link, const std::string& name) const {
+    UrdfInertial result;
+    result.mass = 1;
+    result.com = Eigen::Vector3d::Zero();
+    result.inertia = Eigen::Matrix3d::Identity();
+    const XMLElement* element = link.FirstChildElement("inertial");
+    if (element == nullptr) {
+      return result;
     }
-    return toIsometry(pose);
+    const std::string where = title_ + ": link '" + name + "'";
+    result.mass = childNumbers(*element, "mass", {1}, where)[0];
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Identity();
+    if (const XMLElement* inertia = element->FirstChildElement("inertia")) {
+      const auto entry = [&](const char* entry_name, double fallback) {
+        return childNumbers(*inertia, entry_name, {fallback}, where)[0];
+      };
+      moments.diagonal() << entry("ixx", 1), entry("iyy", 1), entry("izz", 1);
+      moments(0, 1) = moments(1, 0) = entry("ixy", 0);
+      moments(0, 2) = moments(2, 0) = entry("ixz", 0);
+      moments(1, 2) = moments(2, 1) = entry("iyz", 0);
+    }
+    const Eigen::Vector3d principal = moments.selfadjointView<Eigen::Upper>().eigenvalues();
+    if (!(result.mass > 0) || !(principal.minCoeff() >= 0) ||
+        principal.sum() * (1 + kInertiaTolerance) < 2 * principal.maxCoeff()) {
+      throw std::runtime_error(where + ": no body has this mass and these moments of inertia.");
+    }
+    const Eigen::Isometry3d pose = writtenPose(*element, where);
+    result.com = pose.translation();
+    result.inertia = pose.linear() * moments * pose.linear().transpose();
+    return result;
   }
 
-  /// @param name with the models around it. @param parent pose of what stands around it.
-  void readModel(const sdf::Model& model, const std::string& name, const Eigen::Isometry3d& parent,
-                 bool is_static) {
-    const Eigen::Isometry3d pose = parent * poseOf(model);
-    is_static = is_static || model.Static();
-    for (uint64_t i = 0; i < model.LinkCount(); ++i) {
-      readLink(*model.LinkByIndex(i), name, pose, is_static);
-    }
-    for (uint64_t i = 0; i < model.ModelCount(); ++i) {
-      const sdf::Model& inner = *model.ModelByIndex(i);
-      readModel(inner, name + "::" + inner.Name(), pose, is_static);
-    }
-    for (uint64_t i = 0; i < model.JointCount(); ++i) {
-      readJoint(*model.JointByIndex(i), name, pose);
-    }
-    notePlugins(model.Element(), "model '" + name + "'");
-    if (model.Element()->HasElement("gripper")) {
-      note("<gripper> of model '" + name + "'");
-    }
-  }
-
-  void readLink(const sdf::Link& link, const std::string& model, const Eigen::Isometry3d& base,
-                bool is_static) {
+  void readLink(const XMLElement& link, const Place& place) {
+    const std::string own_name = required(link, "name", title_);
     SdfLink result;
-    result.name = model + "::" + link.Name();
+    result.name = place.name + "::" + own_name;
     result.model = scene_.models.back().name;
-    result.is_static = is_static;
-    result.pose = base * poseOf(link);
-    const ignition::math::Inertiald& inertia = link.Inertial();
-    result.inertial.mass = inertia.MassMatrix().Mass();
-    result.inertial.com = toIsometry(inertia.Pose()).translation();
-    const ignition::math::Matrix3d moi = inertia.Moi();
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) {
-        result.inertial.inertia(row, column) = moi(row, column);
-      }
-    }
-    for (uint64_t i = 0; i < link.CollisionCount(); ++i) {
-      const sdf::Collision& collision = *link.CollisionByIndex(i);
-      const std::string what = "collision '" + collision.Name() + "' of '" + result.name + "'";
-      if (auto shape = readShape(*collision.Geom(), files_, what, &scene_.unsupported)) {
-        shape->name = collision.Name();
-        shape->pose = poseOf(collision) * shape->pose;
-        shape->surface = readSurface(collision.Element(), what, &scene_.unsupported);
+    result.is_static = place.is_static;
+    result.pose = place.pose * place.frames.pose(own_name);
+    result.inertial = readInertial(link, result.name);
+    forEach(link, "collision", [&](const XMLElement& collision) {
+      const std::string name = optional(collision, "name");
+      const std::string what = "collision '" + name + "' of '" + result.name + "'";
+      if (auto shape = readShape(collision, what, &scene_.unsupported)) {
+        shape->name = name;
+        shape->pose = place.frames.poseIn(collision, own_name) * shape->pose;
+        shape->surface = readSurface(collision, what, &scene_.unsupported);
         result.collisions.push_back(*shape);
       }
-    }
-    for (uint64_t i = 0; i < link.VisualCount(); ++i) {
-      const sdf::Visual& visual = *link.VisualByIndex(i);
-      const std::string what = "visual '" + visual.Name() + "' of '" + result.name + "'";
-      if (auto shape = readShape(*visual.Geom(), files_, what, &scene_.unsupported)) {
-        shape->name = visual.Name();
-        shape->pose = poseOf(visual) * shape->pose;
-        shape->rgba = readColour(visual, what, &scene_.unsupported);
-        shape->opacity = 1 - visual.Transparency();
+    });
+    forEach(link, "visual", [&](const XMLElement& visual) {
+      const std::string name = optional(visual, "name");
+      const std::string what = "visual '" + name + "' of '" + result.name + "'";
+      if (auto shape = readShape(visual, what, &scene_.unsupported)) {
+        shape->name = name;
+        shape->pose = place.frames.poseIn(visual, own_name) * shape->pose;
+        shape->rgba = readMaterial(visual, what, &scene_.unsupported);
+        shape->opacity = 1 - childNumbers(visual, "transparency", {0}, what)[0];
         result.visuals.push_back(*shape);
       }
-    }
+    });
     const int index = static_cast<int>(scene_.links.size());
     scene_.links.push_back(result);
     scene_.models.back().links.push_back(index);
     index_[result.name] = index;
-    readAttachments(link, result.name, index);
+    forEach(link, "light", [&](const XMLElement& light) {
+      readLight(light, place.frames.poseIn(light, own_name), index);
+    });
+    forEach(link, "sensor", [&](const XMLElement& sensor) {
+      readSensor(sensor, place.frames.poseIn(sensor, own_name), index);
+    });
+    noteOfLink(link, result.name);
   }
 
-  void readAttachments(const sdf::Link& link, const std::string& name, int index) {
-    for (uint64_t i = 0; i < link.LightCount(); ++i) {
-      readLight(*link.LightByIndex(i), index);
-    }
-    for (uint64_t i = 0; i < link.SensorCount(); ++i) {
-      readSensor(*link.SensorByIndex(i), name, index);
-    }
-    if (link.Element()->HasElement("gravity") && !link.Element()->Get<bool>("gravity")) {
+  void noteOfLink(const XMLElement& link, const std::string& name) {
+    if (!isTrue(link, "gravity", true)) {
       note("<gravity>false</gravity> of link '" + name + "'");
     }
-    if (link.EnableWind()) {
+    if (isTrue(link, "enable_wind")) {
       note("wind on link '" + name + "'");
     }
-    if (link.ParticleEmitterCount() > 0) {
+    if (link.FirstChildElement("particle_emitter") != nullptr) {
       note("particle emitters of link '" + name + "'");
     }
   }
 
-  void readSensor(const sdf::Sensor& sensor, const std::string& link, int index) {
-    const std::string name = link + "::" + sensor.Name();
-    const sdf::Camera* camera = sensor.CameraSensor();
+  /// @param pose in the link
+  void readSensor(const XMLElement& sensor, const Eigen::Isometry3d& pose, int link) {
+    const std::string name =
+        scene_.links[static_cast<std::size_t>(link)].name + "::" + optional(sensor, "name");
+    const XMLElement* camera = sensor.FirstChildElement("camera");
     if (camera == nullptr) {
-      note("sensor '" + name + "' of type " + sensor.TypeStr());
+      note("sensor '" + name + "' of type " + optional(sensor, "type"));
       return;
     }
     SdfCamera result;
     result.name = name;
-    result.link = index;
-    result.pose = poseOf(sensor) * toIsometry(camera->RawPose());
-    result.horizontal_view = camera->HorizontalFov().Radian();
-    result.width = static_cast<int>(camera->ImageWidth());
-    result.height = static_cast<int>(camera->ImageHeight());
-    if (sensor.UpdateRate() > 0) {
-      result.rate = sensor.UpdateRate();
+    result.link = link;
+    result.pose = pose * writtenPose(*camera, title_ + ": camera '" + name + "'");
+    result.horizontal_view = childNumbers(*camera, "horizontal_fov", {1.047}, name)[0];
+    if (const XMLElement* image = camera->FirstChildElement("image")) {
+      result.width = static_cast<int>(childNumbers(*image, "width", {320}, name)[0]);
+      result.height = static_cast<int>(childNumbers(*image, "height", {240}, name)[0]);
     }
+    const double rate = childNumbers(sensor, "update_rate", {0}, name)[0];
+    result.rate = rate > 0 ? rate : result.rate;
     scene_.cameras.push_back(result);
   }
 
-  void readLight(const sdf::Light& light, int link) {
+  /// @param pose in the link, or in the world
+  void readLight(const XMLElement& light, const Eigen::Isometry3d& pose, int link) {
     SdfLight result;
-    result.name = light.Name();
+    result.name = optional(light, "name");
+    const std::string where = title_ + ": light '" + result.name + "'";
     result.link = link;
-    result.kind = light.Type() == sdf::LightType::DIRECTIONAL ? SdfLight::Kind::kDirectional
-                  : light.Type() == sdf::LightType::SPOT      ? SdfLight::Kind::kSpot
-                                                              : SdfLight::Kind::kPoint;
-    const Eigen::Isometry3d pose = poseOf(light);
+    const std::string kind = optional(light, "type");
+    result.kind = kind == "directional" ? SdfLight::Kind::kDirectional
+                  : kind == "spot"      ? SdfLight::Kind::kSpot
+                                        : SdfLight::Kind::kPoint;
     result.position = pose.translation();
-    const ignition::math::Vector3d d = light.Direction();
-    result.direction = pose.linear() * Eigen::Vector3d(d.X(), d.Y(), d.Z()).normalized();
-    result.diffuse = rgb(light.Diffuse());
-    result.specular = rgb(light.Specular());
-    result.attenuation = {light.ConstantAttenuationFactor(), light.LinearAttenuationFactor(),
-                          light.QuadraticAttenuationFactor()};
-    result.cutoff = light.SpotOuterAngle().Radian() / 2;
-    result.shadows = light.CastShadows();
+    const Eigen::Vector3d along = toVector(childNumbers(light, "direction", {0, 0, -1}, where));
+    result.direction = pose.linear() * along.normalized();
+    result.diffuse = rgb(readColour(light, "diffuse", {1, 1, 1, 1}, where));
+    result.specular = rgb(readColour(light, "specular", {0.1, 0.1, 0.1, 1}, where));
+    result.attenuation = {1, 1, 0};  // SDF's
+    if (const XMLElement* attenuation = light.FirstChildElement("attenuation")) {
+      result.attenuation = {childNumbers(*attenuation, "constant", {1}, where)[0],
+                            childNumbers(*attenuation, "linear", {1}, where)[0],
+                            childNumbers(*attenuation, "quadratic", {0}, where)[0]};
+    }
+    const XMLElement* spot = light.FirstChildElement("spot");
+    result.cutoff = spot == nullptr ? 0 : childNumbers(*spot, "outer_angle", {0}, where)[0] / 2;
+    result.shadows = isTrue(light, "cast_shadows");
     scene_.lights.push_back(result);
   }
 
-  int linkOf(const std::string& name, const std::string& model, const std::string& joint) const {
-    if (name == "world") {
-      return -1;
+  /// @param frame that a joint names
+  int linkOf(const std::string& frame, const Place& place, const std::string& joint) const {
+    if (frame.empty()) {
+      throw std::runtime_error(title_ + ": joint '" + joint + "' needs a <parent> and a <child>.");
     }
-    const auto found = index_.find(model + "::" + name);
-    if (found == index_.end()) {
-      throw std::runtime_error(title_ + ": joint '" + joint + "' names the link '" + name +
-                               "', which is not there.");
+    try {
+      const std::string link = place.frames.linkOf(frame);
+      return link == "world" ? -1 : index_.at(place.name + "::" + link);
+    } catch (const std::exception&) {
+      throw std::runtime_error(title_ + ": joint '" + joint + "' names '" + frame +
+                               "', and there is no such link or frame.");
     }
-    return found->second;
   }
 
-  void readJoint(const sdf::Joint& joint, const std::string& model, const Eigen::Isometry3d& base) {
+  void readJoint(const XMLElement& joint, const Place& place) {
     SdfJoint result;
-    result.name = model + "::" + joint.Name();
-    std::string parent, child;
-    if (!joint.ResolveParentLink(parent).empty() || !joint.ResolveChildLink(child).empty()) {
-      throw std::runtime_error(title_ + ": the links of joint '" + result.name +
-                               "' cannot be found.");
+    const std::string own_name = required(joint, "name", title_);
+    result.name = place.name + "::" + own_name;
+    result.parent = linkOf(childText(joint, "parent"), place, result.name);
+    result.child = linkOf(childText(joint, "child"), place, result.name);
+    result.position = (place.pose * place.frames.pose(own_name)).translation();
+    const std::string kind = optional(joint, "type");
+    if (kind == "revolute" || kind == "continuous") {
+      result.kind = SdfJoint::Kind::kHinge;
+    } else if (kind == "prismatic") {
+      result.kind = SdfJoint::Kind::kSlide;
+    } else if (kind == "ball") {
+      result.kind = SdfJoint::Kind::kBall;
+    } else if (kind != "fixed") {
+      note("the type of joint '" + result.name + "' (it is held fixed)");
     }
-    result.parent = linkOf(parent, model, result.name);
-    result.child = linkOf(child, model, result.name);
-    result.position = (base * poseOf(joint, "__model__")).translation();
-    switch (joint.Type()) {
-      case sdf::JointType::REVOLUTE:
-      case sdf::JointType::CONTINUOUS:
-        result.kind = SdfJoint::Kind::kHinge;
-        break;
-      case sdf::JointType::PRISMATIC:
-        result.kind = SdfJoint::Kind::kSlide;
-        break;
-      case sdf::JointType::BALL:
-        result.kind = SdfJoint::Kind::kBall;
-        break;
-      case sdf::JointType::FIXED:
-        break;
-      default:
-        note("the type of joint '" + result.name + "' (it is held fixed)");
-    }
-    const sdf::JointAxis* axis = joint.Axis(0);
-    const bool moves_along_axis =
-        result.kind == SdfJoint::Kind::kHinge || result.kind == SdfJoint::Kind::kSlide;
-    if (axis != nullptr && moves_along_axis) {
-      readAxis(*axis, base, joint.Type() != sdf::JointType::CONTINUOUS, &result);
+    if (result.kind == SdfJoint::Kind::kHinge || result.kind == SdfJoint::Kind::kSlide) {
+      const XMLElement* axis = joint.FirstChildElement("axis");
+      if (axis == nullptr) {
+        throw std::runtime_error(title_ + ": joint '" + result.name + "' needs an <axis>.");
+      }
+      readAxis(*axis, place, own_name, &result);
+      if (kind == "continuous") {
+        result.limits.reset();
+      }
     }
     if (result.child < 0 || isChild(result.child)) {
       note("joint '" + result.name + "', which closes a loop");
@@ -266,37 +302,45 @@ class Reader {
                        [link](const SdfJoint& joint) { return joint.child == link; });
   }
 
-  void readAxis(const sdf::JointAxis& axis, const Eigen::Isometry3d& base, bool limited,
-                SdfJoint* joint) {
-    ignition::math::Vector3d xyz;
-    const sdf::Errors errors = axis.ResolveXyz(xyz, "__model__");
-    if (!errors.empty()) {
-      throw std::runtime_error(title_ + ": the axis of joint '" + joint->name +
-                               "' cannot be resolved: " + errors.front().Message());
+  void readAxis(const XMLElement& axis, const Place& place, const std::string& own_name,
+                SdfJoint* joint) const {
+    const std::string where = title_ + ": joint '" + joint->name + "'";
+    const Eigen::Vector3d xyz = toVector(childNumbers(axis, "xyz", {0, 0, 1}, where));
+    if (xyz.isZero(0)) {
+      throw std::runtime_error(where + ": the <axis> 0 0 0 has no direction.");
     }
-    joint->axis = base.linear() * Eigen::Vector3d(xyz.X(), xyz.Y(), xyz.Z()).normalized();
-    joint->damping = axis.Damping();
-    joint->friction = axis.Friction();
-    joint->stiffness = axis.SpringStiffness();
-    joint->reference = axis.SpringReference();
-    const bool below = axis.Lower() > -kNoLimit, above = axis.Upper() < kNoLimit;
-    if (limited && (below || above)) {
-      const double far = joint->kind == SdfJoint::Kind::kHinge ? 1e3 : 1e6;
-      joint->limits = {below ? axis.Lower() : -far, above ? axis.Upper() : far};
+    const XMLElement* written = axis.FirstChildElement("xyz");
+    const std::string frame = written == nullptr ? "" : optional(*written, "expressed_in");
+    const Eigen::Isometry3d in_model = place.frames.pose(frame.empty() ? own_name : frame);
+    joint->axis = place.pose.linear() * in_model.linear() * xyz.normalized();
+    if (const XMLElement* dynamics = axis.FirstChildElement("dynamics")) {
+      joint->damping = childNumbers(*dynamics, "damping", {0}, where)[0];
+      joint->friction = childNumbers(*dynamics, "friction", {0}, where)[0];
+      joint->stiffness = childNumbers(*dynamics, "spring_stiffness", {0}, where)[0];
+      joint->reference = childNumbers(*dynamics, "spring_reference", {0}, where)[0];
+    }
+    if (const XMLElement* limit = axis.FirstChildElement("limit")) {
+      readLimits(*limit, where, joint);
+    }
+  }
+
+  void readLimits(const XMLElement& limit, const std::string& where, SdfJoint* joint) const {
+    const double far = joint->kind == SdfJoint::Kind::kHinge ? 1e3 : 1e6;
+    const auto bound = [&](const char* name, double none) {
+      // "inf" is not a number that a pose could hold, but it is a limit.
+      const bool infinite = childText(limit, name).find("inf") != std::string::npos;
+      return infinite ? none : childNumbers(limit, name, {none}, where)[0];
+    };
+    const double lower = bound("lower", -2 * kNoLimit), upper = bound("upper", 2 * kNoLimit);
+    if (lower > -kNoLimit || upper < kNoLimit) {
+      joint->limits = {lower > -kNoLimit ? lower : -far, upper < kNoLimit ? upper : far};
     }
   }
 
   std::string title_;
-  const SdfFiles& files_;
   SdfScene scene_;
   std::map<std::string, int> index_;
 };
-
-void throwFirst(const sdf::Errors& errors, const std::string& title) {
-  if (!errors.empty()) {
-    throw std::runtime_error(title + ": " + errors.front().Message());
-  }
-}
 
 }  // namespace
 
@@ -313,29 +357,36 @@ bool looksLikeSdf(const std::string& text) {
   return false;
 }
 
-SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
-                 const ResourceResolver& resolve, const std::string& model_name) {
-  sdf::Console::Instance()->SetQuiet(true);
-  const SdfFiles files(folder, resolve);
-  sdf::ParserConfig config;
-  config.SetFindCallback([&files](const std::string& uri) { return files.find(uri); });
-  sdf::Root root;
-  throwFirst(root.LoadSdfString(withStandardModels(text, files, title, model_name), config), title);
-  Reader reader(title, files);
-  if (!model_name.empty()) {
-    if (root.Model() == nullptr) {
-      throw std::runtime_error(title + ": there is no <model> in the SDF text.");
-    }
-    reader.readTopModel(*root.Model());
-  } else if (root.WorldCount() == 1) {
-    reader.readWorld(*root.WorldByIndex(0));
-  } else if (root.WorldCount() == 0 && root.Model() != nullptr) {
-    reader.readTopModel(*root.Model());
-  } else {
+SdfScene readExpandedSdf(const std::string& text, const std::string& title, bool world) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error(title + ": it is not well-formed XML: " + document.ErrorStr());
+  }
+  const XMLElement& root = *document.RootElement();
+  int worlds = 0;
+  forEach(root, "world", [&worlds](const XMLElement&) { ++worlds; });
+  const XMLElement* model = root.FirstChildElement("model");
+  Reader reader(title);
+  if (world && worlds == 1) {
+    reader.readWorld(*root.FirstChildElement("world"));
+  } else if (model != nullptr && (worlds == 0 || !world)) {
+    const SdfFrames frames(root, title);
+    reader.readTopModel(*model, frames);
+  } else if (world) {
     throw std::runtime_error(title + ": an SDF world file must hold one <world>; this one holds " +
-                             std::to_string(root.WorldCount()) + ".");
+                             std::to_string(worlds) + ".");
+  } else {
+    throw std::runtime_error(title + ": there is no <model> in the SDF text.");
   }
   return reader.take();
+}
+
+SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
+                 const ResourceResolver& resolve, const std::string& model_name) {
+  const SdfFiles files(folder, resolve);
+  return readExpandedSdf(
+      expandSdf(withStandardModels(text, files, title, model_name), files, title), title,
+      model_name.empty());
 }
 
 }  // namespace franka_sim_mujoco::physics

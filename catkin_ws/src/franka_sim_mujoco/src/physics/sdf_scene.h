@@ -107,7 +107,8 @@ struct SdfScene {
 /// Whether a text's root element is <sdf> (or an old <gazebo>).
 bool looksLikeSdf(const std::string& text);
 
-/// Reads an SDF text with a world in it, or with one model, by Debian's sdformat.
+/// Reads an SDF text with a world in it, or with one model. Where Debian has sdformat (Debian 12),
+/// that library checks the text and writes out includes; elsewhere `expandByTinyXml` does.
 ///
 /// Included models and meshes are looked for by `resolve`, next to the file, in the folders of
 /// GAZEBO_MODEL_PATH, SDF_PATH and GAZEBO_RESOURCE_PATH; `model://sun` and `model://ground_plane`
@@ -117,8 +118,11 @@ bool looksLikeSdf(const std::string& text);
 /// @param title names the text in errors
 /// @param model_name empty: a world (or a lone model in the place of one) is read; else the text's
 /// one model, under this name
-/// @throws std::runtime_error with a sentence: what sdformat finds wrong, no world in the text.
+/// @throws std::runtime_error with a sentence: what is wrong with the text, no world in the text.
 SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
                  const ResourceResolver& resolve, const std::string& model_name = "");
+
+/// The same for a text of sdf_text.h. @param world whether a world is read, or a model.
+SdfScene readExpandedSdf(const std::string& text, const std::string& title, bool world);
 
 }  // namespace franka_sim_mujoco::physics

@@ -5,21 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
-#include <sdf/Box.hh>
-#include <sdf/Capsule.hh>
-#include <sdf/Cylinder.hh>
-#include <sdf/Ellipsoid.hh>
-#include <sdf/Material.hh>
-#include <sdf/Mesh.hh>
-#include <sdf/Plane.hh>
-#include <sdf/Sphere.hh>
+#include <stdexcept>
+
+#include "physics/xml_util.h"
 
 namespace franka_sim_mujoco::physics {
 namespace {
 
 using Kind = SdfShape::Kind;
+using tinyxml2::XMLElement;
 
 /// Where a collision says nothing: all bits.
 constexpr unsigned kEveryBit = 65535;
@@ -37,144 +32,159 @@ const std::map<std::string, std::array<double, 3>>& plainMaterials() {
   return kColours;
 }
 
-sdf::ElementPtr child(const sdf::ElementPtr& element, std::initializer_list<const char*> path) {
-  sdf::ElementPtr found = element;
+const XMLElement* descend(const XMLElement* element, std::initializer_list<const char*> path) {
   for (const char* name : path) {
-    if (!found || !found->HasElement(name)) {
-      return nullptr;
-    }
-    found = found->GetElement(name);
+    element = element == nullptr ? nullptr : element->FirstChildElement(name);
   }
-  return found;
+  return element;
 }
 
-std::optional<double> numberIn(const sdf::ElementPtr& element, const char* name) {
-  if (!element || !element->HasElement(name)) {
+std::optional<double> numberIn(const XMLElement* element, const char* name,
+                               const std::string& where) {
+  if (element == nullptr || childText(*element, name).empty()) {
     return std::nullopt;
   }
-  return element->Get<double>(name);
+  return childNumbers(*element, name, {0}, where)[0];
 }
 
-std::optional<SdfShape> readMesh(const sdf::Mesh& mesh, const SdfFiles& files,
-                                 const std::string& what, std::set<std::string>* unsupported) {
+/// Three numbers.
+Eigen::Vector3d vectorIn(const XMLElement& element, const char* name,
+                         const Eigen::Vector3d& fallback, const std::string& where) {
+  const std::vector<double> n =
+      childNumbers(element, name, {fallback.x(), fallback.y(), fallback.z()}, where);
+  return {n[0], n[1], n[2]};
+}
+
+std::optional<SdfShape> readMesh(const XMLElement& mesh, const std::string& what,
+                                 std::set<std::string>* unsupported) {
   SdfShape shape;
   shape.kind = Kind::kMesh;
-  const std::filesystem::path from(mesh.FilePath());
-  const bool is_file = from.has_parent_path() && from.is_absolute();
-  shape.mesh.file = files.find(mesh.Uri(), is_file ? from.parent_path().string() : "");
-  if (shape.mesh.file.empty()) {
-    unsupported->insert(what + ": the mesh '" + mesh.Uri() + "' was not found");
+  shape.mesh.file = childText(mesh, "uri");
+  std::error_code error;
+  if (!std::filesystem::path(shape.mesh.file).is_absolute() ||
+      !std::filesystem::exists(shape.mesh.file, error)) {
+    unsupported->insert(what + ": the mesh '" + shape.mesh.file + "' was not found");
     return std::nullopt;
   }
-  shape.mesh.scale = {mesh.Scale().X(), mesh.Scale().Y(), mesh.Scale().Z()};
-  shape.mesh.submesh = mesh.Submesh();
-  shape.mesh.center = !mesh.Submesh().empty() && mesh.CenterSubmesh();
+  const Eigen::Vector3d scale = vectorIn(mesh, "scale", Eigen::Vector3d::Ones(), what);
+  shape.mesh.scale = {scale.x(), scale.y(), scale.z()};
+  if (const XMLElement* submesh = mesh.FirstChildElement("submesh")) {
+    shape.mesh.submesh = childText(*submesh, "name");
+    shape.mesh.center = !shape.mesh.submesh.empty() && isTrue(*submesh, "center");
+  }
   return shape;
 }
 
 }  // namespace
 
-Eigen::Isometry3d toIsometry(const ignition::math::Pose3d& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translation() = Eigen::Vector3d(pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
-  const ignition::math::Quaterniond& q = pose.Rot();
-  result.linear() = Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).normalized().matrix();
-  return result;
+std::array<double, 4> readColour(const XMLElement& element, const char* name,
+                                 const std::array<double, 4>& fallback, const std::string& where) {
+  const std::string text = childText(element, name);
+  if (text.empty()) {
+    return fallback;
+  }
+  const std::vector<double> n = toNumbers(text, where + ", <" + name + ">");
+  if (n.size() != 3 && n.size() != 4) {
+    throw std::runtime_error(where + ": <" + name + "> needs 3 or 4 numbers and has " +
+                             std::to_string(n.size()) + ".");
+  }
+  return {n[0], n[1], n[2], n.size() == 4 ? n[3] : 1.0};
 }
 
-std::array<double, 3> rgb(const ignition::math::Color& colour) {
-  return {colour.R(), colour.G(), colour.B()};
-}
-
-std::optional<SdfShape> readShape(const sdf::Geometry& geometry, const SdfFiles& files,
-                                  const std::string& what, std::set<std::string>* unsupported) {
+std::optional<SdfShape> readShape(const XMLElement& thing, const std::string& what,
+                                  std::set<std::string>* unsupported) {
+  const XMLElement* geometry = thing.FirstChildElement("geometry");
+  const XMLElement* form = geometry == nullptr ? nullptr : geometry->FirstChildElement();
+  const std::string kind = form == nullptr ? "empty" : form->Name();
+  const auto number = [&](const char* name, double fallback) {
+    return childNumbers(*form, name, {fallback}, what)[0];
+  };
   SdfShape shape;
-  if (const sdf::Box* box = geometry.BoxShape()) {
+  if (kind == "box") {
     shape.kind = Kind::kBox;
-    shape.size = {box->Size().X(), box->Size().Y(), box->Size().Z()};
-  } else if (const sdf::Sphere* sphere = geometry.SphereShape()) {
+    shape.size = vectorIn(*form, "size", Eigen::Vector3d::Ones(), what);
+  } else if (kind == "sphere") {
     shape.kind = Kind::kSphere;
-    shape.size.x() = sphere->Radius();
-  } else if (const sdf::Cylinder* cylinder = geometry.CylinderShape()) {
+    shape.size.x() = number("radius", 1);
+  } else if (kind == "cylinder") {
     shape.kind = Kind::kCylinder;
-    shape.size = {cylinder->Radius(), cylinder->Length(), 0};
-  } else if (const sdf::Capsule* capsule = geometry.CapsuleShape()) {
+    shape.size = {number("radius", 1), number("length", 1), 0};
+  } else if (kind == "capsule") {
     shape.kind = Kind::kCapsule;
-    shape.size = {capsule->Radius(), capsule->Length(), 0};
-  } else if (const sdf::Ellipsoid* ellipsoid = geometry.EllipsoidShape()) {
+    shape.size = {number("radius", 0.5), number("length", 1), 0};
+  } else if (kind == "ellipsoid") {
     shape.kind = Kind::kEllipsoid;
-    shape.size = {ellipsoid->Radii().X(), ellipsoid->Radii().Y(), ellipsoid->Radii().Z()};
-  } else if (const sdf::Plane* plane = geometry.PlaneShape()) {
+    shape.size = vectorIn(*form, "radii", Eigen::Vector3d::Ones(), what);
+  } else if (kind == "plane") {
     shape.kind = Kind::kPlane;
-    shape.size = {plane->Size().X(), plane->Size().Y(), 0};
-    const Eigen::Vector3d normal(plane->Normal().X(), plane->Normal().Y(), plane->Normal().Z());
+    const std::vector<double> size = childNumbers(*form, "size", {1, 1}, what);
+    shape.size = {size[0], size[1], 0};
+    const Eigen::Vector3d normal = vectorIn(*form, "normal", Eigen::Vector3d::UnitZ(), what);
     shape.pose.linear() =
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).matrix();
-  } else if (const sdf::Mesh* mesh = geometry.MeshShape()) {
-    return readMesh(*mesh, files, what, unsupported);
+  } else if (kind == "mesh") {
+    return readMesh(*form, what, unsupported);
   } else {
-    const bool empty = geometry.Type() == sdf::GeometryType::EMPTY;
-    unsupported->insert(what + (empty ? ": it has no shape that is known" : ": its shape"));
+    unsupported->insert(what + (kind == "empty" ? ": it has no shape that is known"
+                                                : ": its shape <" + kind + ">"));
     return std::nullopt;
   }
   return shape;
 }
 
-SdfSurface readSurface(const sdf::ElementPtr& collision, const std::string& what,
+SdfSurface readSurface(const XMLElement& collision, const std::string& what,
                        std::set<std::string>* unsupported) {
   SdfSurface surface;
-  const sdf::ElementPtr element = child(collision, {"surface"});
-  const sdf::ElementPtr ode = child(element, {"friction", "ode"});
-  if (const auto mu = numberIn(ode, "mu")) {
-    surface.mu = *mu;
-  }
-  const double mu2 = numberIn(ode, "mu2").value_or(surface.mu);
+  const XMLElement* element = collision.FirstChildElement("surface");
+  const XMLElement* ode = descend(element, {"friction", "ode"});
+  surface.mu = numberIn(ode, "mu", what).value_or(surface.mu);
+  const double mu2 = numberIn(ode, "mu2", what).value_or(surface.mu);
   if (mu2 != surface.mu) {
     unsupported->insert(what + ": mu2 other than mu (the smaller one counts in every direction)");
     surface.mu = std::min(surface.mu, mu2);
   }
   for (const char* slip : {"slip1", "slip2"}) {
-    if (numberIn(ode, slip).value_or(0) != 0) {
+    if (numberIn(ode, slip, what).value_or(0) != 0) {
       unsupported->insert(what + ": " + slip);
     }
   }
-  if (const sdf::ElementPtr torsional = child(element, {"friction", "torsional"})) {
+  if (const XMLElement* torsional = descend(element, {"friction", "torsional"})) {
     // The moment of a round, evenly loaded patch: 3 pi / 16 of radius, coefficient and load.
-    const double radius = numberIn(torsional, "patch_radius").value_or(0);
-    if (numberIn(torsional, "coefficient") && radius > 0) {
-      surface.torsion = 3 * M_PI / 16 * radius * *numberIn(torsional, "coefficient");
+    const double radius = numberIn(torsional, "patch_radius", what).value_or(0);
+    const auto coefficient = numberIn(torsional, "coefficient", what);
+    if (coefficient && radius > 0) {
+      surface.torsion = 3 * M_PI / 16 * radius * *coefficient;
     }
   }
-  if (numberIn(child(element, {"bounce"}), "restitution_coefficient").value_or(0) != 0) {
+  const XMLElement* bounce = descend(element, {"bounce"});
+  if (numberIn(bounce, "restitution_coefficient", what).value_or(0) != 0) {
     unsupported->insert(what + ": bounce");
   }
-  const sdf::ElementPtr contact = child(element, {"contact"});
-  surface.kp = numberIn(child(contact, {"ode"}), "kp");
-  surface.kd = numberIn(child(contact, {"ode"}), "kd");
-  if (contact && contact->HasElement("collide_bitmask")) {
-    const auto mask = contact->Get<unsigned>("collide_bitmask");
-    surface.bitmask = mask == kEveryBit ? 1 : static_cast<int>(mask);
+  const XMLElement* contact = descend(element, {"contact"});
+  surface.kp = numberIn(descend(contact, {"ode"}), "kp", what);
+  surface.kd = numberIn(descend(contact, {"ode"}), "kd", what);
+  if (const auto mask = numberIn(contact, "collide_bitmask", what)) {
+    surface.bitmask = *mask == kEveryBit ? 1 : static_cast<int>(*mask);
   }
-  if (contact && contact->HasElement("collide_without_contact") &&
-      contact->Get<bool>("collide_without_contact")) {
+  if (contact != nullptr && isTrue(*contact, "collide_without_contact")) {
     unsupported->insert(what + ": collide_without_contact");
   }
   return surface;
 }
 
-std::optional<std::array<double, 4>> readColour(const sdf::Visual& visual, const std::string& what,
-                                                std::set<std::string>* unsupported) {
-  const sdf::Material* material = visual.Material();
+std::optional<std::array<double, 4>> readMaterial(const XMLElement& visual, const std::string& what,
+                                                  std::set<std::string>* unsupported) {
+  const XMLElement* material = visual.FirstChildElement("material");
   if (material == nullptr) {
     return std::nullopt;
   }
-  if (material->PbrMaterial() != nullptr) {
+  if (material->FirstChildElement("pbr") != nullptr) {
     unsupported->insert(what + ": textures of a <pbr> material");
   }
-  const std::string script = material->ScriptName();
+  const XMLElement* named = material->FirstChildElement("script");
+  const std::string script = named == nullptr ? std::string() : childText(*named, "name");
   if (script.empty()) {
-    const ignition::math::Color& diffuse = material->Diffuse();
-    return std::array<double, 4>{diffuse.R(), diffuse.G(), diffuse.B(), diffuse.A()};
+    return readColour(*material, "diffuse", {1, 1, 1, 1}, what);
   }
   const auto known = plainMaterials().find(script.substr(script.rfind('/') + 1));
   if (known == plainMaterials().end()) {

@@ -2,35 +2,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Geometry>
+#include <tinyxml2.h>
+
 #include <array>
-#include <ignition/math/Color.hh>
-#include <ignition/math/Pose3.hh>
 #include <optional>
-#include <sdf/Element.hh>
-#include <sdf/Geometry.hh>
-#include <sdf/Visual.hh>
 #include <set>
 #include <string>
 
-#include "physics/sdf_files.h"
 #include "physics/sdf_scene.h"
 
 namespace franka_sim_mujoco::physics {
 
-Eigen::Isometry3d toIsometry(const ignition::math::Pose3d& pose);
-std::array<double, 3> rgb(const ignition::math::Color& colour);
+/// Red, green and blue (0 to 1) in a child element, with or without an opacity after them;
+/// `fallback` when there is none.
+std::array<double, 4> readColour(const tinyxml2::XMLElement& element, const char* name,
+                                 const std::array<double, 4>& fallback, const std::string& where);
 
-/// A geometry as a shape at the origin; nothing when there is no counterpart, which `unsupported`
-/// then names. @param what names the thing, e.g. "collision 'c' of 'model::link'".
-std::optional<SdfShape> readShape(const sdf::Geometry& geometry, const SdfFiles& files,
-                                  const std::string& what, std::set<std::string>* unsupported);
+/// The <geometry> of a collision or visual as a shape at the origin; nothing when there is no
+/// counterpart, which `unsupported` then names.
+/// @param what names the thing, e.g. "collision 'c' of 'model::link'".
+/// @throws std::runtime_error when a number is missing or is not one.
+std::optional<SdfShape> readShape(const tinyxml2::XMLElement& thing, const std::string& what,
+                                  std::set<std::string>* unsupported);
 /// Friction and contact parameters of a <collision>.
-SdfSurface readSurface(const sdf::ElementPtr& collision, const std::string& what,
+SdfSurface readSurface(const tinyxml2::XMLElement& collision, const std::string& what,
                        std::set<std::string>* unsupported);
 /// A visual's one colour: its diffuse colour, or that of a plain material of Gazebo's. Nothing when
 /// it has no material.
-std::optional<std::array<double, 4>> readColour(const sdf::Visual& visual, const std::string& what,
-                                                std::set<std::string>* unsupported);
+std::optional<std::array<double, 4>> readMaterial(const tinyxml2::XMLElement& visual,
+                                                  const std::string& what,
+                                                  std::set<std::string>* unsupported);
 
 }  // namespace franka_sim_mujoco::physics

@@ -89,6 +89,30 @@ std::string optional(const tinyxml2::XMLElement& element, const char* attribute)
   return text == nullptr ? std::string() : std::string(text);
 }
 
+std::string childText(const tinyxml2::XMLElement& element, const char* name) {
+  const tinyxml2::XMLElement* child = element.FirstChildElement(name);
+  return child != nullptr && child->GetText() != nullptr ? child->GetText() : "";
+}
+
+bool isTrue(const tinyxml2::XMLElement& element, const char* name, bool fallback) {
+  const std::string text = childText(element, name);
+  return text.empty() ? fallback : text == "true" || text == "True" || text == "1";
+}
+
+std::vector<double> childNumbers(const tinyxml2::XMLElement& element, const char* name,
+                                 const std::vector<double>& fallback, const std::string& where) {
+  const std::string text = childText(element, name);
+  if (text.empty()) {
+    return fallback;
+  }
+  std::vector<double> values = toNumbers(text, where + ", <" + name + ">");
+  if (values.size() != fallback.size()) {
+    throw std::runtime_error(where + ": <" + name + "> needs " + std::to_string(fallback.size()) +
+                             " numbers and has " + std::to_string(values.size()) + ".");
+  }
+  return values;
+}
+
 tinyxml2::XMLElement* append(tinyxml2::XMLNode* parent, const char* name) {
   tinyxml2::XMLElement* element = parent->GetDocument()->NewElement(name);
   parent->InsertEndChild(element);

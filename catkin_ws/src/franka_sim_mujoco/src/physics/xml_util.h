@@ -34,6 +34,15 @@ std::string required(const tinyxml2::XMLElement& element, const char* attribute,
 /// The attribute's text, empty when missing.
 std::string optional(const tinyxml2::XMLElement& element, const char* attribute);
 
+/// The text of a child element, empty when there is none.
+std::string childText(const tinyxml2::XMLElement& element, const char* name);
+/// Whether a child element says true or 1; `fallback` when there is none.
+bool isTrue(const tinyxml2::XMLElement& element, const char* name, bool fallback = false);
+/// The numbers in a child element; `fallback` when there is none.
+/// @throws std::runtime_error when it does not hold exactly `fallback.size()` finite numbers.
+std::vector<double> childNumbers(const tinyxml2::XMLElement& element, const char* name,
+                                 const std::vector<double>& fallback, const std::string& where);
+
 /// Appends a child element and returns it.
 tinyxml2::XMLElement* append(tinyxml2::XMLNode* parent, const char* name);
 /// Sets position and quaternion attributes, leaving out what is the identity.
