@@ -45,6 +45,29 @@ def foreign_python(tmp_path):
     return f"{tmp_path}:{os.environ['PATH']}"
 
 
+@pytest.mark.parametrize("release", ["bookworm", "trixie"])
+def test_packages_depend_on_the_release(release):
+    names = in_script(f"debian_release() {{ echo {release}; }}; wanted_packages").splitlines()
+    assert {"catkin", "libmujoco-dev"} <= set(names)
+    assert {"libsdformat-dev", "python3-nose"} & set(names) == (
+        {"libsdformat-dev", "python3-nose"} if release == "bookworm" else set()
+    )
+    assert all(" " not in name and "[" not in name for name in names)
+
+
+@pytest.mark.parametrize("system", ["ID=ubuntu\nVERSION_CODENAME=noble\nPRETTY_NAME='Ubuntu 24.04'\n", None])
+def test_another_system_is_refused_with_a_sentence(tmp_path, system):
+    file = tmp_path / "os-release"
+    if system:
+        file.write_text(system)
+    result = subprocess.run(
+        ["bash", "-c", f"source {FRANKA}; debian_release {file}"], text=True, capture_output=True, timeout=60
+    )
+    assert result.returncode == 1 and result.stdout == ""
+    assert ("Ubuntu 24.04" if system else "unknown") in result.stderr
+    assert "Debian 12 (bookworm) and Debian 13 (trixie)" in result.stderr
+
+
 def test_help_names_every_command():
     result = franka("--help")
     assert result.returncode == 0

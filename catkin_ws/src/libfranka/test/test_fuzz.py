@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every decoder of the codec under libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer.
 
-A few seconds each; an hour each with FRANKA_TEST_LONG=1 (decision 39). Needs clang-14 and
-libclang-rt-14-dev.
+A few seconds each; an hour each with FRANKA_TEST_LONG=1 (decision 39). Needs clang-22 and
+libclang-rt-22-dev.
 """
 
 import os
@@ -49,8 +49,8 @@ def compile_object(compiler, source, build):
 @pytest.fixture(scope="module")
 def codec(tmp_path_factory):
     """The codec's objects and the compiler, built once for all targets."""
-    compiler = shutil.which("clang++-14") or shutil.which("clang++")
-    assert compiler, "No clang++-14: install the Debian packages clang-14 and libclang-rt-14-dev."
+    compiler = shutil.which("clang++-22") or shutil.which("clang++")
+    assert compiler, "No clang++-22: install the Debian packages clang-22 and libclang-rt-22-dev."
     build = tmp_path_factory.mktemp("fuzz")
     sources = [*sorted((PACKAGE / "src" / "fci").glob("*.cpp")), PACKAGE / "src" / "core" / "payload.cpp"]
     with ThreadPoolExecutor(2) as pool:

@@ -51,7 +51,7 @@ def program(tmp_path_factory):
     path = folder / "program"
     command = [found[0], "-std=c++17", "-O1", "-g", "-fsanitize=realtime", *INCLUDES]
     command += [*map(str, SOURCES), "-o", str(path), *LIBRARIES]
-    build = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    build = subprocess.run(command, capture_output=True, text=True, check=False, timeout=800)
     assert build.returncode == 0, build.stderr
     return path
 
