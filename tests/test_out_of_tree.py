@@ -13,7 +13,7 @@ import pytest
 from overlay import Overlay
 
 TOP = Path(__file__).resolve().parent.parent
-PACKAGE = TOP / "tests" / "out_of_tree" / "my_arm"
+PACKAGES = TOP / "tests" / "out_of_tree"
 AWAY = 0.1  # [rad], as in the launch file
 BEGIN = -2.356194490192345  # of the fourth joint [rad]
 
@@ -47,7 +47,7 @@ def where(overlay: Overlay, launch: subprocess.Popen, log: Path) -> tuple[str, i
 @pytest.mark.parametrize("space", ["devel", "install"])
 def test_package_builds_and_runs(space, tmp_path, request):
     underlay = TOP / "catkin_ws" / "devel" if space == "devel" else request.getfixturevalue("installed")
-    overlay = Overlay(underlay, PACKAGE, tmp_path)
+    overlay = Overlay(underlay, PACKAGES / "my_arm", tmp_path)
     overlay.build()
     address = "127.0.41.1" if space == "devel" else "127.0.41.2"
     simulator = f"$(catkin_find --first-only --libexec franka_sim_mujoco franka_sim) --ip {address}"
@@ -70,3 +70,13 @@ def test_package_builds_and_runs(space, tmp_path, request):
         assert commands > 500
     finally:
         end(robot)
+
+
+@pytest.mark.parametrize("space", ["devel", "install"])
+def test_callbacks_may_be_bound_as_on_ros_1s_own_systems(space, tmp_path, request):
+    """boost::bind with _1 from the global namespace, beside std::bind: not ambiguous, and no warning."""
+    underlay = TOP / "catkin_ws" / "devel" if space == "devel" else request.getfixturevalue("installed")
+    overlay = Overlay(underlay, PACKAGES / "bound_callbacks", tmp_path)
+    log = overlay.build("all" if space == "devel" else "call_bound")
+    assert "deprecated" not in log, log
+    assert overlay.run("rosrun bound_callbacks call_bound") == "21 43 57\n"

@@ -37,14 +37,16 @@ class Overlay:
             stdin=subprocess.DEVNULL,
         )
 
-    def build(self) -> None:
+    def build(self, target: str = "all") -> str:
+        """Builds a target with all warnings as errors. Returns what the tools said."""
         command = (
             f"cmake -S {self.package} -B {self.folder}/build -DCATKIN_DEVEL_PREFIX={self.folder}/devel "
             "-DCMAKE_CXX_FLAGS='-O0 -Wall -Wextra -Werror' -DPYTHON_EXECUTABLE=/usr/bin/python3 "
-            f"&& make -C {self.folder}/build -j2"
+            f"&& make -C {self.folder}/build -j2 {target}"
         )
         result = self.shell(command, self.underlay, timeout=600)
         assert result.returncode == 0, (result.stdout + result.stderr)[-4000:]
+        return result.stdout + result.stderr
 
     def run(self, command: str, timeout: float = 60) -> str:
         result = self.shell(command, self.folder / "devel", timeout)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <actionlib/server/simple_action_server.h>
+#include <boost_bind_compat/global_placeholders.h>
 #include <control_msgs/GripperCommandAction.h>
 #include <franka/gripper.h>
 #include <franka/gripper_state.h>

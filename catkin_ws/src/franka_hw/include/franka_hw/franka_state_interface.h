@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost_bind_compat/global_placeholders.h>
 #include <franka/robot_state.h>
 #include <hardware_interface/internal/hardware_resource_manager.h>
 

@@ -25,6 +25,7 @@ SOURCES = [
 INCLUDES = [
     f"-I{PACKAGES / package / 'include'}"
     for package in (
+        "boost_bind_compat",
         "controller_interface",
         "controller_manager",
         "hardware_interface",

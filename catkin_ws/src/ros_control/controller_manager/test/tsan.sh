@@ -26,7 +26,7 @@ fi
 
 # The headers of every workspace on the prefix path, and of the neighbours in the source tree.
 includes="-I$package/include"
-for neighbour in hardware_interface controller_interface; do
+for neighbour in boost_bind_compat hardware_interface controller_interface; do
   includes="$includes -I$package/../$neighbour/include"
 done
 prefixes=$(printf '%s' "${CMAKE_PREFIX_PATH:-}" | tr ':' ' ')

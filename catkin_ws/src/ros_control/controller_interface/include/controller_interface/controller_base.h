@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost_bind_compat/global_placeholders.h>
 #include <hardware_interface/interface_resources.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/console.h>

@@ -20,7 +20,7 @@ class MultiInterfaceController : public virtual ControllerBase {
  public:
   /// @param allow_optional_interfaces whether the robot may lack some of the interfaces; then
   /// get<...>() of that type is nullptr in init.
-  explicit MultiInterfaceController(bool allow_optional_interfaces = false)
+  MultiInterfaceController(bool allow_optional_interfaces = false)
       : allow_optional_interfaces_(allow_optional_interfaces) {}
 
   /// Takes the handles the controller needs; override this one or the one with three arguments

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost_bind_compat/global_placeholders.h>
+
 #include <exception>
 #include <set>
 #include <string>
@@ -30,7 +32,7 @@ class HardwareInterface {
 /// Something is wrong with a hardware interface or with one of its resources.
 class HardwareInterfaceException : public std::exception {
  public:
-  explicit HardwareInterfaceException(const std::string& message) : message_(message) {}
+  HardwareInterfaceException(const std::string& message) : message_(message) {}
 
   const char* what() const noexcept override { return message_.c_str(); }
 

@@ -10,7 +10,7 @@ namespace joint_limits_interface {
 /// Limits cannot be enforced: they lack a value, or there is no handle of that name.
 class JointLimitsInterfaceException : public std::exception {
  public:
-  explicit JointLimitsInterfaceException(const std::string& message) : message_(message) {}
+  JointLimitsInterfaceException(const std::string& message) : message_(message) {}
 
   const char* what() const noexcept override { return message_.c_str(); }
 

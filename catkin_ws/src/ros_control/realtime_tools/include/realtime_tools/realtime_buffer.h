@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost_bind_compat/global_placeholders.h>
+
 #include <array>
 #include <atomic>
 #include <mutex>
@@ -25,7 +27,7 @@ template <class T>
 class RealtimeBuffer {
  public:
   RealtimeBuffer() = default;
-  explicit RealtimeBuffer(const T& data) : slots_{{data, data, data}}, latest_(data) {}
+  RealtimeBuffer(const T& data) : slots_{{data, data, data}}, latest_(data) {}
   /// Copies the value last given to `source`.
   RealtimeBuffer(const RealtimeBuffer& source) : RealtimeBuffer(source.copyOfLatest()) {}
   /// Likewise; no other thread may use this buffer meanwhile.

@@ -5,6 +5,7 @@
 #include <actionlib/action_definition.h>
 #include <actionlib/server/action_server.h>
 #include <actionlib_msgs/GoalStatus.h>
+#include <boost_bind_compat/global_placeholders.h>
 #include <ros/timer.h>
 
 #include <atomic>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost_bind_compat/global_placeholders.h>
+#include <ros/ros.h>
 #include <tinyxml.h>
 #include <transmission_interface/transmission_info.h>
 

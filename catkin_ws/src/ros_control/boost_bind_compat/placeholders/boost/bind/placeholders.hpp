@@ -1,0 +1,42 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Takes the place of Boost's header of this name, under the same include guard.
+//
+// With Boost's own, _1 in the global namespace is another variable than std::placeholders::_1, and
+// code with `using namespace std::placeholders` becomes ambiguous. Here both are one variable,
+// which boost::bind and std::bind accept alike: Boost looks at boost::is_placeholder only, and
+// what boost::bind returns keeps its type.
+#ifndef BOOST_BIND_PLACEHOLDERS_HPP_INCLUDED
+#define BOOST_BIND_PLACEHOLDERS_HPP_INCLUDED
+
+#include <boost/bind/arg.hpp>
+#include <functional>
+#include <type_traits>
+
+#define BOOST_BIND_COMPAT_PLACEHOLDER(number)                                           \
+  template <>                                                                           \
+  struct is_placeholder<std::remove_cv<decltype(std::placeholders::_##number)>::type> { \
+    enum _vt { value = number };                                                        \
+  };                                                                                    \
+  namespace placeholders {                                                              \
+  using std::placeholders::_##number;                                                   \
+  }
+
+namespace boost {
+
+BOOST_BIND_COMPAT_PLACEHOLDER(1)
+BOOST_BIND_COMPAT_PLACEHOLDER(2)
+BOOST_BIND_COMPAT_PLACEHOLDER(3)
+BOOST_BIND_COMPAT_PLACEHOLDER(4)
+BOOST_BIND_COMPAT_PLACEHOLDER(5)
+BOOST_BIND_COMPAT_PLACEHOLDER(6)
+BOOST_BIND_COMPAT_PLACEHOLDER(7)
+BOOST_BIND_COMPAT_PLACEHOLDER(8)
+BOOST_BIND_COMPAT_PLACEHOLDER(9)
+
+}  // namespace boost
+
+#undef BOOST_BIND_COMPAT_PLACEHOLDER
+
+#endif
