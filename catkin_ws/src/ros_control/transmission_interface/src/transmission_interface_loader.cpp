@@ -100,15 +100,8 @@ bool TransmissionInterfaceLoader::load(const TransmissionInfo& transmission_info
 
 bool TransmissionInterfaceLoader::load(const std::vector<TransmissionInfo>& transmission_info_vec) {
   std::vector<Plan> plans(transmission_info_vec.size());
-  std::set<std::string> names = loaded_;
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    const TransmissionInfo& info = transmission_info_vec[i];
-    if (!names.insert(info.name_).second) {
-      ROS_ERROR_STREAM("Failed to load transmission '" << info.name_ << "', because another one of "
-                                                       << "that name is there already.");
-      return false;
-    }
-    if (!makePlan(info, plans[i])) {
+    if (!makePlan(transmission_info_vec[i], plans[i])) {
       return false;
     }
   }
@@ -185,6 +178,11 @@ bool TransmissionInterfaceLoader::createProviders(const TransmissionInfo& info,
 }
 
 bool TransmissionInterfaceLoader::carryOut(const Plan& plan) {
+  if (!loaded_.insert(plan.info.name_).second) {
+    ROS_WARN_STREAM("Transmission '" << plan.info.name_ << "' is described twice: the later "
+                                     << "description takes the place of the earlier one. Give each "
+                                     << "transmission a name of its own.");
+  }
   bool absolute = plan.transmission->hasActuatorToJointAbsolutePosition();
   bool torque = plan.transmission->hasActuatorToJointTorqueSensor();
   if (auto* states = robot_hw_ptr_->get<ActuatorStateInterface>()) {
@@ -210,9 +208,8 @@ bool TransmissionInterfaceLoader::carryOut(const Plan& plan) {
         !provider->loadTransmissionMaps(plan.info, loader_data_, plan.transmission)) {
       return false;
     }
+    loader_data_.transmission_data.push_back(plan.transmission);
   }
-  loader_data_.transmission_data.push_back(plan.transmission);
-  loaded_.insert(plan.info.name_);
   return true;
 }
 

@@ -403,11 +403,27 @@ TEST_F(Loading, oneBadTransmissionStopsAll) {
                                     actuator("m9", role("actuator2") + reduction("1"))));
 }
 
-TEST_F(Loading, refusesATransmissionTwice) {
-  expectRefusal(simple() + simple());
-  ASSERT_TRUE(load(simple()));
-  EXPECT_FALSE(load(simple()));
-  EXPECT_EQ(1u, loader_.getData()->transmission_data.size());
+TEST_F(Loading, aSecondTransmissionOfANameReplacesTheFirst) {
+  ASSERT_TRUE(load(simple() + simple({kEffort}, reduction("20"))));
+  EXPECT_EQ(2u, loader_.getData()->transmission_data.size());
+  auto* efforts = transmissions_.get<JointToActuatorEffortInterface>();
+  ASSERT_NE(nullptr, efforts);
+  EXPECT_THAT(efforts->getNames(), ElementsAre("gear"));
+  const auto effort = [&] {
+    motors_.get<EffortJointInterface>()->getHandle("j1").setCommand(80.0);
+    efforts->propagate();
+    return motors_.get<hardware_interface::EffortActuatorInterface>()->getHandle("m1").getCommand();
+  };
+  EXPECT_EQ(4.0, effort());
+  ASSERT_TRUE(load(simple({kEffort}, reduction("40"))));
+  EXPECT_EQ(2.0, effort());
+}
+
+TEST_F(Loading, keepsATransmissionOnceForEveryInterface) {
+  ASSERT_TRUE(load(simple({"hardware_interface/PositionJointInterface", kEffort})));
+  const auto& data = loader_.getData()->transmission_data;
+  ASSERT_EQ(2u, data.size());
+  EXPECT_EQ(data[0], data[1]);
 }
 
 TEST_F(Loading, refusesDescriptionsWithoutTransmissions) {

@@ -154,6 +154,12 @@ std::string refusal(Action action) {
 
 }  // namespace
 
+TEST(SimpleTransmissions, areMadeFromABracedList) {
+  const SimpleTransmission gear = {10.0, 1.0};
+  EXPECT_EQ(10.0, gear.getActuatorReduction());
+  EXPECT_EQ(1.0, gear.getJointOffset());
+}
+
 TEST_F(Transmissions, thereAndBackAgainChangesNothing) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);

@@ -14,7 +14,7 @@ namespace controller_manager {
 class ControllerLoaderInterface {
  public:
   /// @param name of the loader, shown as the base class of its types
-  explicit ControllerLoaderInterface(const std::string& name) : name_(name) {}
+  ControllerLoaderInterface(const std::string& name) : name_(name) {}
   virtual ~ControllerLoaderInterface() = default;
 
   /// Makes a controller. @throws std::runtime_error saying why there is none.

@@ -5,6 +5,12 @@
 #include <controller_interface/controller_base.h>
 #include <controller_manager/controller_loader_interface.h>
 #include <controller_manager/controller_spec.h>
+#include <controller_manager_msgs/ListControllerTypes.h>
+#include <controller_manager_msgs/ListControllers.h>
+#include <controller_manager_msgs/LoadController.h>
+#include <controller_manager_msgs/ReloadControllerLibraries.h>
+#include <controller_manager_msgs/SwitchController.h>
+#include <controller_manager_msgs/UnloadController.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
@@ -65,8 +71,8 @@ class ControllerManager {
   /// @param nh below which controllers find their parameters; its queue answers the services,
   /// except the two that may wait for the loop: those have threads of their own.
   /// @throws std::invalid_argument with a sentence when one of the parameters above makes no sense
-  explicit ControllerManager(hardware_interface::RobotHW* robot_hw,
-                             const ros::NodeHandle& nh = ros::NodeHandle());
+  ControllerManager(hardware_interface::RobotHW* robot_hw,
+                    const ros::NodeHandle& nh = ros::NodeHandle());
 
   /// The loop must have ended.
   virtual ~ControllerManager();

@@ -46,6 +46,16 @@ EXPECT_TYPE(bool, of<ControllerManager>().switchController(Names(), Names(), 2))
 EXPECT_TYPE(bool, of<ControllerManager>().switchController(Names(), Names(), 2, true, 1.0));
 EXPECT_TYPE(void,
             of<ControllerManager>().registerControllerLoader(ControllerLoaderInterfaceSharedPtr()));
+// What the original's header brings along.
+EXPECT_TYPE(bool, static_cast<bool>(of<controller_manager_msgs::LoadController>().response.ok));
+EXPECT_TYPE(bool, static_cast<bool>(of<controller_manager_msgs::UnloadController>().response.ok));
+EXPECT_TYPE(bool, static_cast<bool>(of<controller_manager_msgs::SwitchController>().response.ok));
+EXPECT_TYPE(controller_manager_msgs::ListControllers&,
+            of<controller_manager_msgs::ListControllers>());
+EXPECT_TYPE(controller_manager_msgs::ListControllerTypes&,
+            of<controller_manager_msgs::ListControllerTypes>());
+EXPECT_TYPE(controller_manager_msgs::ReloadControllerLibraries&,
+            of<controller_manager_msgs::ReloadControllerLibraries>());
 struct Manager : ControllerManager {
   using ControllerManager::ControllerManager;
   ControllerBase* getControllerByName(const std::string& name) override {

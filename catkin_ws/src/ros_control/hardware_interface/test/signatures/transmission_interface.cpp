@@ -66,6 +66,7 @@ struct Own : Transmission {
 };
 EXPECT_TYPE(TransmissionSharedPtr, std::shared_ptr<Transmission>());
 EXPECT_BASE(Transmission, SimpleTransmission);
+SimpleTransmission made_from_a_list = {10.0, 1.0};
 EXPECT_TYPE(double, SimpleTransmission(1.0).getActuatorReduction());
 EXPECT_TYPE(double, SimpleTransmission(1.0, 0.0).getJointOffset());
 template <class T>

@@ -67,6 +67,7 @@ struct TransmissionLoaderData {
   RawJointDataMap raw_joint_data_map;
   ForwardTransmissionInterfaces forward_transmission_interfaces;
   InverseTransmissionInterfaces inverse_transmission_interfaces;
+  /// In the order of loading, each once for every interface of its joints.
   std::vector<TransmissionSharedPtr> transmission_data;
 };
 

@@ -21,7 +21,7 @@ class SimpleTransmission : public Transmission {
   /// @param reduction n, turns of the actuator for one of the joint
   /// @param joint_offset position of the joint where the actuator's is zero [rad] or [m]
   /// @throws TransmissionInterfaceException when the reduction is zero.
-  explicit SimpleTransmission(const double reduction, const double joint_offset = 0.0)
+  SimpleTransmission(const double reduction, const double joint_offset = 0.0)
       : reduction_(reduction), joint_offset_(joint_offset) {
     if (reduction == 0.0) {
       throw TransmissionInterfaceException("Transmission reduction ratio cannot be zero.");

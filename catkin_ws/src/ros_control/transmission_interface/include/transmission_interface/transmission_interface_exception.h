@@ -10,7 +10,7 @@ namespace transmission_interface {
 /// A transmission or a handle on one cannot be made as asked, or there is no handle of that name.
 class TransmissionInterfaceException : public std::exception {
  public:
-  explicit TransmissionInterfaceException(const std::string& message) : message_(message) {}
+  TransmissionInterfaceException(const std::string& message) : message_(message) {}
 
   const char* what() const noexcept override { return message_.c_str(); }
 

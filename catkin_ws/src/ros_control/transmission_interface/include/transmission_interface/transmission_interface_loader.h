@@ -32,7 +32,7 @@ class TransmissionInterfaceLoader {
                               RobotTransmissions* robot_transmissions);
 
   /// Loads all transmissions of a robot description that TransmissionParser accepts. If one of them
-  /// cannot be made, none is.
+  /// cannot be made, none is. One whose name was loaded before replaces that one, with a warning.
   /// @param urdf_string the XML text itself
   /// @returns false, with a sentence in the log, on errors and when there is no transmission.
   bool load(const std::string& urdf_string);

@@ -66,12 +66,13 @@ bool getActuatorHandles(const TransmissionInfo& info, hardware_interface::RobotH
 }
 
 /// Registers one map of a transmission, unless that has been done for another interface of the same
-/// joints. @throws TransmissionInterfaceException for data that do not fit the transmission.
+/// joints. The map of another transmission of that name is replaced. @throws
+/// TransmissionInterfaceException for data that do not fit the transmission.
 template <class Interface>
 void addMap(RobotTransmissions& transmissions, Interface& own, const std::string& name,
             Transmission* transmission, const ActuatorData& actuators, const JointData& joints) {
   Interface& interface = provided(transmissions, own);
-  if (!hasResource(name, interface)) {
+  if (!hasResource(name, interface) || !interface.getHandle(name).maps(transmission)) {
     interface.registerHandle(
         typename Interface::ResourceHandleType(name, transmission, actuators, joints));
     refresh(transmissions, own);

@@ -17,6 +17,10 @@ namespace transmission_interface {
 class TransmissionHandle {
  public:
   std::string getName() const { return name_; }
+  /// Whether it is this transmission that the handle maps with.
+  bool maps(const Transmission* transmission) const noexcept {
+    return transmission_ == transmission;
+  }
 
  protected:
   /// @param transmission must outlive the handle; so must the values the data point at
