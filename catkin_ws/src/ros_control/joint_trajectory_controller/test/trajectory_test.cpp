@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Splines, messages, splicing and tolerances, without a ROS master.
 #include <gtest/gtest.h>
+#include <hardware_interface/joint_command_interface.h>
 #include <joint_trajectory_controller/hold_trajectory_builder.h>
 #include <joint_trajectory_controller/init_joint_trajectory.h>
 #include <joint_trajectory_controller/stop_trajectory_builder.h>
+#include <rt_guard/rt_guard.h>
 #include <trajectory_interface/quintic_spline_segment.h>
 
 #include <cmath>
@@ -316,6 +318,24 @@ TEST_F(SpliceTest, DropsPointsOfThePast) {
       error_);
 }
 
+TEST_F(SpliceTest, NeedsTwoPointsWithoutACurrentTrajectory) {
+  options_.current_trajectory = nullptr;
+  const Trajectory result = convert();
+  ASSERT_EQ(2u, result.size());
+  for (const std::vector<Segment>& joint : result) {
+    ASSERT_EQ(1u, joint.size());
+    EXPECT_EQ(5.0, joint[0].startTime());
+    EXPECT_EQ(6.0, joint[0].endTime());
+  }
+  // One point is left, first because the other is past, then because there is no other.
+  msg_.header.stamp = ros::Time(98.5);
+  EXPECT_TRUE(convert().empty());
+  EXPECT_NE(std::string::npos, error_.find("makes no trajectory without a current one")) << error_;
+  msg_.header.stamp = ros::Time();
+  msg_.points.pop_back();
+  EXPECT_TRUE(convert().empty());
+}
+
 TEST_F(SpliceTest, PartialMessagesLeaveOtherJointsAlone) {
   current_ = convert();
   msg_.joint_names = {"b"};
@@ -419,30 +439,71 @@ TEST(Messages, PointsAreFoundByTime) {
   EXPECT_EQ(msg.points.begin() + 1, jtc::findPoint(msg, ros::Time(99.0)));
 }
 
-TEST(StatePermutation, SortsAndChecks) {
-  const Segment::State state(pointOf(1.5, {1, 2, 3}, {4, 5, 6}), {2, 0, 1}, {0.5, 0, 0});
-  EXPECT_EQ((std::vector<double>{2.5, 3, 1}), state.position);
-  EXPECT_EQ((std::vector<double>{5, 6, 4}), state.velocity);
+TEST(SegmentOfPoints, TakesOverWhatTheySay) {
+  const Segment::State state(pointOf(1.5, {1, 2, 3}, {4, 5, 6}), {0.5, 0, -1});
+  EXPECT_EQ((std::vector<double>{1.5, 2, 2}), state.position);
+  EXPECT_EQ((std::vector<double>{4, 5, 6}), state.velocity);
+  EXPECT_TRUE(state.acceleration.empty());
   EXPECT_EQ(1.5, state.time_from_start);
-  EXPECT_THROW(Segment::State(pointOf(0, {1, 2}), {0, 2}), std::invalid_argument);
   EXPECT_THROW(Segment::State(pointOf(0, {1, 2}), {0}), std::invalid_argument);
   EXPECT_THROW(Segment::State(pointOf(0, {1, 2}, {1})), std::invalid_argument);
+
+  const Segment segment(ros::Time(10.0), pointOf(1.0, {1, 2}), pointOf(3.0, {5, 6}), {0.5, -0.5});
+  EXPECT_EQ(11.0, segment.startTime());
+  EXPECT_EQ(13.0, segment.endTime());
+  Segment::State sampled;
+  segment.sample(12.0, sampled);
+  EXPECT_EQ((std::vector<double>{3.5, 3.5}), sampled.position);
+  EXPECT_EQ(nullptr, segment.getGoalHandle());
 }
 
-TEST(Builders, HoldAndStop) {
+/// Two joints that tests move.
+struct Joints {
+  Joints() {
+    for (std::size_t i = 0; i < 2; ++i) {
+      handles.emplace_back(hardware_interface::JointStateHandle("j" + std::to_string(i),
+                                                                &position[i], &velocity, &effort),
+                           &command);
+    }
+  }
+  double position[2]{1.0, -2.0};
+  double velocity{0.7};
+  double effort{0.0};
+  double command{0.0};
+  std::vector<hardware_interface::JointHandle> handles;
+};
+
+typedef jtc::HoldTrajectoryBuilder<Spline, hardware_interface::PositionJointInterface> HoldBuilder;
+typedef jtc::StopTrajectoryBuilder<Spline> StopBuilder;
+
+TEST(Builders, HoldWhereTheJointsAre) {
+  Joints joints;
+  HoldBuilder hold(joints.handles);
+  Trajectory trajectory;
+  ASSERT_TRUE(hold.setStartTime(3.0)->buildTrajectory(&trajectory));
+  joints.position[1] = 5.0;
+  ASSERT_TRUE(hold.setStartTime(4.0)->buildTrajectory(&trajectory));
+  ASSERT_EQ(2u, trajectory.size());
+  for (std::size_t i : {0, 1}) {
+    ASSERT_EQ(1u, trajectory[i].size());
+    EXPECT_EQ(4.0, trajectory[i][0].startTime());
+    EXPECT_EQ(4.0, trajectory[i][0].endTime());
+    Segment::State sampled;
+    trajectory_interface::sample(trajectory[i], 4.0, sampled);
+    EXPECT_EQ(joints.position[i], sampled.position[0]);
+    EXPECT_EQ(0.0, sampled.velocity[0]);
+    EXPECT_EQ(0.0, sampled.acceleration[0]);
+  }
+}
+
+TEST(Builders, StopWithinTheTimeGiven) {
   Segment::State state(1);
   state.position = {1.0};
   state.velocity = {2.0};
   Trajectory trajectory;
   Segment::State sampled;
-  jtc::HoldTrajectoryBuilder<Spline> hold(state);
-  hold.setStartTime(3.0)->buildTrajectory(&trajectory);
-  trajectory_interface::sample(trajectory[0], 3.0, sampled);
-  EXPECT_EQ(1.0, sampled.position[0]);
-  EXPECT_EQ(0.0, sampled.velocity[0]);
-
-  jtc::StopTrajectoryBuilder<Spline> stop(0.5, state);
-  stop.setStartTime(3.0)->buildTrajectory(&trajectory);
+  StopBuilder stop(0.5, state);
+  ASSERT_TRUE(stop.setStartTime(3.0)->buildTrajectory(&trajectory));
   for (double t : {0.0, 0.1, 0.25, 0.5}) {
     // Uniform deceleration: v(t) = v0 (1 - t/D), p(t) = p0 + v0 (t - t^2 / 2D).
     trajectory_interface::sample(trajectory[0], 3.0 + t, sampled);
@@ -451,6 +512,45 @@ TEST(Builders, HoldAndStop) {
   }
   trajectory_interface::sample(trajectory[0], 9.0, sampled);
   EXPECT_NEAR(1.5, sampled.position[0], 1e-12);
+}
+
+TEST(Builders, PassTheGoalOnUntilReset) {
+  Segment::State state(2);
+  Joints joints;
+  HoldBuilder hold(joints.handles);
+  StopBuilder stop(0.5, state);
+  Segment::RealtimeGoalHandle::GoalHandle gh;
+  Segment::RealtimeGoalHandlePtr goal(new Segment::RealtimeGoalHandle(gh));
+  for (jtc::TrajectoryBuilder<Spline>* builder :
+       {static_cast<jtc::TrajectoryBuilder<Spline>*>(&hold),
+        static_cast<jtc::TrajectoryBuilder<Spline>*>(&stop)}) {
+    Trajectory trajectory;
+    EXPECT_FALSE(builder->buildTrajectory(&trajectory)) << "without a start time";
+    EXPECT_TRUE(trajectory.empty());
+    EXPECT_FALSE(builder->setStartTime(1.0)->buildTrajectory(nullptr));
+    ASSERT_TRUE(builder->setGoalHandle(goal)->buildTrajectory(&trajectory));
+    EXPECT_EQ(goal, trajectory[1][0].getGoalHandle());
+    builder->reset();
+    EXPECT_FALSE(builder->buildTrajectory(&trajectory));
+    ASSERT_TRUE(builder->setStartTime(1.0)->buildTrajectory(&trajectory));
+    EXPECT_EQ(nullptr, trajectory[1][0].getGoalHandle());
+  }
+}
+
+TEST(Builders, BuildAgainWithoutAllocating) {
+  Segment::State state(2);
+  Joints joints;
+  HoldBuilder hold(joints.handles);
+  StopBuilder stop(0.5, state);
+  Trajectory held;
+  Trajectory stopped;
+  hold.setStartTime(1.0)->buildTrajectory(&held);
+  stop.setStartTime(1.0)->buildTrajectory(&stopped);
+  rt_guard::Scope scope;
+  hold.setStartTime(2.0)->buildTrajectory(&held);
+  stop.setStartTime(2.0)->buildTrajectory(&stopped);
+  EXPECT_EQ(0u, scope.allocations());
+  EXPECT_EQ(0u, scope.locks());
 }
 
 TEST(Tolerances, CheckAndOverride) {

@@ -4,34 +4,55 @@
 
 #include <joint_trajectory_controller/trajectory_builder.h>
 
-namespace joint_trajectory_controller {
+#include <vector>
 
-/// Holds the position of a state: one segment a joint, without length and at rest.
-template <class SegmentImpl>
+namespace joint_trajectory_controller {
+namespace internal {
+
+/// Sets a segment without length, at rest. @param[in,out] state with one position, velocity and
+/// acceleration; gets the position. Real-time safe when the segment had as many before.
+template <class Segment>
+void setHold(const typename Segment::Time& time, const typename Segment::Scalar& position,
+             typename Segment::State& state, Segment& segment) {
+  state.position[0] = position;
+  segment.init(time, state, time, state);
+}
+
+}  // namespace internal
+
+/// Holds the positions that joints have when the trajectory is built: one segment a joint, without
+/// length and at rest.
+/// @tparam HardwareInterface of the joints, whose handles have getPosition()
+template <class SegmentImpl, class HardwareInterface>
 class HoldTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
  public:
   typedef typename TrajectoryBuilder<SegmentImpl>::Segment Segment;
   typedef typename TrajectoryBuilder<SegmentImpl>::Trajectory Trajectory;
-  typedef typename Segment::State State;
+  typedef typename TrajectoryBuilder<SegmentImpl>::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
+  typedef typename HardwareInterface::ResourceHandleType JointHandle;
 
-  /// @param state with one position a joint; it must outlive the builder.
-  explicit HoldTrajectoryBuilder(const State& state) : state_(state), joint_state_(1) {}
+  /// @param joints must outlive the builder.
+  HoldTrajectoryBuilder(const std::vector<JointHandle>& joints) : joints_(joints), state_(1) {}
 
+  /// As of TrajectoryBuilder; by a thread that may read the joints.
   bool buildTrajectory(Trajectory* trajectory) override {
-    trajectory->resize(state_.position.size());
-    for (std::size_t i = 0; i < trajectory->size(); ++i) {
-      joint_state_.position[0] = state_.position[i];
+    if (trajectory == nullptr || !this->getStartTime()) {
+      return false;
+    }
+    const RealtimeGoalHandlePtr goal_handle = this->createGoalHandlePtr();
+    trajectory->resize(joints_.size());
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
       (*trajectory)[i].resize(1);
       Segment& segment = (*trajectory)[i][0];
-      segment.init(this->start_time_, joint_state_, this->start_time_, joint_state_);
-      segment.setGoalHandle(this->goal_handle_);
+      internal::setHold(*this->getStartTime(), joints_[i].getPosition(), state_, segment);
+      segment.setGoalHandle(goal_handle);
     }
     return true;
   }
 
  private:
-  const State& state_;
-  State joint_state_;
+  const std::vector<JointHandle>& joints_;
+  typename Segment::State state_;
 };
 
 }  // namespace joint_trajectory_controller

@@ -166,6 +166,11 @@ class TrajectoryInitializer {
       options_.setErrorString(text);
       return false;
     }
+    if (options_.current_trajectory == nullptr && first_point_ + 1 == msg_.points.end()) {
+      return refuse(
+          "Cannot create trajectory from message. One point that is not in the past makes no "
+          "trajectory without a current one that leads to it.");
+    }
     // Planners begin with the present state; dropping that alone is nobody's mistake.
     const bool expected =
         dropped == 1 && msg_.header.stamp.isZero() && msg_.points[0].time_from_start.isZero();
@@ -197,9 +202,6 @@ class TrajectoryInitializer {
     Scalar offset = 0;
     if (options_.current_trajectory) {
       offset = bridge(joint, index, tolerances, result);
-    } else if (first_point_ + 1 == msg_.points.end()) {
-      const State only = stateOf(*first_point_, index, 0);
-      append(timeOf(*first_point_), only, timeOf(*first_point_), only, tolerances, result);
     }
     for (PointIterator point = first_point_; point + 1 != msg_.points.end(); ++point) {
       append(timeOf(*point), stateOf(*point, index, offset), timeOf(*(point + 1)),
@@ -319,10 +321,11 @@ class TrajectoryInitializer {
 
 /// Turns a message into a trajectory, spliced to the current one.
 ///
-/// Points at or before `time` are dropped; each joint keeps its current trajectory until the
-/// message starts, then goes in one segment to the first point left. A first point at the very
-/// start of a later message is where the joint must be by then: a joint whose current trajectory
-/// comes by there keeps it; another one leaves it at once, instead of jumping.
+/// Points at or before `time` are dropped. Without a current trajectory the result begins at the
+/// first point left, and two of them are needed. With one, each joint keeps its current trajectory
+/// until the message starts, then goes in one segment to the first point left. A first point at the
+/// very start of a later message is where the joint must be by then: a joint whose current
+/// trajectory comes by there keeps it; another one leaves it at once, instead of jumping.
 ///
 /// @param time now, in the time base of the message
 /// @returns an empty trajectory, with a reason in the log and in the options' error string, when

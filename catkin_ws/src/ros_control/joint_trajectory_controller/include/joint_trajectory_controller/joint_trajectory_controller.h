@@ -7,14 +7,18 @@
 #include <control_msgs/JointTrajectoryControllerState.h>
 #include <control_msgs/QueryTrajectoryState.h>
 #include <controller_interface/controller.h>
+#include <hardware_interface/internal/demangle_symbol.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <joint_trajectory_controller/hardware_interface_adapter.h>
 #include <joint_trajectory_controller/hold_trajectory_builder.h>
 #include <joint_trajectory_controller/init_joint_trajectory.h>
 #include <joint_trajectory_controller/internal/command_exchange.h>
 #include <joint_trajectory_controller/internal/latest_value.h>
+#include <joint_trajectory_controller/internal/realtime_goal.h>
 #include <joint_trajectory_controller/joint_trajectory_segment.h>
 #include <joint_trajectory_controller/stop_trajectory_builder.h>
+#include <realtime_tools/realtime_box.h>
+#include <realtime_tools/realtime_buffer.h>
 #include <realtime_tools/realtime_publisher.h>
 #include <ros/node_handle.h>
 #include <trajectory_msgs/JointTrajectory.h>
@@ -91,7 +95,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
 
   /// Lays a new trajectory before the control loop, spliced to the current one; a message without
   /// points asks to hold.
-  /// @param gh goal it belongs to, or null
+  /// @param gh goal it belongs to, or null. Its preallocated result gets the end of the goal.
   /// @param[out] error_string why it was refused; may be null
   /// @returns whether it was accepted. Thread-safe, not real-time safe.
   virtual bool updateTrajectoryCommand(const JointTrajectoryConstPtr& msg, RealtimeGoalHandlePtr gh,
@@ -127,10 +131,13 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   ros::Duration state_publisher_period_;  ///< 0: no state is published
 
  private:
+  typedef internal::RealtimeGoal<RealtimeGoalHandle> RealtimeGoal;
+  typedef std::shared_ptr<RealtimeGoal> RealtimeGoalPtr;
+
   /// What callbacks lay before the loop.
   struct Command {
     TrajectoryPtr trajectory;  ///< null: hold
-    RealtimeGoalHandlePtr goal;
+    RealtimeGoalPtr goal;
     JointTrajectoryConstPtr message;
     double start{0.0};         ///< of the message, in uptime [s]
     std::uint64_t epoch{0};    ///< for which the trajectory was computed
@@ -154,6 +161,8 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   };
 
   typedef std::unique_ptr<TrajectoryBuilder<SegmentImpl>> BuilderPtr;
+  typedef HoldTrajectoryBuilder<SegmentImpl, HardwareInterface> HoldBuilder;
+  typedef StopTrajectoryBuilder<SegmentImpl> StopBuilder;
 
   // Set-up.
   bool readParameters(ros::NodeHandle& controller_nh);
@@ -161,7 +170,6 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   bool takeJoints(HardwareInterface* hw, ros::NodeHandle& root_nh);
   void sizeStates();
   void openInterfaces(ros::NodeHandle& controller_nh);
-  BuilderPtr makeHoldBuilder(const State& origin) const;
 
   // In the control loop.
   virtual void updateFuncExtensionPoint(const Trajectory& /*curr_traj*/,
@@ -178,20 +186,22 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   void sampleDesiredState();
   /// @returns false when a violated tolerance ended the goal, and the joints hold from now on.
   bool judgeGoal();
-  bool judgeJoint(std::size_t joint, RealtimeGoalHandle& goal);
-  void failGoal(RealtimeGoalHandle& goal, int code, std::size_t joint, const char* kind,
+  bool judgeJoint(std::size_t joint, RealtimeGoal& goal);
+  void failGoal(RealtimeGoal& goal, int code, std::size_t joint, const char* kind,
                 const StateTolerances<Scalar>& tolerance);
-  static void succeed(RealtimeGoalHandle& goal);
+  static void succeed(RealtimeGoal& goal);
   void publishState();
   void publishSnapshot();
 
   // In callbacks.
   bool checkJoints(const trajectory_msgs::JointTrajectory& msg, std::string& reason) const;
-  void putHold(const JointTrajectoryConstPtr& msg, const RealtimeGoalHandlePtr& goal);
+  void putHold(const JointTrajectoryConstPtr& msg, const RealtimeGoalPtr& goal);
+  RealtimeGoalPtr goalOf(const RealtimeGoalHandlePtr& handle) const;
   Trajectory callbackTrajectory(const Snapshot& snapshot);
+  Trajectory holdTrajectory(double start, const State& origin) const;
   void cancelActiveGoal(const std::string& reason);
-  static void endGoal(RealtimeGoalHandle& goal, typename RealtimeGoalHandle::Outcome outcome,
-                      int code, const std::string& reason);
+  static void endGoal(RealtimeGoal& goal, typename RealtimeGoal::Outcome outcome, int code,
+                      const std::string& reason);
   void monitor(const ros::WallTimerEvent& event);
   void reissue(const Command& command);
   void publishFeedback();
@@ -220,13 +230,12 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
 
   // Of callbacks, under mutex_.
   std::recursive_mutex mutex_;
-  RealtimeGoalHandlePtr active_goal_;
+  RealtimeGoalPtr active_goal_;
+  RealtimeGoalPtr latest_goal_;  ///< of the last command that was accepted; null: it had none
   std::uint64_t active_goal_session_{0};
   TrajectoryPtr latest_trajectory_;  ///< last laid before the loop; null: hold
   std::uint64_t latest_epoch_{0};
   std::uint64_t number_{0};
-  State callback_hold_origin_;
-  BuilderPtr callback_hold_builder_;
 };
 
 }  // namespace joint_trajectory_controller

@@ -29,7 +29,7 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::updateTrajectory
     return false;
   }
   if (msg->points.empty()) {
-    putHold(msg, gh);
+    putHold(msg, goalOf(gh));
     return true;
   }
 
@@ -55,7 +55,7 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::updateTrajectory
     if (command->trajectory->empty()) {
       return false;
     }
-    command->goal = gh;
+    command->goal = latest_goal_ = goalOf(gh);
     command->message = msg;
     command->start =
         next_uptime.toSec() + (internal::startTime(*msg, next_time) - next_time).toSec();
@@ -75,14 +75,29 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::updateTrajectory
 
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::putHold(
-    const JointTrajectoryConstPtr& msg, const RealtimeGoalHandlePtr& goal) {
+    const JointTrajectoryConstPtr& msg, const RealtimeGoalPtr& goal) {
   auto command = std::make_unique<Command>();
-  command->goal = goal;
+  command->goal = latest_goal_ = goal;
   command->message = msg;
   command->session = session_.load();
   command->number = ++number_;
   latest_trajectory_.reset();
   exchange_.put(std::move(command));
+}
+
+/// The goal of a handle: the one that is known already, since a command may be computed anew.
+template <class SegmentImpl, class HardwareInterface>
+typename JointTrajectoryController<SegmentImpl, HardwareInterface>::RealtimeGoalPtr
+JointTrajectoryController<SegmentImpl, HardwareInterface>::goalOf(
+    const RealtimeGoalHandlePtr& handle) const {
+  if (!handle) {
+    return nullptr;
+  }
+  if (latest_goal_ && latest_goal_->handle() == handle) {
+    return latest_goal_;
+  }
+  handle->preallocated_result_->error_string.reserve(kReasonCapacity);
+  return std::make_shared<RealtimeGoal>(handle);
 }
 
 /// What the loop follows, or will as soon as it takes the last command: what a new trajectory
@@ -94,16 +109,29 @@ JointTrajectoryController<SegmentImpl, HardwareInterface>::callbackTrajectory(
   if (latest_trajectory_ && latest_epoch_ == snapshot.epoch) {
     return *latest_trajectory_;
   }
-  double start = snapshot.hold_start;
   if (snapshot.holding) {
-    callback_hold_origin_ = snapshot.hold_origin;
-  } else {
-    // Told to hold, but the loop has not come to it.
-    callback_hold_origin_ = stop_trajectory_duration_ > 0 ? snapshot.desired : snapshot.actual;
-    start = snapshot.time.uptime.toSec();
+    return holdTrajectory(snapshot.hold_start, snapshot.hold_origin);
   }
+  // Told to hold, but the loop has not come to it.
+  return holdTrajectory(snapshot.time.uptime.toSec(),
+                        stop_trajectory_duration_ > 0 ? snapshot.desired : snapshot.actual);
+}
+
+/// What the hold builder of the loop builds at `start` [s] for a state, without reading the joints.
+template <class SegmentImpl, class HardwareInterface>
+typename JointTrajectoryController<SegmentImpl, HardwareInterface>::Trajectory
+JointTrajectoryController<SegmentImpl, HardwareInterface>::holdTrajectory(
+    double start, const State& origin) const {
   Trajectory result;
-  callback_hold_builder_->setStartTime(start)->buildTrajectory(&result);
+  if (stop_trajectory_duration_ > 0) {
+    StopBuilder(stop_trajectory_duration_, origin).setStartTime(start)->buildTrajectory(&result);
+    return result;
+  }
+  State state(1);
+  result.assign(origin.position.size(), TrajectoryPerJoint(1));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    internal::setHold(Scalar(start), origin.position[i], state, result[i][0]);
+  }
   return result;
 }
 
@@ -158,8 +186,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::goalCB(GoalHandl
     reject(control_msgs::FollowJointTrajectoryResult::INVALID_JOINTS);
     return;
   }
-  RealtimeGoalHandlePtr goal(new RealtimeGoalHandle(gh));
-  goal->preallocated_result_->error_string.reserve(kReasonCapacity);
+  const RealtimeGoalHandlePtr goal(new RealtimeGoalHandle(gh));
   const JointTrajectoryConstPtr msg(goal_message, &goal_message->trajectory);
   if (!updateTrajectoryCommand(msg, goal, &result.error_string)) {
     reject(control_msgs::FollowJointTrajectoryResult::INVALID_GOAL);
@@ -167,18 +194,18 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::goalCB(GoalHandl
   }
   preemptActiveGoal();
   gh.setAccepted();
-  active_goal_ = goal;
+  active_goal_ = goalOf(goal);
   active_goal_session_ = session;
 }
 
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::cancelCB(GoalHandle gh) {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
-  if (!active_goal_ || !(active_goal_->gh_ == gh)) {
+  if (!active_goal_ || !(active_goal_->handle()->gh_ == gh)) {
     return;
   }
   if (active_goal_->isOpen() && running_.load()) {
-    putHold(JointTrajectoryConstPtr(), RealtimeGoalHandlePtr());
+    putHold(JointTrajectoryConstPtr(), nullptr);
   }
   cancelActiveGoal("The client cancelled the goal. The joints now hold their position.");
 }
@@ -193,7 +220,7 @@ template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::cancelActiveGoal(
     const std::string& reason) {
   if (active_goal_) {
-    endGoal(*active_goal_, RealtimeGoalHandle::Outcome::kCanceled,
+    endGoal(*active_goal_, RealtimeGoal::Outcome::kCanceled,
             control_msgs::FollowJointTrajectoryResult::SUCCESSFUL, reason);
     active_goal_.reset();
   }
@@ -202,11 +229,12 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::cancelActiveGoal
 /// Ends a goal unless the loop has just ended it, and tells the client either way.
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::endGoal(
-    RealtimeGoalHandle& goal, typename RealtimeGoalHandle::Outcome outcome, int code,
+    RealtimeGoal& goal, typename RealtimeGoal::Outcome outcome, int code,
     const std::string& reason) {
+  control_msgs::FollowJointTrajectoryResult& result = *goal.handle()->preallocated_result_;
   if (goal.claim()) {
-    goal.preallocated_result_->error_code = code;
-    goal.preallocated_result_->error_string = reason;
+    result.error_code = code;
+    result.error_string = reason;
     goal.settle(outcome);
   }
   // While the loop is between claim() and settle() there is nothing to tell yet; it takes a
@@ -214,7 +242,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::endGoal(
   while (!goal.isSettled()) {
     std::this_thread::yield();
   }
-  goal.runNonRealtime(goal.preallocated_result_->error_string);
+  goal.runNonRealtime(result.error_string);
 }
 
 template <class SegmentImpl, class HardwareInterface>
@@ -230,7 +258,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::monitor(
     return;
   }
   if (active_goal_->isSettled()) {
-    active_goal_->runNonRealtime(active_goal_->preallocated_result_->error_string);
+    active_goal_->runNonRealtime(active_goal_->handle()->preallocated_result_->error_string);
     active_goal_.reset();
   } else if (active_goal_session_ != session_.load()) {
     cancelActiveGoal("The controller '" + name_ + "' was stopped before the goal was reached.");
@@ -247,9 +275,11 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::reissue(const Co
     return;
   }
   std::string error;
-  if (!updateTrajectoryCommand(command.message, command.goal, &error) && command.goal &&
+  const RealtimeGoalHandlePtr handle =
+      command.goal ? command.goal->handle() : RealtimeGoalHandlePtr();
+  if (!updateTrajectoryCommand(command.message, handle, &error) && command.goal &&
       command.goal == active_goal_) {
-    endGoal(*active_goal_, RealtimeGoalHandle::Outcome::kAborted,
+    endGoal(*active_goal_, RealtimeGoal::Outcome::kAborted,
             control_msgs::FollowJointTrajectoryResult::INVALID_GOAL, error);
     active_goal_.reset();
   }
@@ -270,7 +300,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::publishFeedback(
   feedback.desired.accelerations = snapshot.desired.acceleration;
   fill(snapshot.actual, feedback.actual);
   fill(snapshot.error, feedback.error);
-  active_goal_->gh_.publishFeedback(feedback);
+  active_goal_->handle()->gh_.publishFeedback(feedback);
 }
 
 template <class SegmentImpl, class HardwareInterface>

@@ -122,7 +122,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::sampleDesiredSta
 
 template <class SegmentImpl, class HardwareInterface>
 bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeGoal() {
-  RealtimeGoalHandle* const goal = command_ != nullptr ? command_->goal.get() : nullptr;
+  RealtimeGoal* const goal = command_ != nullptr ? command_->goal.get() : nullptr;
   if (goal == nullptr || !goal->isOpen()) {
     return true;
   }
@@ -146,10 +146,10 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeGoal() {
 }
 
 template <class SegmentImpl, class HardwareInterface>
-bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeJoint(
-    std::size_t joint, RealtimeGoalHandle& goal) {
+bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeJoint(std::size_t joint,
+                                                                           RealtimeGoal& goal) {
   const Segment& segment = *segments_[joint];
-  if (segment.goalHandle() != &goal) {
+  if (segment.goalHandle() != goal.handle().get()) {
     return true;
   }
   const SegmentTolerancesPerJoint<Scalar>& tolerances = segment.getTolerances();
@@ -177,7 +177,7 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeJoint(
 
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::failGoal(
-    RealtimeGoalHandle& goal, int code, std::size_t joint, const char* kind,
+    RealtimeGoal& goal, int code, std::size_t joint, const char* kind,
     const StateTolerances<Scalar>& tolerance) {
   if (!goal.claim()) {
     return;
@@ -190,18 +190,19 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::failGoal(
       joint_names_[joint].c_str(), kind, double(state_error_.position[joint]),
       double(state_error_.velocity[joint]), kind, double(tolerance.position),
       double(tolerance.velocity));
-  // The string has this capacity already: see goalCB().
-  goal.preallocated_result_->error_string.assign(
-      text, std::min<std::size_t>(std::max(length, 0), sizeof(text) - 1));
-  goal.preallocated_result_->error_code = code;
-  goal.settle(RealtimeGoalHandle::Outcome::kAborted);
+  // The string has this capacity already: see goalOf().
+  control_msgs::FollowJointTrajectoryResult& result = *goal.handle()->preallocated_result_;
+  result.error_string.assign(text, std::min<std::size_t>(std::max(length, 0), sizeof(text) - 1));
+  result.error_code = code;
+  goal.settle(RealtimeGoal::Outcome::kAborted);
 }
 
 template <class SegmentImpl, class HardwareInterface>
-void JointTrajectoryController<SegmentImpl, HardwareInterface>::succeed(RealtimeGoalHandle& goal) {
+void JointTrajectoryController<SegmentImpl, HardwareInterface>::succeed(RealtimeGoal& goal) {
   if (goal.claim()) {
-    goal.preallocated_result_->error_code = control_msgs::FollowJointTrajectoryResult::SUCCESSFUL;
-    goal.settle(RealtimeGoalHandle::Outcome::kSucceeded);
+    goal.handle()->preallocated_result_->error_code =
+        control_msgs::FollowJointTrajectoryResult::SUCCESSFUL;
+    goal.settle(RealtimeGoal::Outcome::kSucceeded);
   }
 }
 

@@ -7,7 +7,6 @@
 #include <joint_trajectory_controller/joint_trajectory_controller.h>
 #include <urdf/model.h>
 
-#include <boost/bind/bind.hpp>
 #include <cmath>
 #include <set>
 
@@ -178,26 +177,20 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::takeJoints(
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::sizeStates() {
   const State zero(static_cast<unsigned int>(joints_.size()));
-  current_state_ = desired_state_ = state_error_ = hold_origin_ = callback_hold_origin_ = zero;
+  current_state_ = desired_state_ = state_error_ = hold_origin_ = zero;
   joint_state_ = State(1);
   segments_.assign(joints_.size(), nullptr);
   joint_succeeded_.assign(joints_.size(), 0);
-  hold_builder_ = makeHoldBuilder(hold_origin_);
-  callback_hold_builder_ = makeHoldBuilder(callback_hold_origin_);
-  hold_builder_->buildTrajectory(&hold_trajectory_);
+  // The loop may be moving the joints already: the builder reads them from starting() on.
+  hold_trajectory_ = holdTrajectory(0.0, zero);
+  if (stop_trajectory_duration_ > 0) {
+    hold_builder_ = std::make_unique<StopBuilder>(stop_trajectory_duration_, hold_origin_);
+  } else {
+    hold_builder_ = std::make_unique<HoldBuilder>(joints_);
+  }
   Snapshot snapshot;
   snapshot.hold_origin = snapshot.desired = snapshot.actual = snapshot.error = zero;
   snapshot_.init(snapshot);
-}
-
-template <class SegmentImpl, class HardwareInterface>
-typename JointTrajectoryController<SegmentImpl, HardwareInterface>::BuilderPtr
-JointTrajectoryController<SegmentImpl, HardwareInterface>::makeHoldBuilder(
-    const State& origin) const {
-  if (stop_trajectory_duration_ > 0) {
-    return std::make_unique<StopTrajectoryBuilder<SegmentImpl>>(stop_trajectory_duration_, origin);
-  }
-  return std::make_unique<HoldTrajectoryBuilder<SegmentImpl>>(origin);
 }
 
 template <class SegmentImpl, class HardwareInterface>
@@ -217,9 +210,8 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::openInterfaces(
   query_state_service_ =
       controller_nh.advertiseService("query_state", &Self::queryStateService, this);
   action_server_ = std::make_shared<ActionServer>(
-      controller_nh, "follow_joint_trajectory",
-      boost::bind(&Self::goalCB, this, boost::placeholders::_1),
-      boost::bind(&Self::cancelCB, this, boost::placeholders::_1), false);
+      controller_nh, "follow_joint_trajectory", [this](GoalHandle gh) { goalCB(gh); },
+      [this](GoalHandle gh) { cancelCB(gh); }, false);
   action_server_->start();
   // By the wall's clock: clients learn how their goals ended also while simulated time stands
   // still.

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <angles/angles.h>  // for clients, which find it through this header
 #include <control_msgs/FollowJointTrajectoryAction.h>
-#include <joint_trajectory_controller/realtime_goal.h>
 #include <joint_trajectory_controller/tolerances.h>
+#include <realtime_tools/realtime_server_goal_handle.h>
+#include <ros/time.h>
 #include <trajectory_msgs/JointTrajectoryPoint.h>
 
 #include <boost/shared_ptr.hpp>
@@ -21,26 +23,24 @@ class JointTrajectorySegment : public Segment {
  public:
   typedef typename Segment::Scalar Scalar;
   typedef typename Segment::Time Time;
-  typedef RealtimeGoal<control_msgs::FollowJointTrajectoryAction> RealtimeGoalHandle;
+  typedef realtime_tools::RealtimeServerGoalHandle<control_msgs::FollowJointTrajectoryAction>
+      RealtimeGoalHandle;
   typedef boost::shared_ptr<RealtimeGoalHandle> RealtimeGoalHandlePtr;
 
   struct State : public Segment::State {
     typedef typename Segment::State::Scalar Scalar;
     State() = default;
-    explicit State(unsigned int size) : Segment::State(size) {}
+    State(unsigned int size) : Segment::State(size) {}
     /// As init().
     State(const trajectory_msgs::JointTrajectoryPoint& point,
-          const std::vector<unsigned int>& permutation = {},
           const std::vector<Scalar>& position_offset = {}) {
-      init(point, permutation, position_offset);
+      init(point, position_offset);
     }
 
-    /// Takes over a point of a message.
-    /// @param permutation element i tells where element i of the point goes; empty: as it is.
-    /// @param position_offset added to the positions of the result, in its order; empty: none.
+    /// Takes over a point of a message, in the order of its joints.
+    /// @param position_offset added to the positions, one per joint; empty: none.
     /// @throws std::invalid_argument when sizes do not fit.
     void init(const trajectory_msgs::JointTrajectoryPoint& point,
-              const std::vector<unsigned int>& permutation = {},
               const std::vector<Scalar>& position_offset = {}) {
       const std::size_t size = point.positions.size();
       const auto fits = [size](std::size_t other) { return other == 0 || other == size; };
@@ -48,27 +48,12 @@ class JointTrajectorySegment : public Segment {
         throw std::invalid_argument(
             "Size mismatch in trajectory point position, velocity or acceleration data.");
       }
-      if (!fits(permutation.size())) {
-        throw std::invalid_argument("Size mismatch between trajectory point and permutation.");
-      }
-      for (const unsigned int target : permutation) {
-        if (target >= size) {
-          throw std::invalid_argument("Permutation of a trajectory point is out of range.");
-        }
-      }
       if (!fits(position_offset.size())) {
         throw std::invalid_argument("Size mismatch between trajectory point and position offset.");
       }
-      const auto permuted = [&](const std::vector<double>& values) {
-        std::vector<Scalar> result(values.size());
-        for (std::size_t i = 0; i < values.size(); ++i) {
-          result[permutation.empty() ? i : permutation[i]] = static_cast<Scalar>(values[i]);
-        }
-        return result;
-      };
-      this->position = permuted(point.positions);
-      this->velocity = permuted(point.velocities);
-      this->acceleration = permuted(point.accelerations);
+      this->position.assign(point.positions.begin(), point.positions.end());
+      this->velocity.assign(point.velocities.begin(), point.velocities.end());
+      this->acceleration.assign(point.accelerations.begin(), point.accelerations.end());
       for (std::size_t i = 0; i < position_offset.size(); ++i) {
         this->position[i] += position_offset[i];
       }
@@ -80,16 +65,19 @@ class JointTrajectorySegment : public Segment {
   JointTrajectorySegment(const Time& start_time, const State& start_state, const Time& end_time,
                          const State& end_state)
       : Segment(start_time, start_state, end_time, end_state) {}
-  /// Between two points of a message that starts at `traj_start_time` [s].
-  JointTrajectorySegment(const Time& traj_start_time,
+  /// Between two points of a message.
+  /// @param traj_start_time when the message begins: the points count their times from there. The
+  /// segment lies in the same time base.
+  /// @param position_offset added to the positions of both points; empty: none.
+  /// @throws std::invalid_argument as State::init() and Segment do.
+  JointTrajectorySegment(const ros::Time& traj_start_time,
                          const trajectory_msgs::JointTrajectoryPoint& start_point,
                          const trajectory_msgs::JointTrajectoryPoint& end_point,
-                         const std::vector<unsigned int>& permutation = {},
                          const std::vector<Scalar>& position_offset = {})
-      : Segment(traj_start_time + start_point.time_from_start.toSec(),
-                State(start_point, permutation, position_offset),
-                traj_start_time + end_point.time_from_start.toSec(),
-                State(end_point, permutation, position_offset)) {}
+      : Segment(Time((traj_start_time + start_point.time_from_start).toSec()),
+                State(start_point, position_offset),
+                Time((traj_start_time + end_point.time_from_start).toSec()),
+                State(end_point, position_offset)) {}
 
   RealtimeGoalHandlePtr getGoalHandle() const { return goal_handle_; }
   /// The same without taking part in its ownership, for the control loop.

@@ -14,6 +14,7 @@ class StopTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
   typedef typename TrajectoryBuilder<SegmentImpl>::Segment Segment;
   typedef typename TrajectoryBuilder<SegmentImpl>::Trajectory Trajectory;
   typedef typename TrajectoryBuilder<SegmentImpl>::Time Time;
+  typedef typename TrajectoryBuilder<SegmentImpl>::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
   typedef typename Segment::State State;
 
   /// @param stop_trajectory_duration until rest [s], above 0
@@ -33,7 +34,11 @@ class StopTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
   }
 
   bool buildTrajectory(Trajectory* trajectory) override {
-    const Time start = this->start_time_;
+    if (trajectory == nullptr || !this->getStartTime()) {
+      return false;
+    }
+    const Time start = *this->getStartTime();
+    const RealtimeGoalHandlePtr goal_handle = this->createGoalHandlePtr();
     trajectory->resize(desired_state_.position.size());
     for (std::size_t i = 0; i < trajectory->size(); ++i) {
       from_.position[0] = desired_state_.position[i];
@@ -45,7 +50,7 @@ class StopTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
       (*trajectory)[i].resize(1);
       Segment& segment = (*trajectory)[i][0];
       segment.init(start, from_, start + duration_, to_);
-      segment.setGoalHandle(this->goal_handle_);
+      segment.setGoalHandle(goal_handle);
     }
     return true;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost_bind_compat/global_placeholders.h>
 #include <control_msgs/FollowJointTrajectoryGoal.h>
 #include <control_msgs/JointTolerance.h>
 #include <ros/console.h>
@@ -33,7 +34,7 @@ struct StateTolerances {
 /// take to be met [s].
 template <class Scalar>
 struct SegmentTolerances {
-  explicit SegmentTolerances(std::vector<double>::size_type size = 0)
+  SegmentTolerances(std::vector<double>::size_type size = 0)
       : state_tolerance(size), goal_state_tolerance(size) {}
 
   std::vector<StateTolerances<Scalar>> state_tolerance;

@@ -4,11 +4,14 @@
 
 #include <joint_trajectory_controller/joint_trajectory_segment.h>
 
+#include <boost/optional.hpp>
 #include <vector>
 
 namespace joint_trajectory_controller {
 
-/// Builds trajectories of one kind, starting at a time that is set.
+/// Builds trajectories of one kind. Before each, the start time has to be set.
+///
+///     builder.setStartTime(time)->setGoalHandle(goal)->buildTrajectory(&trajectory);
 template <class SegmentImpl>
 class TrajectoryBuilder {
  public:
@@ -16,31 +19,44 @@ class TrajectoryBuilder {
   typedef std::vector<Segment> TrajectoryPerJoint;
   typedef std::vector<TrajectoryPerJoint> Trajectory;
   typedef typename Segment::Time Time;
+  typedef typename Segment::RealtimeGoalHandle RealtimeGoalHandle;
   typedef typename Segment::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
 
   virtual ~TrajectoryBuilder() = default;
 
-  /// @param start_time of the next trajectory, in the trajectories' time base [s]
+  /// @param start_time of the next trajectories, in their time base [s]. Real-time safe.
   TrajectoryBuilder* setStartTime(const Time& start_time) {
     start_time_ = start_time;
     return this;
   }
-  /// @param goal_handle of the next trajectory's segments; null for none
+  /// @param goal_handle of the next trajectories' segments; null for none. Real-time safe.
   TrajectoryBuilder* setGoalHandle(const RealtimeGoalHandlePtr& goal_handle) {
     goal_handle_ = goal_handle;
     return this;
   }
+  /// Forgets the start time and the goal handle. Real-time safe.
   virtual void reset() {
-    start_time_ = Time(0);
-    goal_handle_.reset();
+    start_time_ = boost::none;
+    goal_handle_ = boost::none;
   }
 
   /// Overwrites a trajectory. Real-time safe when it was built by the same builder before.
+  /// @returns false, and leaves the trajectory as it is, where it is null or no start time is set.
   virtual bool buildTrajectory(Trajectory* trajectory) = 0;
 
  protected:
-  Time start_time_{0};
-  RealtimeGoalHandlePtr goal_handle_;
+  /// Empty unless it was set.
+  const boost::optional<Time>& getStartTime() const { return start_time_; }
+  /// The goal handle that was set, else the default one.
+  RealtimeGoalHandlePtr createGoalHandlePtr() const {
+    return goal_handle_ ? *goal_handle_ : createDefaultGoalHandle();
+  }
+  /// A null pointer: no goal.
+  static RealtimeGoalHandlePtr createDefaultGoalHandle() { return RealtimeGoalHandlePtr(); }
+
+ private:
+  boost::optional<Time> start_time_;
+  boost::optional<RealtimeGoalHandlePtr> goal_handle_;
 };
 
 }  // namespace joint_trajectory_controller

@@ -15,7 +15,7 @@ struct PosVelAccState {
 
   PosVelAccState() = default;
   /// All quantities specified, all zero.
-  explicit PosVelAccState(unsigned int size)
+  PosVelAccState(unsigned int size)
       : position(size, Scalar(0)), velocity(size, Scalar(0)), acceleration(size, Scalar(0)) {}
 
   std::vector<Scalar> position;
