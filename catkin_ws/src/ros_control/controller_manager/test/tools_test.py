@@ -4,8 +4,11 @@
 """The scripts controller_manager, unspawner and controller_group, and the Python helpers."""
 
 import sys
+import threading
 import unittest
+from unittest import mock
 
+import rosnode
 import rospy
 import rostest
 from controller_manager_msgs import utils
@@ -80,6 +83,23 @@ class ToolsTest(unittest.TestCase):
         self.assertEqual(0, status)
         self.assertEqual({"a": "running", "c": "running"}, self.manager.states())
 
+    def test_unspawner_ended_by_the_master(self):
+        run("controller_manager", "spawn", "a")
+        with Running("unspawner", "a") as unspawner:
+            wait_until(lambda: self.manager.states()["a"] == "stopped", "never stopped")
+            # The restart waits for the loop, so rospy's shutdown would overtake it if it could.
+            self.manager.run_loop(False)
+            nodes = [name for name in rosnode.get_node_names() if name.startswith("/unspawner_")]
+            kill = threading.Thread(target=rosnode.kill_nodes, args=(nodes,))
+            kill.start()
+            kill.join(1.0)
+            self.assertTrue(unspawner.is_running())
+            self.manager.run_loop(True)
+            status, output = unspawner.finish()
+            kill.join()
+        self.assertEqual(0, status, output)
+        self.assertEqual({"a": "running"}, self.manager.states(), output)
+
     def test_controller_group(self):
         name = "controller_group"
         self.check(
@@ -91,7 +111,11 @@ class ToolsTest(unittest.TestCase):
         self.check(0, ["Loaded 'a'", "Started ['a'] successfully"], "spawn", "left", name=name)
         self.check(0, ["Started ['b', 'c']", "Stopped ['a']"], "switch", "right", name=name)
         self.assertEqual({"a": "stopped", "b": "running", "c": "running"}, self.manager.states())
-        self.check(1, ["There is no controller defined in group up"], "switch", "up", name=name)
+        self.check(0, ["There is no controller defined in group up"], "switch", "up", name=name)
+        # b cannot run beside a, which somebody else has started.
+        run("controller_manager", "stop", "b")
+        run("controller_manager", "start", "a")
+        self.check(0, ["Error when starting ['b']"], "spawn", "right", name=name)
 
     def test_finding_managers(self):
         self.assertEqual(
@@ -100,6 +124,10 @@ class ToolsTest(unittest.TestCase):
         self.assertEqual(["/other/controller_manager"], utils.get_controller_managers("/other"))
         self.assertTrue(utils.is_controller_manager("/controller_manager"))
         self.assertFalse(utils.is_controller_manager("/"))
+        with mock.patch.object(utils, "is_controller_manager", wraps=utils.is_controller_manager) as ask:
+            found = utils.get_controller_managers("/", ["/other/controller_manager", "/gone"])
+        self.assertEqual(["/controller_manager", "/other/controller_manager"], found)
+        ask.assert_called_once_with("/controller_manager")
         lister = utils.ControllerManagerLister("/other")
         self.assertEqual(["/other/controller_manager"], lister())
         self.assertEqual(["a", "b", "c"], utils.get_rosparam_controller_names())
@@ -117,9 +145,7 @@ class ToolsTest(unittest.TestCase):
         self.assertEqual([], names(utils.filter_by_type(controllers, "Good")))
         self.assertEqual(["a", "c"], names(utils.filter_by_type(controllers, "Good", True)))
         self.assertEqual(["a", "c"], names(utils.filter_by_state(controllers, "running")))
-        self.assertEqual(
-            ["a", "c"], names(utils.filter_by_hardware_interface(controllers, EFFORT))
-        )
+        self.assertEqual(["a", "c"], names(utils.filter_by_hardware_interface(controllers, EFFORT)))
         self.assertEqual(["a"], names(utils.filter_by_resources(controllers, ["j0", "j3"])))
         self.assertEqual([], names(utils.filter_by_resources(controllers, ["j0", "j1"])))
         self.assertEqual(

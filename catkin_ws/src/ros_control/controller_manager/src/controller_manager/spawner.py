@@ -5,9 +5,7 @@
 import argparse
 import contextlib
 import os
-import signal
 import socket
-import threading
 import time
 
 import rosgraph
@@ -24,77 +22,20 @@ from controller_manager_msgs.srv import (
 )
 from std_msgs.msg import Bool
 
+from controller_manager.ending import POLL_PERIOD, Ended, Ending
+
 DEFAULT_TIMEOUT = 30.0  # [s]
 # How long the loop may take to stop controllers at the end. roslaunch waits 15 s before it kills.
 STOP_TIMEOUT = 5.0  # [s]
 # The manager's own account of a failed load should stand above ours in the log.
 PAUSE_AFTER_FAILED_LOAD = 1.0  # [s]
-POLL_PERIOD = 0.1  # [s]
 LONELY_TIME = 3.0  # [s] after which a subscriber without a publisher is replaced
 # roslaunch ends all its nodes at once: so long a manager that breaks a call off may take to be gone.
 END_OF_MANAGER = 2.0  # [s]
-# How long a request to end from outside (rosnode kill) waits for the controllers to be taken away.
-LONGEST_END = 15.0  # [s]
 
 
 class SpawnerError(Exception):
     """What a person has to know before the spawner gives up."""
-
-
-class Ended(Exception):
-    """The spawner was told to end."""
-
-
-class Ending:
-    """Knows when the spawner shall end, by signal or by the master.
-
-    A signal only leaves a note: taking controllers away from within a signal handler would meet
-    whatever lock the interrupted code holds.
-    """
-
-    def __init__(self):
-        self._asked = threading.Event()
-        self._done = threading.Event()
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: self._asked.set())
-        rospy.on_shutdown(self._wait_for_end)
-
-    def _wait_for_end(self):
-        self._asked.set()
-        self._done.wait(LONGEST_END)
-
-    def is_asked(self):
-        return self._asked.is_set()
-
-    def sleep(self, duration):
-        """Raises Ended when the time is cut short."""
-        if self._asked.wait(duration):
-            raise Ended
-
-    def finish(self):
-        """Everything is done: the node may go."""
-        self._done.set()
-        rospy.signal_shutdown("the spawner has ended")
-
-    def call(self, service, request):
-        """The answer of a service that may take for ever. Raises Ended if told to end meanwhile."""
-        outcome = {}
-
-        def work():
-            try:
-                outcome["answer"] = service(request)
-            except Exception as error:  # re-raised where it can be handled
-                outcome["error"] = error
-
-        worker = threading.Thread(target=work, daemon=True)
-        worker.start()
-        while worker.is_alive():
-            worker.join(POLL_PERIOD)
-            if self.is_asked() and worker.is_alive():
-                raise Ended
-        if "error" in outcome:
-            raise outcome["error"]
-        return outcome["answer"]
 
 
 def parse_arguments(arguments):
@@ -115,9 +56,7 @@ def parse_arguments(arguments):
         metavar="TOPIC",
         help="wait until this topic (std_msgs/Bool) says true before anything is loaded",
     )
-    parser.add_argument(
-        "--namespace", metavar="NS", default="", help="namespace of the controller manager"
-    )
+    parser.add_argument("--namespace", metavar="NS", default="", help="namespace of the controller manager")
     timeouts = parser.add_mutually_exclusive_group()
     timeouts.add_argument(
         "--timeout",
@@ -272,9 +211,7 @@ class Spawner:
         for name in ("load_controller", "switch_controller", "unload_controller"):
             service = self._prefix + name
             rospy.loginfo("Controller Spawner: Waiting for service %s", service)
-            offered = wait_until(
-                lambda service=service: is_offered(service), Deadline(timeout), self._ending
-            )
+            offered = wait_until(lambda service=service: is_offered(service), Deadline(timeout), self._ending)
             if not offered:
                 return False
         return True
@@ -293,9 +230,7 @@ class Spawner:
     def start(self):
         response = self._ending.call(
             self._service("switch_controller", SwitchController),
-            SwitchControllerRequest(
-                start_controllers=self.loaded, strictness=SwitchControllerRequest.STRICT
-            ),
+            SwitchControllerRequest(start_controllers=self.loaded, strictness=SwitchControllerRequest.STRICT),
         )
         names = ", ".join(self.loaded)
         if response.ok:
@@ -357,9 +292,7 @@ class Spawner:
 def spawn(options, spawner, ending):
     """Loads and starts. Raises Ended or SpawnerError."""
     if not spawner.wait_for_manager(options.timeout):
-        raise SpawnerError(
-            "Controller Spawner couldn't find the expected controller_manager ROS interface."
-        )
+        raise SpawnerError("Controller Spawner couldn't find the expected controller_manager ROS interface.")
     if options.wait_for and not wait_for_true(options.wait_for, options.timeout, ending):
         raise SpawnerError(
             f"{rospy.resolve_name(options.wait_for)} did not say true within {options.timeout:g} s"

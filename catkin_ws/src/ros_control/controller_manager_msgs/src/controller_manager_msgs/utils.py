@@ -40,20 +40,21 @@ def is_controller_manager(namespace):
 def get_controller_managers(namespace="/", initial_guess=None):
     """Namespaces of the controller managers at or below a namespace, sorted.
 
-    `initial_guess` names managers known from before, which are asked first.
+    `initial_guess` is what an earlier call returned: those of them that are still there are not
+    asked for all their services again, which makes it cheap to look repeatedly.
     """
     try:
         services = rosservice.get_service_list()
     except rosservice.ROSServiceIOException:
         return []
     root = namespace.rstrip("/") + "/"
-    candidates = set(initial_guess or [])
+    candidates = set()
     for service in services:
         owner, _, name = service.rpartition("/")
-        if name == "list_controllers":
+        if name == "list_controllers" and (owner + "/").startswith(root):
             candidates.add(owner or "/")
-    inside = (one for one in candidates if (one.rstrip("/") + "/").startswith(root))
-    return sorted(one for one in inside if is_controller_manager(one))
+    known = candidates & set(initial_guess or [])
+    return sorted(known | {one for one in candidates - known if is_controller_manager(one)})
 
 
 class ControllerManagerLister:
