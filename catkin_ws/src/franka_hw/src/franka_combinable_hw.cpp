@@ -368,7 +368,7 @@ bool FrankaCombinableHW::prepareSwitch(
     const std::list<hardware_interface::ControllerInfo>& stop_list) {
   ResourceWithClaimsMap resources = getResourceMap(start_list);
   ArmClaimedMap claims;
-  if (!connected() && getArmClaimedMap(resources, claims) &&
+  if (initialized_ && !connected() && getArmClaimedMap(resources, claims) &&
       getControlMode(arm_id_, claims) != ControlMode::None) {
     ROS_ERROR_STREAM("FrankaCombinableHW: no controller can command '"
                      << arm_id_ << "', which is not connected. Call its service connect first.");

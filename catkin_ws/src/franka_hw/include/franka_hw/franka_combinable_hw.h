@@ -53,7 +53,8 @@ class FrankaCombinableHW : public FrankaHW {
                    [](const ros::Time&, const ros::Duration&) { return true; }) override;
 
   bool checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const override;
-  /// As of FrankaHW; refuses to start what commands an arm that is not connected.
+  /// As of FrankaHW; once init() is done, it refuses to start what commands an arm that is not
+  /// connected. The original agrees, and its arm's thread then ends the process.
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
 

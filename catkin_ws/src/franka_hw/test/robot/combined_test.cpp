@@ -120,6 +120,16 @@ TEST_F(Combined, RefusesWhatIsNoTorque) {
   }
 }
 
+TEST_F(Combined, AgreesToASwitchBeforeItHasARobot) {
+  FakeArm arm("alone");
+  franka_hw::FrankaCombinableHW alone;
+  ASSERT_TRUE(alone.initParameters(arm.nh, arm.robot_nh));
+  alone.initROSInterfaces(arm.robot_nh);
+  alone.setupParameterCallbacks(arm.robot_nh);
+  EXPECT_TRUE(alone.prepareSwitch({claiming("alone")}, {}));
+  EXPECT_FALSE(alone.controllerActive()) << "before doSwitch()";
+}
+
 TEST_F(Combined, CommandsEachArmItsOwn) {
   start();
   EXPECT_TRUE(bothMove());
