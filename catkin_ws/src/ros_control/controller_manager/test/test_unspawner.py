@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The unspawner starts its controllers again before rospy's shutdown goes on, which ends all service calls."""
+"""The unspawner starts its controllers again before rospy shuts down and ends all service calls."""
 
 import importlib.machinery
 import importlib.util
