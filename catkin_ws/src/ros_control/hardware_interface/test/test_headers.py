@@ -61,16 +61,12 @@ INVENTORY = {
         "joint_limits_rosparam",
         "joint_limits_urdf",
     ],
+    # The others are what these begin with.
     "joint_trajectory_controller": [
-        "hardware_interface_adapter",
         "hold_trajectory_builder",
         "init_joint_trajectory",
         "joint_trajectory_controller",
-        "joint_trajectory_msg_utils",
-        "joint_trajectory_segment",
-        "stop_trajectory_builder",
         "tolerances",
-        "trajectory_builder",
     ],
     "realtime_tools": [
         "realtime_box",
