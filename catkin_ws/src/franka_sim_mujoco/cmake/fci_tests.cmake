@@ -5,6 +5,7 @@
 sim_test(fci_test
   SOURCES
     test/fci/command_link_test.cpp
+    test/fci/hostile_clients_test.cpp
     test/fci/host_rules_test.cpp
     test/fci/host_test.cpp
     test/fci/own_client_test.cpp

@@ -55,6 +55,7 @@ def test_help_names_every_option():
         "--world",
         "--hand",
         "--linger",
+        "--patience",
         "--viewer",
         "--control-port",
     ):
@@ -72,6 +73,9 @@ def test_help_names_every_option():
         (["--pace", "nan"], "a factor from"),
         (["--control-port", "70000"], "0 to 65535"),
         (["--linger", "-1"], "seconds from 0 to 60"),
+        (["--pace", "lockstep", "--patience", "0"], "seconds from 0.01 to 86400, or forever"),
+        (["--pace", "lockstep", "--patience", "nan"], "seconds from 0.01 to 86400, or forever"),
+        (["--patience", "forever"], "only a robot that waits for its client has patience"),
         (["--base", "1,2"], "three numbers"),
         (["--base", "1,2,3,4,5"], "three numbers"),
         (["--base", "1,2,x"], "three numbers"),

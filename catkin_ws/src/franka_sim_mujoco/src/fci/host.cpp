@@ -29,16 +29,20 @@ constexpr std::chrono::milliseconds kForgivenDelay{50};
 /// Sockets are looked after so often even where commands come so fast that nobody polls.
 constexpr std::chrono::milliseconds kServeAtLeast{1};
 
+/// A client that waits for another one's answer gives up after a second without a state; genuine
+/// ones and ours drop a state that they have already, and wait on (our choice).
+constexpr std::chrono::milliseconds kSignOfLife{300};
+
 /// In lock-step, for so long an answer is waited for without going to sleep, where another
 /// processor can work on it meanwhile (our choice).
 constexpr std::chrono::microseconds kSwiftAnswer{100};
 
 /// Before its first command a client takes two states that show the motion, at once. More are for
-/// one that missed them. They come slowly: each that comes while the client works on its first
-/// answer puts its clock, which counts states, ahead of the arm's, and runs would not repeat (our
-/// choice).
+/// one that missed them. They come as slowly as the second after which clients give up allows: each
+/// that comes while a starved client works on its first answer puts its clock, which counts states,
+/// ahead of the arm's, and runs would not repeat (our choice).
 constexpr int kPromptStarts = 2;
-constexpr std::chrono::milliseconds kLaterStarts{50};
+constexpr std::chrono::milliseconds kLaterStarts{600};
 
 /// While it makes up for a delay, clients still get so long for each answer (our choice).
 constexpr std::chrono::microseconds kLeastTimeToAnswer{400};
@@ -116,7 +120,9 @@ void Host::tick() {
   }
   step_();
   ticks_++;
-  unpublished_ticks_++;
+  for (Guest& guest : guests_) {
+    guest.unpublished_ticks++;
+  }
 }
 
 void Host::tickAtOnce() {
@@ -136,11 +142,16 @@ void Host::standStill() {
 }
 
 void Host::publishAll(bool same_moment) {
-  for (const Guest& guest : guests_) {
-    guest.robot->publish(std::max<std::uint64_t>(unpublished_ticks_, 1), same_moment);
-  }
-  unpublished_ticks_ = 0;
   published_at_ = Clock::now();
+  for (Guest& guest : guests_) {
+    publish(guest, same_moment, published_at_);
+  }
+}
+
+void Host::publish(Guest& guest, bool same_moment, Clock::time_point now) {
+  guest.robot->publish(std::max<std::uint64_t>(guest.unpublished_ticks, 1), same_moment);
+  guest.unpublished_ticks = 0;
+  guest.shown_at = now;
 }
 
 // System calls cost more than a control unit's tick: sockets are asked only when they have
@@ -245,11 +256,10 @@ bool Host::clientsAreAtLeisure() const {
 // time that flows the others do.
 bool Host::heedsClock() const { return pace_.by_clock || (!pace_.flows && clientsAreAtLeisure()); }
 
-// A client that was told of its motion's start takes states without answering until it sees the
-// motion in them.
-bool Host::startsAreDue() const {
+// Of those that have not been given up.
+bool Host::somebodyIsAwaited() const {
   return std::any_of(guests_.begin(), guests_.end(), [](const Guest& guest) {
-    return guest.isDue() && !guest.robot->motionHasBegun() && !guest.given_up;
+    return guest.isDue() && !guest.given_up && !guest.robot->receiveCommand();
   });
 }
 
@@ -275,21 +285,21 @@ void Host::waitInLockStep() {
   if (due || news || heedsClock() || Clock::now() - published_at_ >= kTick) {
     publishAll();
   }
-  starts_shown_ = due ? 1 : 0;
-  const Clock::time_point begin = Clock::now();
+  beginWait();
+  const Clock::time_point begin = looked_at_;
   prepare_();
   // Whoever answers takes a while; where nobody does, one look at the sockets is enough.
   if (due) {
     awaitSwiftAnswers(begin);
   }
   if (!due || !receiveAll()) {
-    pollUntil(due ? begin + std::min<Clock::duration>(kTick, pace_.silence) : begin);
+    pollUntil(due ? begin + kTick : begin);
   }
   while (!stopped()) {
     serveIfDue();
-    const bool all = receiveAll();
+    receiveAll();
     if (clientsAreDue()) {
-      if (!waitForClients(begin, all)) {
+      if (!waitForClients()) {
         rolling_ = kTicksAfterAction;
         return;
       }
@@ -317,31 +327,54 @@ void Host::awaitSwiftAnswers(Clock::time_point begin) {
   }
 }
 
+void Host::beginWait() {
+  looked_at_ = Clock::now();
+  waited_ = {};
+  for (Guest& guest : guests_) {
+    guest.starts_shown = guest.isDue() ? 1 : 0;
+  }
+}
+
 // @returns whether there is still something to wait for.
-bool Host::waitForClients(Clock::time_point begin, bool all_answered) {
+bool Host::waitForClients() {
+  // A process that was held up itself has heard nobody meanwhile: that is not the clients' silence.
+  constexpr Clock::duration kLongestLook = 2 * kTick;
   const Clock::time_point now = Clock::now();
-  const bool starting = startsAreDue();
-  const bool given_up = std::any_of(guests_.begin(), guests_.end(),
-                                    [](const Guest& guest) { return guest.given_up; });
-  if (all_answered || (given_up && !starting && now - begin >= kTick)) {
+  waited_ += std::min<Clock::duration>(now - looked_at_, kLongestLook);
+  looked_at_ = now;
+  if (!somebodyIsAwaited() && (receiveAll() || waited_ >= kTick)) {
     return false;
   }
-  if (now - begin >= pace_.silence) {
+  if (waited_ >= pace_.patience) {
     giveUpOnTheSilent();
     return true;
   }
-  if (!starting) {
-    pollUntil(begin + (given_up ? Clock::duration(kTick) : Clock::duration(pace_.silence)));
-    return true;
-  }
-  // Before its first command a client needs fresh states; afterwards it has all it needs.
-  const Clock::duration pause = starts_shown_ < kPromptStarts ? kTick : kLaterStarts;
-  if (now - published_at_ >= pause) {
-    publishAll(true);
-    starts_shown_++;
-  }
-  pollUntil(published_at_ + pause);
+  showThatTimeStandsStill(now);
+  pollUntil(now + kTick);
   return true;
+}
+
+// Clients that the tick does not wait for must see that the robots are there. A state that shows a
+// motion's client nothing new keeps its number: the motion's clock, which counts states, stands
+// still as well. Nothing new goes to a client that owes an answer: it has all it needs.
+void Host::showThatTimeStandsStill(Clock::time_point now) {
+  for (Guest& guest : guests_) {
+    HostedRobot& robot = *guest.robot;
+    if (guest.isStarting()) {
+      // Until its first command a client takes states without answering them.
+      if (now - guest.shown_at >= (guest.starts_shown < kPromptStarts ? kTick : kLaterStarts)) {
+        publish(guest, true, now);
+        guest.starts_shown++;
+      }
+    } else if (!robot.expectsCommand()) {
+      if (now - guest.shown_at >= kTick) {
+        publish(guest, true, now);
+      }
+    } else if (now - guest.shown_at >= kSignOfLife) {
+      robot.repeat();
+      guest.shown_at = now;
+    }
+  }
 }
 
 }  // namespace franka_sim_mujoco::fci

@@ -3,6 +3,7 @@
 #include <franka_sim_mujoco/fci/line_server.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -56,24 +57,24 @@ std::string LineServer::answer(const std::string& line) const {
 }
 
 void LineServer::serve() {
-  slot_.serve([this](Connection& client, bool& progressed) { return serveOne(client, progressed); },
-              [] {});
+  slot_.serve([this](Connection& client) { return serveOne(client); }, [] {});
 }
 
-bool LineServer::serveOne(Connection& client, bool& progressed) {
+Served LineServer::serveOne(Connection& client) {
   constexpr std::size_t kLongestLine = 4000;
   const Bytes stream = client.received();
   const std::uint8_t* const end = stream.data + stream.size;
   const std::uint8_t* const line_end = std::find(stream.data, end, '\n');
   if (line_end == end) {
-    return stream.size < kLongestLine;
+    return stream.size < kLongestLine ? Served::kIncomplete : Served::kBroken;
   }
   const std::string line(stream.data, line_end);
   client.consume(line.size() + 1);
-  progressed = true;
   slot_.confirm();
   const std::string reply = answer(line) + "\n";
-  return client.send({reinterpret_cast<const std::uint8_t*>(reply.data()), reply.size()});
+  return client.send({reinterpret_cast<const std::uint8_t*>(reply.data()), reply.size()})
+             ? Served::kDone
+             : Served::kBroken;
 }
 
 double toNumber(const std::string& word) {
@@ -81,6 +82,17 @@ double toNumber(const std::string& word) {
   const double value = std::strtod(word.c_str(), &end);
   if (word.empty() || *end != '\0' || !std::isfinite(value)) {
     throw std::invalid_argument("'" + word + "' is not a finite number.");
+  }
+  return value;
+}
+
+std::uint64_t toSeed(const std::string& word) {
+  std::uint64_t value = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end) {
+    throw std::invalid_argument(
+        "'" + word + "' is no seed: give a whole number from 0 to 18446744073709551615.");
   }
   return value;
 }

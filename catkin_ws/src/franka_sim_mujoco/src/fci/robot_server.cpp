@@ -38,23 +38,28 @@ bool isForThisMachine(const codec::LoadModelLibraryRequest& request) noexcept {
 
 RobotServer::RobotServer(RobotServerParameters parameters, ArmDesk& desk)
     : parameters_(std::move(parameters)),
+      model_library_(
+          std::make_shared<const std::vector<std::uint8_t>>(std::move(parameters_.model_library))),
       desk_(desk),
       slot_(parameters_.address, parameters_.port),
-      datagrams_(parameters_.address) {}
+      datagrams_(parameters_.address) {
+  for (const auto& [version, text] : parameters_.urdfs) {
+    urdfs_[version] = std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end());
+  }
+  parameters_.urdfs.clear();
+}
 
 RobotServer::~RobotServer() = default;
 
 void RobotServer::serve(bool stops_only) {
   collectEnds();
+  datagrams_left_ = kDatagramsAtOnce;
   slot_.setOpen(desk_.active());
   if (!desk_.active() && version_ == 0) {
     slot_.drop();  // nobody yet; a client hears how its motion ends first (publish)
   }
-  slot_.serve(
-      [this, stops_only](Connection& client, bool& progressed) {
-        return serveOne(client, stops_only, progressed);
-      },
-      [this] { forgetClient(); });
+  slot_.serve([this, stops_only](Connection& client) { return serveOne(client, stops_only); },
+              [this] { forgetClient(); });
 }
 
 void RobotServer::dropClient() noexcept {
@@ -75,16 +80,15 @@ void RobotServer::forgetClient() noexcept {
   answered_setter_count_ = 0;
 }
 
-// Takes the first request of the stream. @returns false when the connection must end.
-bool RobotServer::serveOne(Connection& client, bool stops_only, bool& progressed) {
+Served RobotServer::serveOne(Connection& client, bool stops_only) {
   codec::Header header;
   const Bytes stream = client.received();
   const CodecError framing = codec::nextMessage(stream, codec::kMaxRequestSize, header);
   if (framing == CodecError::kIncomplete) {
-    return true;
+    return Served::kIncomplete;
   }
   if (framing != CodecError::kNone) {
-    return false;  // what follows cannot be told apart any more
+    return Served::kBroken;  // what follows cannot be told apart any more
   }
   // Connect is the same in every version.
   const std::uint16_t version = version_ == 0 ? parameters_.newest_version : version_;
@@ -92,26 +96,31 @@ bool RobotServer::serveOne(Connection& client, bool stops_only, bool& progressed
   const CodecError error =
       codec::decodeRequest(version, {stream.data, header.size}, header, request);
   const bool stop = error == CodecError::kNone && codec::commandOf(request) == Command::kStopMove;
-  if (stops_only && version_ != 0 && !stop) {
-    return true;
+  const bool later = stops_only || answered_setter_count_ == kMostAnswered;
+  if (later && version_ != 0 && !stop) {
+    return Served::kHeldBack;
   }
   client.consume(header.size);
-  progressed = true;
+  bool goes_on = false;
   if (error != CodecError::kNone) {
-    return refuse(header, error);
+    goes_on = refuse(header, error);
+  } else if (const auto* connection = std::get_if<codec::ConnectRequest>(&request)) {
+    goes_on = connect(header, *connection);
+  } else {
+    goes_on = version_ != 0 && answer(header, request);
   }
-  if (const auto* connection = std::get_if<codec::ConnectRequest>(&request)) {
-    return connect(header, *connection);
-  }
-  return version_ != 0 && answer(header, request);
+  return goes_on ? Served::kDone : Served::kBroken;
 }
 
 bool RobotServer::connect(const codec::Header& header, const codec::ConnectRequest& request) {
-  const bool fits = request.version >= parameters_.oldest_version &&
+  const bool busy = move_ || stop_ || recovery_ || answered_setter_count_ > 0;
+  const bool fits = !busy && request.version >= parameters_.oldest_version &&
                     request.version <= parameters_.newest_version;
   codec::Reply connect_reply;
   connect_reply.status = fits ? Status::kSuccess : Status::kIncompatibleLibraryVersion;
-  connect_reply.server_version = fits ? request.version : parameters_.newest_version;
+  connect_reply.server_version = fits   ? request.version
+                                 : busy ? version_
+                                        : parameters_.newest_version;
   codec::ReplyMessage message;
   if (codec::encodeReply(parameters_.newest_version, Command::kConnect, header.command_id,
                          connect_reply, message) != CodecError::kNone ||
@@ -135,18 +144,14 @@ bool RobotServer::answer(const codec::Header& header, const codec::Request& requ
   const Pending pending{codec::commandOf(request), header.command_id};
   switch (pending.command) {
     case Command::kLoadModelLibrary: {
-      const std::vector<std::uint8_t>& library = parameters_.model_library;
-      const bool served =
-          isForThisMachine(std::get<codec::LoadModelLibraryRequest>(request)) && !library.empty();
-      return served ? replyWithModel(pending, {library.data(), library.size()})
-                    : reply(pending, Status::kError);
+      const bool served = isForThisMachine(std::get<codec::LoadModelLibraryRequest>(request)) &&
+                          !model_library_->empty();
+      return served ? replyWithModel(pending, model_library_) : reply(pending, Status::kError);
     }
     case Command::kGetRobotModel: {
-      const std::string* text = urdf();
-      return text == nullptr
-                 ? reply(pending, Status::kCommandNotPossibleRejected)
-                 : replyWithModel(pending, {reinterpret_cast<const std::uint8_t*>(text->data()),
-                                            text->size()});
+      const Blob* text = urdf();
+      return text == nullptr ? reply(pending, Status::kCommandNotPossibleRejected)
+                             : replyWithModel(pending, *text);
     }
     case Command::kGetCartesianLimit:
       return replyWithWall(pending, std::get<codec::GetCartesianLimitRequest>(request).id);
@@ -202,16 +207,16 @@ bool RobotServer::reply(const Pending& to, Status status) {
 }
 
 // Of the connected version: a robot's limits are those that its client knows.
-const std::string* RobotServer::urdf() const noexcept {
-  const auto next = parameters_.urdfs.upper_bound(version_);
-  return next == parameters_.urdfs.begin() ? nullptr : &std::prev(next)->second;
+const Blob* RobotServer::urdf() const noexcept {
+  const auto next = urdfs_.upper_bound(version_);
+  return next == urdfs_.begin() ? nullptr : &std::prev(next)->second;
 }
 
-bool RobotServer::replyWithModel(const Pending& to, Bytes model) {
-  std::vector<std::uint8_t> message;
-  return codec::encodeModelReply(version_, to.command, to.id, model, message) ==
+bool RobotServer::replyWithModel(const Pending& to, const Blob& model) {
+  codec::ReplyMessage head;
+  return codec::encodeModelReplyHead(version_, to.command, to.id, model->size(), head) ==
              CodecError::kNone &&
-         slot_.client()->send({message.data(), message.size()});
+         slot_.client()->send(head.bytes()) && slot_.client()->send(model);
 }
 
 bool RobotServer::replyWithWall(const Pending& to, std::int32_t id) {
@@ -276,6 +281,12 @@ void RobotServer::publish(std::uint64_t ticks, bool same_moment) {
   }
 }
 
+void RobotServer::repeat() noexcept {
+  if (version_ != 0) {
+    datagrams_.send({state_bytes_.data(), codec::stateSize(version_)});
+  }
+}
+
 // Each cycle has the command that answers its state, no other; where no answers are due, one that
 // does not stem from an earlier motion.
 bool RobotServer::answersAState(std::uint64_t message_id) const noexcept {
@@ -288,24 +299,26 @@ bool RobotServer::receiveCommand() noexcept {
     return false;
   }
   codec::CommandBuffer buffer;
-  while (!answered_) {
+  while (!answered_ && datagrams_left_ > 0) {
     const std::ptrdiff_t size = datagrams_.receive(buffer.data(), buffer.size());
     if (size < 0) {
       return false;
     }
-    if (static_cast<std::size_t>(size) > buffer.size()) {
-      continue;
-    }
     franka_core::RobotCommand command;
     const CodecError error =
-        codec::decodeCommand(version_, {buffer.data(), static_cast<std::size_t>(size)}, command);
+        static_cast<std::size_t>(size) > buffer.size()
+            ? CodecError::kWrongSize
+            : codec::decodeCommand(version_, {buffer.data(), static_cast<std::size_t>(size)},
+                                   command);
     const bool read = error == CodecError::kNone || error == CodecError::kNotFinite;
     if (read && answersAState(command.message_id)) {
       command_ = command;
       answered_ = true;
+    } else {
+      datagrams_left_--;
     }
   }
-  return true;
+  return answered_;
 }
 
 const franka_core::RobotCommand* RobotServer::takeCommand() noexcept {
@@ -327,7 +340,7 @@ bool RobotServer::expectsCommands() const noexcept {
 void RobotServer::addDescriptors(std::vector<pollfd>& fds) const { slot_.addDescriptors(fds); }
 
 void RobotServer::addCommandDescriptor(std::vector<pollfd>& fds) const {
-  if (version_ != 0) {
+  if (version_ != 0 && !answered_ && datagrams_left_ > 0) {
     fds.push_back({datagrams_.descriptor(), POLLIN, 0});
   }
 }

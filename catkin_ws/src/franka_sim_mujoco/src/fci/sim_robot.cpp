@@ -112,11 +112,32 @@ void SimRobot::serve(bool stops_only) {
 
 void SimRobot::publish(std::uint64_t ticks, bool same_moment) {
   server_.publish(ticks, same_moment);
+  publishTools(ticks);
+}
+
+void SimRobot::publishTools(std::uint64_t ticks) {
   if (hand_) {
     hand_->server.publish(ticks);
   }
   if (vacuum_) {
     vacuum_->server.publish(ticks);
+  }
+}
+
+void SimRobot::repeat() {
+  if (server_.asynchronous() || server_.receiveCommand()) {
+    server_.repeat();
+  }
+  publishTools(0);
+}
+
+void SimRobot::onRefusal(const ClientSlot::Tell& tell) {
+  server_.onRefusal(tell);
+  if (hand_) {
+    hand_->server.onRefusal(tell);
+  }
+  if (vacuum_) {
+    vacuum_->server.onRefusal(tell);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <franka_sim_mujoco/fci/sockets.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -63,7 +64,18 @@ Descriptor bound(int type, const std::string& what, const std::string& address,
   return result;
 }
 
-constexpr int kBacklog = 8;
+/// Connections that the system keeps until they are accepted. Where this queue overflows, a client
+/// tries again only after a second.
+constexpr int kBacklog = 1024;
+
+/// A process that can open no more sockets looks again after so long (our choice).
+constexpr std::chrono::milliseconds kExhausted{100};
+
+/// A peer that takes nothing, or vanishes without a word, is given up after so long (our choice).
+constexpr int kSilence = 5000;  // [ms]
+
+/// So many datagrams of others are dropped in one call (our choice).
+constexpr int kMostStrangers = 64;
 
 bool wouldBlock(int error) noexcept { return error == EAGAIN || error == EWOULDBLOCK; }
 
@@ -109,21 +121,32 @@ bool Listener::open() noexcept {
 }
 
 Descriptor Listener::accept(sockaddr_in& peer) noexcept {
+  if (!accepts()) {
+    return Descriptor();
+  }
   socklen_t size = sizeof(peer);
   Descriptor result(::accept4(socket_.get(), reinterpret_cast<sockaddr*>(&peer), &size,
                               SOCK_NONBLOCK | SOCK_CLOEXEC));
-  if (result) {
-    // A peer that vanishes without a word is noticed after about 4 s.
-    setOption(result.get(), IPPROTO_TCP, TCP_NODELAY, 1);
-    setOption(result.get(), SOL_SOCKET, SO_KEEPALIVE, 1);
-    setOption(result.get(), IPPROTO_TCP, TCP_KEEPIDLE, 1);
-    setOption(result.get(), IPPROTO_TCP, TCP_KEEPCNT, 3);
-    setOption(result.get(), IPPROTO_TCP, TCP_KEEPINTVL, 1);
+  if (!result && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
+    exhausted_until_ = std::chrono::steady_clock::now() + kExhausted;
   }
   return result;
 }
 
-Connection::Connection(Descriptor socket) : socket_(std::move(socket)) {}
+bool Listener::accepts() const noexcept {
+  return open_ && (exhausted_until_ == std::chrono::steady_clock::time_point{} ||
+                   std::chrono::steady_clock::now() >= exhausted_until_);
+}
+
+Connection::Connection(Descriptor socket) : socket_(std::move(socket)) {
+  setOption(socket_.get(), IPPROTO_TCP, TCP_NODELAY, 1);
+  setOption(socket_.get(), SOL_SOCKET, SO_KEEPALIVE, 1);
+  setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPIDLE, 1);
+  setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPCNT, 3);
+  setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPINTVL, 1);
+  // Keepalive says nothing while something is on its way to the peer.
+  setOption(socket_.get(), IPPROTO_TCP, TCP_USER_TIMEOUT, kSilence);
+}
 
 bool Connection::receive() noexcept {
   while (open() && filled_ < kCapacity) {
@@ -139,43 +162,76 @@ bool Connection::receive() noexcept {
   return open();
 }
 
+bool Connection::peerHasClosed() const noexcept {
+  pollfd state{socket_.get(), POLLRDHUP, 0};
+  return ::poll(&state, 1, 0) > 0;  // also for a connection that was reset
+}
+
 void Connection::consume(std::size_t size) noexcept {
   filled_ -= size;
   std::memmove(buffer_, buffer_ + size, filled_);
 }
 
-bool Connection::send(Bytes message) {
-  std::size_t done = 0;
-  while (!hasUnsent() && done < message.size) {
+// @returns false once the peer has vanished; `done` grows by what the system has taken.
+bool Connection::write(Bytes message, std::size_t& done) noexcept {
+  while (done < message.size) {
     const ssize_t size =
         ::send(socket_.get(), message.data + done, message.size - done, MSG_NOSIGNAL);
     if (size >= 0) {
       done += static_cast<std::size_t>(size);
-    } else if (wouldBlock(errno)) {
-      break;
-    } else if (errno != EINTR) {
-      return false;
-    }
-  }
-  unsent_.insert(unsent_.end(), message.data + done, message.data + message.size);
-  return true;
-}
-
-bool Connection::flush() noexcept {
-  while (hasUnsent()) {
-    const ssize_t size =
-        ::send(socket_.get(), unsent_.data() + sent_, unsent_.size() - sent_, MSG_NOSIGNAL);
-    if (size >= 0) {
-      sent_ += static_cast<std::size_t>(size);
     } else if (wouldBlock(errno)) {
       return true;
     } else if (errno != EINTR) {
       return false;
     }
   }
-  unsent_.clear();
-  sent_ = 0;
   return true;
+}
+
+bool Connection::send(Bytes message) {
+  std::size_t done = 0;
+  if (!hasUnsent() && !write(message, done)) {
+    return false;
+  }
+  if (done < message.size) {
+    unsent_.push_back({std::make_shared<const std::vector<std::uint8_t>>(
+                           message.data + done, message.data + message.size),
+                       0});
+  }
+  return true;
+}
+
+bool Connection::send(const Blob& bytes) {
+  std::size_t done = 0;
+  if (!hasUnsent() && !write({bytes->data(), bytes->size()}, done)) {
+    return false;
+  }
+  if (done < bytes->size()) {
+    unsent_.push_back({bytes, done});
+  }
+  return true;
+}
+
+bool Connection::flush() noexcept {
+  while (hasUnsent()) {
+    Unsent& next = unsent_.front();
+    if (!write({next.bytes->data(), next.bytes->size()}, next.sent)) {
+      return false;
+    }
+    if (next.sent < next.bytes->size()) {
+      return true;
+    }
+    unsent_.erase(unsent_.begin());
+  }
+  return true;
+}
+
+std::size_t Connection::unsentBytes() const noexcept {
+  std::size_t size = 0;
+  for (const Unsent& unsent : unsent_) {
+    size += unsent.bytes->size() - unsent.sent;
+  }
+  return size;
 }
 
 void Connection::reset() noexcept {
@@ -187,13 +243,22 @@ void Connection::reset() noexcept {
 Datagrams::Datagrams(const std::string& address)
     : socket_(bound(SOCK_DGRAM, "a UDP socket at", address, 0)) {}
 
+void Datagrams::setPeer(const sockaddr_in& peer) noexcept {
+  peer_ = peer;
+  ::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&peer_), sizeof(peer_));
+  // What an earlier peer has left behind must not cost this one a datagram.
+  int error = 0;
+  socklen_t size = sizeof(error);
+  ::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size);
+}
+
 void Datagrams::send(Bytes datagram) noexcept {
   ::sendto(socket_.get(), datagram.data, datagram.size, MSG_NOSIGNAL | MSG_DONTWAIT,
            reinterpret_cast<const sockaddr*>(&peer_), sizeof(peer_));
 }
 
 std::ptrdiff_t Datagrams::receive(std::uint8_t* buffer, std::size_t capacity) noexcept {
-  for (;;) {
+  for (int i = 0; i < kMostStrangers; i++) {
     sockaddr_in from{};
     socklen_t size = sizeof(from);
     const ssize_t received = ::recvfrom(socket_.get(), buffer, capacity, MSG_TRUNC | MSG_DONTWAIT,
@@ -209,6 +274,7 @@ std::ptrdiff_t Datagrams::receive(std::uint8_t* buffer, std::size_t capacity) no
       return received;
     }
   }
+  return -1;
 }
 
 }  // namespace franka_sim_mujoco::fci

@@ -35,6 +35,9 @@ const char* const kUsage =
     "                      0: nowhere); send the line help for all of them\n"
     "Of all:\n"
     "  --pace PACE         realtime, patient, lockstep, or a factor such as 0.5 (realtime)\n"
+    "  --patience SECONDS  with --pace patient or lockstep: how long a client that is silent in "
+    "its\n"
+    "                      motion is waited for, 0.01 to 86400, or forever (30)\n"
     "  --world FILE        the scene, MJCF or SDF: a file, or the name of one that comes along:\n"
     "                      stone.xml (an empty world)\n"
     "  --linger SECONDS    when told to end by a signal, wait so long for clients to go first (0)\n"
@@ -122,6 +125,31 @@ double toSeconds(const std::string& text) {
   return seconds;
 }
 
+std::chrono::milliseconds toPatience(const std::string& text) {
+  if (text == "forever") {
+    return std::chrono::hours(24 * 365 * 100);  // in nanoseconds it still is a number
+  }
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(seconds >= 0.01 && seconds <= 86400.0)) {
+    throw std::invalid_argument("--patience " + text +
+                                ": give a number of seconds from 0.01 to 86400, or forever.");
+  }
+  return std::chrono::milliseconds(std::lround(1e3 * seconds));
+}
+
+void usePatience(const std::string& text, fci::Pace& pace) {
+  if (text.empty()) {
+    return;
+  }
+  pace.patience = toPatience(text);
+  if (!pace.lockstep) {
+    throw std::invalid_argument("--patience " + text +
+                                ": only a robot that waits for its client has patience; give "
+                                "--pace patient or --pace lockstep as well.");
+  }
+}
+
 void checkArm(const ArmOptions& arm) {
   if (arm.robot != "panda" && arm.robot != "fr3") {
     throw std::invalid_argument("--robot " + arm.robot + ": there are panda and fr3.");
@@ -186,6 +214,7 @@ void checkTogether(std::vector<ArmOptions>& arms) {
 
 Options readOptions(int argc, const char* const* argv) {
   Options options;
+  std::string patience;
   bool robot_named = false;
   const auto arm = [&options]() -> ArmOptions& { return options.arms.back(); };
   const std::map<std::string, std::function<void(const std::string&)>> with_value{
@@ -206,6 +235,7 @@ Options readOptions(int argc, const char* const* argv) {
       {"--hand", [&](const std::string& value) { arm().tool = toTool(value); }},
       {"--control-port", [&](const std::string& value) { arm().control_port = toPort(value); }},
       {"--pace", [&](const std::string& value) { options.pace = toPace(value); }},
+      {"--patience", [&](const std::string& value) { patience = value; }},
       {"--linger", [&](const std::string& value) { options.linger = toSeconds(value); }},
       {"--world", [&](const std::string& value) { options.world = value; }},
   };
@@ -230,6 +260,7 @@ Options readOptions(int argc, const char* const* argv) {
       option->second(argv[++i]);
     }
   }
+  usePatience(patience, options.pace);
   checkTogether(options.arms);
   return options;
 }

@@ -70,8 +70,7 @@ void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
 
 void addLink(LineServer& lines, fci::SimRobot& robot) {
   lines.add("loss PROBABILITY [SEED]", [&](const Words& words) {
-    robot.link().setLoss(toNumber(words.at(0)),
-                         words.size() > 1 ? static_cast<std::uint64_t>(toNumber(words[1])) : 0);
+    robot.link().setLoss(toNumber(words.at(0)), words.size() > 1 ? fci::toSeed(words[1]) : 0);
     return "";
   });
   lines.add("lose COMMANDS", [&](const Words& words) {

@@ -117,9 +117,11 @@ ServedArm::ServedArm(const ArmOptions& options, World& world) : options_(options
   robot_.emplace(unit, world.arm(options.arm_id, options.arm_id),
                  fci::servedAt(options.ip, protocolsOf(options), unit.model),
                  servedHand(options, world, hand), vacuum);
-  robot_->onSelfCollision([name = options.arm_id + " at " + options.ip](const std::string& what) {
+  const auto tell = [name = options.arm_id + " at " + options.ip](const std::string& what) {
     std::fprintf(stderr, "franka_sim: %s: %s\n", name.c_str(), what.c_str());
-  });
+  };
+  robot_->onSelfCollision(tell);
+  robot_->onRefusal(tell);
 }
 
 std::string ServedArm::protocols() const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/ros/pace.h>
 
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <stdexcept>
@@ -17,6 +18,9 @@ std::int64_t nanoseconds(clockid_t clock) noexcept {
   clock_gettime(clock, &now);
   return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
 }
+
+// Who asks something of the simulation waits meanwhile, for ten seconds at most (RequestQueue).
+constexpr std::chrono::seconds kPatience{5};
 
 }  // namespace
 
@@ -35,6 +39,7 @@ fci::Pace paceOf(double real_time_factor) {
   pace.lockstep = pace.flows = true;
   pace.by_clock = real_time_factor > 0.0;
   pace.factor = real_time_factor;
+  pace.patience = kPatience;
   return pace;
 }
 

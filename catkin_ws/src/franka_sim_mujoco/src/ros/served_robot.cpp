@@ -78,6 +78,9 @@ ServedRobot::ServedRobot(const RobotPlan& plan, World& world, BetweenTicks betwe
   robot_.onSelfCollision([name = plan.description.name](const std::string& what) {
     ROS_WARN_STREAM("Robot '" << name << "': " << what);
   });
+  robot_.onRefusal([name = plan.description.name](const std::string& what) {
+    ROS_WARN_STREAM("Robot '" << name << "': " << what);
+  });
   offerSwitches();
   offerLink();
   offerStates();

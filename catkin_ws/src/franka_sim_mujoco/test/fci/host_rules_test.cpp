@@ -22,24 +22,31 @@ class CountingRobot : public HostedRobot {
   void observe() override { observed++; }
   void actuate() override {
     actuated++;
+    begun = true;
     answered += moving && receiveCommand() ? 1 : 0;
   }
   void serve(bool stops_only) override {
     served++;
+    if (moves_when_served) {
+      moves_when_served = begun = seen = false;
+      moving = true;
+    }
     served_all += stops_only ? 0 : 1;
   }
   void publish(std::uint64_t ticks, bool same_moment) override {
     (same_moment ? repeated : published)++;
     message_ids += ticks;
-    if (!same_moment) {
+    seen = true;
+    if (!same_moment || !begun) {
       shown_at = Clock::now();
     }
   }
+  void repeat() override { repeats++; }
   bool hasNews() const override { return false; }
-  bool receiveCommand() override { return answers && Clock::now() - shown_at >= delay; }
+  bool receiveCommand() override { return answers && seen && Clock::now() - shown_at >= delay; }
   bool expectsCommand() const override { return moving; }
   bool asynchronous() const override { return at_leisure; }
-  bool motionHasBegun() const override { return true; }
+  bool motionHasBegun() const override { return begun; }
   bool settling() const override { return restless; }
   bool handBusy() const override { return false; }
   void addCommandDescriptor(std::vector<pollfd>& /*fds*/) const override {}
@@ -47,10 +54,12 @@ class CountingRobot : public HostedRobot {
 
   bool moving{false}, at_leisure{false}, restless{false};
   bool answers{true};
+  bool moves_when_served{false}, begun{true}, seen{true};
   milliseconds delay{0};
   Clock::time_point shown_at;
   std::uint64_t message_ids{0};
-  int observed{0}, actuated{0}, answered{0}, served{0}, served_all{0}, published{0}, repeated{0};
+  int observed{0}, actuated{0}, answered{0}, served{0}, served_all{0}, published{0}, repeated{0},
+      repeats{0};
 };
 
 class HostRules : public ::testing::Test {
@@ -92,7 +101,7 @@ Pace waiting(bool flows, bool by_clock) {
   pace.lockstep = true;
   pace.flows = flows;
   pace.by_clock = by_clock;
-  pace.silence = milliseconds(50);
+  pace.patience = milliseconds(50);
   return pace;
 }
 
@@ -143,6 +152,58 @@ TEST_F(HostRules, APatientHostGivesUpASilentClientAndWaitsForItAgainWhenItSpeaks
   EXPECT_GE(timeOf(3), milliseconds(30));
 }
 
+TEST_F(HostRules, WhoWasGivenUpDoesNotTakeTheOthersTime) {
+  CountingRobot other;
+  use(waiting(true, false));
+  host.add(other);
+  robot.moving = true;
+  robot.answers = false;
+  timeOf(1);
+  other.moving = true;
+  other.delay = milliseconds(5);
+  timeOf(10);
+  EXPECT_EQ(10, other.answered);
+}
+
+TEST_F(HostRules, WhileOneClientIsAwaitedTheOthersSeeThatTheirRobotsAreThere) {
+  CountingRobot answered, resting;
+  Pace pace = waiting(false, false);
+  pace.patience = std::chrono::seconds(100);
+  use(pace);
+  host.add(answered);
+  host.add(resting);
+  robot.moving = answered.moving = true;
+  robot.delay = milliseconds(700);
+  timeOf(1);
+  EXPECT_GE(answered.repeats, 2) << "a client gives up after a second without a state";
+  EXPECT_EQ(0, answered.repeated) << "with a new number its clock would go on";
+  EXPECT_EQ(1, robot.published + robot.repeated) << "it has the state that it is to answer";
+  EXPECT_GE(resting.repeated, 100);
+  EXPECT_EQ(1, steps);
+}
+
+TEST_F(HostRules, TimeInWhichTheHostIsHeldUpIsNotItsClientsSilence) {
+  class Held : public CountingRobot {
+   public:
+    // Another process has the processor while the host looks for an answer.
+    bool receiveCommand() override {
+      if (hold > 0) {
+        hold--;
+        std::this_thread::sleep_for(milliseconds(20));
+      }
+      return CountingRobot::receiveCommand();
+    }
+    int hold{0};
+  } held;
+  host.setPace(waiting(false, false));  // 50 ms of patience
+  host.add(held);
+  held.moving = true;
+  held.hold = 10;
+  held.delay = milliseconds(205);
+  timeOf(1);
+  EXPECT_EQ(1, held.answered);
+}
+
 TEST_F(HostRules, TimeThatFlowsHeedsNoClockBetweenMotions) {
   use(waiting(true, false));
   timeOf(5000);
@@ -166,14 +227,14 @@ TEST_F(HostRules, ATickAtOnceHeedsNoClockButWaitsForTheClient) {
 
 TEST_F(HostRules, InLockStepAnAsynchronousMotionGoesByTheClockAndWaitsForNobody) {
   Pace pace = waiting(false, false);
-  pace.silence = std::chrono::seconds(100);
+  pace.patience = std::chrono::seconds(100);
   const Clock::time_point begin = Clock::now();
   use(pace);
   robot.moving = robot.at_leisure = true;
   robot.answers = false;
   timeOf(51);
   EXPECT_GE(Clock::now() - begin, milliseconds(50));
-  EXPECT_LT(Clock::now() - begin, pace.silence);
+  EXPECT_LT(Clock::now() - begin, pace.patience);
   EXPECT_EQ(51, robot.published) << "its client sees each millisecond";
   robot.moving = robot.at_leisure = false;
   robot.restless = true;
@@ -215,6 +276,19 @@ TEST_F(HostRules, AWorldThatStandsStillIsShownWithoutATick) {
   EXPECT_EQ(2, robot.served);
   EXPECT_EQ(0, steps);
   EXPECT_EQ(0, robot.observed);
+}
+
+TEST_F(HostRules, AMotionsFirstStatesCountAllTicksBeforeIt) {
+  use(waiting(false, false));
+  robot.restless = true;
+  timeOf(500);  // of which few are shown
+  robot.moves_when_served = true;
+  for (int i = 0; i < 100000 && !robot.moving; i++) {
+    timeOf(1);
+  }
+  const std::uint64_t before = robot.message_ids;
+  timeOf(1);
+  EXPECT_EQ(before + 1, robot.message_ids) << "the motion's clock would jump";
 }
 
 TEST_F(HostRules, WhoWasRemovedIsLeftAlone) {

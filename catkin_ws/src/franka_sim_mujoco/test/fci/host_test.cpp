@@ -226,7 +226,7 @@ TEST(LockStep, standsStillWhileNobodyMoves) {
 
 TEST(LockStep, treatsASilentClientAsLost) {
   Pace pace = lockStep();
-  pace.silence = std::chrono::milliseconds(50);
+  pace.patience = std::chrono::milliseconds(50);
   Stage stage(pace);
   TestClient client(stage.port());
   connect(client);

@@ -32,18 +32,16 @@ TEST_F(RobotServerTest, tellsItsVersionToOthersAndTakesThemBackAtOnce) {
   for (const std::uint16_t version : {0, 2, 6, 10, 65535}) {
     TestClient stranger(server.port());
     stranger.connect(version);
-    server.serve();
-    const auto answer = stranger.answer(Command::kConnect);
+    const auto answer = answerOf(server, stranger, Command::kConnect);
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->reply.status, Status::kIncompatibleLibraryVersion);
     EXPECT_EQ(answer->reply.server_version, 5);
     EXPECT_FALSE(server.hasClient());
     stranger.close();
-    // The server learns of both in one turn.
+    // The server may learn of both in one turn.
     TestClient again(server.port());
     again.connect(5);
-    server.serve();
-    const auto second = again.answer(Command::kConnect);
+    const auto second = answerOf(server, again, Command::kConnect);
     ASSERT_TRUE(second) << version;
     EXPECT_EQ(second->reply.status, Status::kSuccess);
     again.close();
@@ -245,6 +243,51 @@ TEST_F(RobotServerTest, switchedOffDropsWhoHasNotSaidWhoItIs) {
   EXPECT_TRUE(client.ended());
 }
 
+TEST_F(RobotServerTest, refusesAConnectWithinAMotionWhichGoesOn) {
+  for (const std::uint16_t other : {5, 6, 10}) {
+    TestClient client(server_.port());
+    connect(client, 5);
+    desk_.startMotion();
+    client.request(codec::MoveRequest{});
+    serve();
+    ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+    client.request(codec::ConnectRequest{other, 1});
+    serve();
+    const auto refused = client.answer(Command::kConnect);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->reply.status, Status::kIncompatibleLibraryVersion) << other;
+    EXPECT_EQ(refused->reply.server_version, 5);
+    EXPECT_EQ(server_.version(), 5);
+    EXPECT_EQ(desk_.last_version, 5);
+    server_.publish();
+    const auto state = client.state(1000);  // of this version, at this port
+    ASSERT_TRUE(state) << other;
+    franka_core::RobotCommand command;
+    command.message_id = state->message_id;
+    client.command(command);
+    EXPECT_TRUE(server_.receiveCommand());
+    EXPECT_TRUE(server_.expectsCommands());
+    desk_.endMotion(Status::kSuccess, RobotMode::kIdle);
+    server_.publish();
+    EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kSuccess);
+    client.close();
+    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+  }
+}
+
+TEST_F(RobotServerTest, repeatsAStateByteForByte) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  server_.publish();
+  const auto first = client.state();
+  desk_.shown.q[0] = 1.0;
+  server_.repeat();
+  const auto second = client.state();
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->message_id, second->message_id);
+  EXPECT_EQ(first->q, second->q);
+}
+
 TEST_F(RobotServerTest, dropsDatagramsThatAreNoCommands) {
   TestClient client(server_.port());
   connect(client, 5);
@@ -262,6 +305,7 @@ TEST_F(RobotServerTest, dropsDatagramsThatAreNoCommands) {
     std::copy(bytes.begin(), bytes.end(), cut.begin());
     if (size != codec::commandSize(5)) {
       client.sendDatagram(cut.data(), size);
+      server_.serve();  // which makes room for more of them
       EXPECT_FALSE(server_.receiveCommand()) << size;
     }
   }
@@ -416,8 +460,7 @@ TEST_F(RobotServerTest, takesAThousandClientsOneAfterTheOther) {
     TestClient client(server_.port());
     ASSERT_TRUE(client.connected());
     client.connect(5);
-    server_.serve();
-    ASSERT_TRUE(client.answer(Command::kConnect)) << i;
+    ASSERT_TRUE(answerOf(server_, client, Command::kConnect)) << i;
   }
 }
 

@@ -158,9 +158,9 @@ CodecError encodeReply(std::uint16_t version, Command command, std::uint32_t com
   return CodecError::kNone;
 }
 
-CodecError encodeModelReply(std::uint16_t version, Command command, std::uint32_t command_id,
-                            Bytes model, std::vector<std::uint8_t>& message) {
-  message.clear();
+CodecError encodeModelReplyHead(std::uint16_t version, Command command, std::uint32_t command_id,
+                                std::size_t model_size, ReplyMessage& message) noexcept {
+  message.size = 0;
   const CodecError error = checkCommand(version, command);
   if (error != CodecError::kNone) {
     return error;
@@ -168,17 +168,25 @@ CodecError encodeModelReply(std::uint16_t version, Command command, std::uint32_
   if (!carriesModel(command)) {
     return CodecError::kNotInThisVersion;
   }
-  if (model.size > kMaxReplySize - kPlainReplySize) {
+  if (model_size > kMaxReplySize - kPlainReplySize) {
     return CodecError::kTooLong;
   }
-  message.resize(kPlainReplySize);
-  wire::Writer writer(message.data());
-  writeHead(*commandNumber(version, command), command_id, kPlainReplySize + model.size,
+  wire::Writer writer(message.data);
+  writeHead(*commandNumber(version, command), command_id, kPlainReplySize + model_size,
             *statusNumber(version, command, Status::kSuccess), writer);
-  if (model.size > 0) {
+  message.size = kPlainReplySize;
+  return CodecError::kNone;
+}
+
+CodecError encodeModelReply(std::uint16_t version, Command command, std::uint32_t command_id,
+                            Bytes model, std::vector<std::uint8_t>& message) {
+  ReplyMessage head;
+  const CodecError error = encodeModelReplyHead(version, command, command_id, model.size, head);
+  message.assign(head.data, head.data + head.size);
+  if (error == CodecError::kNone && model.size > 0) {
     message.insert(message.end(), model.data, model.data + model.size);
   }
-  return CodecError::kNone;
+  return error;
 }
 
 CodecError decodeReply(std::uint16_t version, Command command, Bytes message, Header& header,

@@ -34,6 +34,8 @@ class HandServer {
 
   std::uint16_t port() const noexcept { return slot_.port(); }
   bool hasClient() const noexcept { return slot_.confirmed(); }
+  /// See ClientSlot::onRefusal.
+  void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
   /// A command runs, also one whose client has gone: a hand does not drop what it holds because a
   /// program ends.
   bool busy() const noexcept { return unit_.outcome(last_) == GripperOutcome::kRunning; }
@@ -60,7 +62,7 @@ class HandServer {
   static constexpr std::chrono::milliseconds kStatePeriod{33};
 
   static Status toStatus(GripperOutcome outcome) noexcept;
-  bool serveOne(Connection& client, bool stops_only, bool& progressed);
+  Served serveOne(Connection& client, bool stops_only);
   bool connect(const Header& header, const ConnectRequest& request);
   bool start(const Header& header, const Request& request);
   bool reply(Command command, std::uint32_t id, Status status, std::uint16_t version = 0);
@@ -90,36 +92,32 @@ typename HandServer<Device>::Status HandServer<Device>::toStatus(GripperOutcome 
 
 template <typename Device>
 void HandServer<Device>::serve(bool stops_only) {
-  slot_.serve(
-      [this, stops_only](Connection& client, bool& progressed) {
-        return serveOne(client, stops_only, progressed);
-      },
-      [this] { forgetClient(); });
+  slot_.serve([this, stops_only](Connection& client) { return serveOne(client, stops_only); },
+              [this] { forgetClient(); });
 }
 
 template <typename Device>
-bool HandServer<Device>::serveOne(Connection& client, bool stops_only, bool& progressed) {
+Served HandServer<Device>::serveOne(Connection& client, bool stops_only) {
   using franka_core::fci::CodecError;
   Header header;
   const franka_core::fci::Bytes stream = client.received();
   const CodecError framing =
       franka_core::fci::gripper::nextMessage(stream, Device::kMaxRequestSize, header);
   if (framing != CodecError::kNone) {
-    return framing == CodecError::kIncomplete;
+    return framing == CodecError::kIncomplete ? Served::kIncomplete : Served::kBroken;
   }
   Request request;
   if (decodeRequest({stream.data, header.size}, header, request) != CodecError::kNone) {
-    return false;
+    return Served::kBroken;
   }
   if (stops_only && slot_.confirmed() && commandOf(request) != Command::kStop) {
-    return true;
+    return Served::kHeldBack;
   }
   client.consume(header.size);
-  progressed = true;
-  if (const auto* connection = std::get_if<ConnectRequest>(&request)) {
-    return connect(header, *connection);
-  }
-  return slot_.confirmed() && start(header, request);
+  const auto* connection = std::get_if<ConnectRequest>(&request);
+  const bool goes_on = connection != nullptr ? connect(header, *connection)
+                                             : slot_.confirmed() && start(header, request);
+  return goes_on ? Served::kDone : Served::kBroken;
 }
 
 template <typename Device>

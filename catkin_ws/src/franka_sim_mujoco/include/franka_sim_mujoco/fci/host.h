@@ -17,7 +17,7 @@ namespace franka_sim_mujoco::fci {
 
 /// How simulated time follows the wall's.
 struct Pace {
-  /// Waits within a motion for each answer, for as long as it takes up to `silence`; runs as fast
+  /// Waits within a motion for each answer, for as long as it takes up to `patience`; runs as fast
   /// as machine and clients allow (decision 21), but by the clock within an asynchronous motion,
   /// whose client owes no answers. Otherwise ticks are due every millisecond divided by `factor`,
   /// whatever the clients do.
@@ -30,8 +30,10 @@ struct Pace {
   bool by_clock{false};
   double factor{1.0};
   /// After so long without an answer a client of a lock-step motion counts as lost; its cycles are
-  /// then waited for a millisecond each (our choice: below the second after which clients give up).
-  std::chrono::milliseconds silence{500};
+  /// then waited for a millisecond each. Time in which this process itself does not run does not
+  /// count. A client whose connection ends is waited for no longer. (Our choice: a starved machine
+  /// holds a program up for seconds, and what others ask of the robot meanwhile may take 60.)
+  std::chrono::milliseconds patience{30000};
 };
 
 /// One robot as the host drives it: a control unit on a plant, with its servers. One thread.
@@ -48,6 +50,9 @@ class HostedRobot {
   virtual void serve(bool stops_only) = 0;
   /// Sends states, `ticks` after the last ones. @param same_moment time stands still since then.
   virtual void publish(std::uint64_t ticks, bool same_moment) = 0;
+  /// Time stands still for long within a motion: shows its client the last state once more, as it
+  /// was, unless an answer to it is due; and clients of what is mounted on the flange theirs.
+  virtual void repeat() = 0;
   /// Somebody waits for the next state.
   virtual bool hasNews() const = 0;
 
@@ -121,11 +126,16 @@ class Host {
   struct Guest {
     HostedRobot* robot;
     bool given_up{false};  // silent for too long in lock-step
+    int starts_shown{0};   // states sent to a client that is to begin
+    Clock::time_point shown_at{};
+    std::uint64_t unpublished_ticks{1};
 
     bool isDue() const { return robot->expectsCommand() && !robot->asynchronous(); }
+    bool isStarting() const { return isDue() && !robot->motionHasBegun() && !given_up; }
   };
 
   void publishAll(bool same_moment = false);
+  static void publish(Guest& guest, bool same_moment, Clock::time_point now);
   void serveAll();
   void serveIfDue();
   bool holdsRequestsBack() const;
@@ -136,11 +146,13 @@ class Host {
   void listenUntil(Clock::time_point end);
   void waitInLockStep();
   void awaitSwiftAnswers(Clock::time_point begin);
-  bool waitForClients(Clock::time_point begin, bool all_answered);
+  void beginWait();
+  bool waitForClients();
+  void showThatTimeStandsStill(Clock::time_point now);
   bool clientsAreDue() const;
   bool clientsAreAtLeisure() const;
   bool heedsClock() const;
-  bool startsAreDue() const;
+  bool somebodyIsAwaited() const;
   bool timeMustGoOn();
   void giveUpOnTheSilent();
   bool stopped() const;
@@ -158,9 +170,9 @@ class Host {
   Clock::duration period_{};
   Clock::time_point deadline_{};
   bool spin_;
-  int starts_shown_{0};  // states sent to a client that is to begin
   Clock::time_point published_at_{};
-  std::uint64_t unpublished_ticks_{1};
+  Clock::time_point looked_at_{};
+  Clock::duration waited_{};  // in this tick, as far as this process ran
   std::uint64_t rolling_{0};
   std::uint64_t held_back_{0};  // ticks in a row in which requests had to wait
   std::uint64_t ticks_{0};

@@ -41,7 +41,7 @@ class LineServer final : public Service {
     Handler handler;
   };
 
-  bool serveOne(Connection& client, bool& progressed);
+  Served serveOne(Connection& client);
   std::string help() const;
 
   ClientSlot slot_;
@@ -50,6 +50,9 @@ class LineServer final : public Service {
 
 /// A word as a number. @throws std::invalid_argument with a sentence.
 double toNumber(const std::string& word);
+/// A word as a whole number from 0 to 18446744073709551615, the largest of 64 bits.
+/// @throws std::invalid_argument with a sentence.
+std::uint64_t toSeed(const std::string& word);
 /// "on" or "off". @throws std::invalid_argument with a sentence.
 bool toSwitch(const std::string& word);
 

@@ -14,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace franka_sim_mujoco::fci {
@@ -33,12 +34,15 @@ struct RobotServerParameters {
 /// how long it waits for the answer.
 ///
 /// One client at a time; a second one is turned away (its connection is reset, so that it fails at
-/// once instead of waiting). A client that vanishes leaves its motion without commands; the control
+/// once instead of waiting), and none can take more than a little of a millisecond (ClientSlot). A
+/// Connect within a motion, or while another answer is due, is refused: a client keeps the version
+/// that it has begun with. A client that vanishes leaves its motion without commands; the control
 /// unit then does what it does when commands stay away. With the interface switched off (see
 /// ArmDesk::active) the client is dropped, after what it is due, and nobody can connect.
 ///
-/// One thread. publish, receiveCommand and takeCommand are real-time safe; serve allocates only
-/// when a client connects or asks for a model.
+/// One thread. publish, receiveCommand and takeCommand are real-time safe where the client takes
+/// its answers; serve allocates only when connections come and go, or are slower than their
+/// answers.
 class RobotServer {
  public:
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
@@ -47,6 +51,12 @@ class RobotServer {
 
   std::uint16_t port() const noexcept { return slot_.port(); }
   bool hasClient() const noexcept { return version_ != 0; }
+  /// See ClientSlot::onRefusal.
+  void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
+  /// What the client has not taken yet [bytes]; models are not copied for it.
+  std::size_t unsentBytes() noexcept {
+    return slot_.client() == nullptr ? 0 : slot_.client()->unsentBytes();
+  }
   /// Of the connected client; 0 without one.
   std::uint16_t version() const noexcept { return version_; }
 
@@ -59,6 +69,9 @@ class RobotServer {
   /// @param same_moment time stands still since the last one: an answer to any state of this moment
   /// counts.
   void publish(std::uint64_t ticks = 1, bool same_moment = false);
+  /// Sends the last state once more, byte for byte. Clients drop what is no newer than what they
+  /// have, but see that the robot is there.
+  void repeat() noexcept;
   /// A reply waits until the next state is out.
   bool hasNews() const noexcept {
     return motion_end_ || stop_end_ || recovery_end_ || answered_setter_count_ > 0;
@@ -91,24 +104,27 @@ class RobotServer {
     franka_core::fci::Status status;
   };
   static constexpr std::size_t kMostAnswered = 8;  // genuine clients have one at a time
+  static constexpr int kDatagramsAtOnce = 64;      // that are no answer, between calls of serve
 
   void forgetClient() noexcept;
   void dropClient() noexcept;
-  bool serveOne(Connection& client, bool stops_only, bool& progressed);
+  Served serveOne(Connection& client, bool stops_only);
   bool connect(const franka_core::fci::Header& header,
                const franka_core::fci::ConnectRequest& request);
   bool answer(const franka_core::fci::Header& header, const franka_core::fci::Request& request);
   bool refuse(const franka_core::fci::Header& header, franka_core::fci::CodecError error);
   bool reply(const Pending& to, franka_core::fci::Status status);
-  const std::string* urdf() const noexcept;
-  bool replyWithModel(const Pending& to, Bytes model);
+  const Blob* urdf() const noexcept;
+  bool replyWithModel(const Pending& to, const Blob& model);
   bool replyWithWall(const Pending& to, std::int32_t id);
   bool answersAState(std::uint64_t message_id) const noexcept;
   void collectEnds() noexcept;
   bool replyToSetters();
   void replyTo(std::optional<Pending>& pending, std::optional<franka_core::fci::Status>& status);
 
-  RobotServerParameters parameters_;
+  RobotServerParameters parameters_;  // without the models
+  Blob model_library_;
+  std::map<std::uint16_t, Blob> urdfs_;
   ArmDesk& desk_;
   ClientSlot slot_;
   Datagrams datagrams_;
@@ -125,6 +141,7 @@ class RobotServer {
   bool asynchronous_{false};
   bool begun_{false};
   bool answered_{false};
+  int datagrams_left_{kDatagramsAtOnce};
   franka_core::fci::StateBuffer state_bytes_{};
   franka_core::RobotState shown_;
   franka_core::RobotCommand command_;

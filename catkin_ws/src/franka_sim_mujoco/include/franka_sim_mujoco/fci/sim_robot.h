@@ -54,6 +54,10 @@ class SimRobot final : public HostedRobot {
   /// error appears: what follows the robot's name and a colon. Called within `observe`.
   void onSelfCollision(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
 
+  /// Who is told why connections were ended (ClientSlot::onRefusal): what follows the robot's name
+  /// and a colon. Called within `serve`.
+  void onRefusal(const ClientSlot::Tell& tell);
+
   /// Of all states that were answered and those after them up to rest, without their ids: equal
   /// hash, equal run (decision 21).
   std::uint64_t hash() const noexcept { return hash_; }
@@ -65,6 +69,7 @@ class SimRobot final : public HostedRobot {
   void actuate() override;
   void serve(bool stops_only) override;
   void publish(std::uint64_t ticks, bool same_moment) override;
+  void repeat() override;
   bool hasNews() const override { return server_.hasNews(); }
   bool receiveCommand() override { return server_.receiveCommand(); }
   bool expectsCommand() const override { return server_.expectsCommands(); }
@@ -94,6 +99,7 @@ class SimRobot final : public HostedRobot {
     VacuumServer server;
   };
 
+  void publishTools(std::uint64_t ticks);
   void updateHash() noexcept;
   bool collidesWithItself() const noexcept;
 

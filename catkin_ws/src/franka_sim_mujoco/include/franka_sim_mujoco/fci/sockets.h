@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@
 namespace franka_sim_mujoco::fci {
 
 using franka_core::fci::Bytes;
+
+/// Bytes that many messages share, such as a model: nobody copies them.
+using Blob = std::shared_ptr<const std::vector<std::uint8_t>>;
 
 /// Closes a file descriptor when it goes.
 class Descriptor {
@@ -45,8 +49,11 @@ class Listener {
 
   std::uint16_t port() const noexcept { return port_; }
   int descriptor() const noexcept { return socket_.get(); }
-  /// The next connection and where it comes from; an empty descriptor when there is none.
+  /// The next connection and where it comes from; an empty descriptor when there is none, or when
+  /// this process can open no more of them.
   Descriptor accept(sockaddr_in& peer) noexcept;
+  /// Whether a connection that waits can be accepted: worth a poll.
+  bool accepts() const noexcept;
 
   /// Closed: whoever connects is refused; the port stays this listener's.
   bool isOpen() const noexcept { return open_; }
@@ -57,22 +64,30 @@ class Listener {
  private:
   Descriptor socket_;
   sockaddr_in name_{};
+  std::chrono::steady_clock::time_point exhausted_until_{};
   bool open_{true};
   std::uint16_t port_{0};
 };
 
 /// One TCP connection. Requests collect in a buffer of fixed size; what the peer does not take at
-/// once is kept and sent by later calls of flush.
+/// once is kept and sent by later calls of flush. A peer that vanishes without a word, or takes
+/// nothing, is noticed after 5 s.
 class Connection {
  public:
   explicit Connection(Descriptor socket);
 
   int descriptor() const noexcept { return socket_.get(); }
   bool open() const noexcept { return static_cast<bool>(socket_); }
-  bool hasUnsent() const noexcept { return sent_ < unsent_.size(); }
+  bool hasUnsent() const noexcept { return !unsent_.empty(); }
+  /// What is kept for the peer, shared bytes included.
+  std::size_t unsentBytes() const noexcept;
+  /// The buffer has no room: nothing is received before something is consumed.
+  bool isFull() const noexcept { return filled_ == kCapacity; }
 
   /// Reads what is there. @returns false once the peer has closed or vanished.
   bool receive() noexcept;
+  /// The same question where nothing may be read: it is answered whatever still waits to be read.
+  bool peerHasClosed() const noexcept;
   /// What has been received and not consumed.
   Bytes received() const noexcept { return {buffer_, filled_}; }
   void consume(std::size_t size) noexcept;
@@ -80,6 +95,8 @@ class Connection {
   /// Sends, or keeps for later. Allocates only where the peer is slower than the messages.
   /// @returns false once the peer has vanished.
   bool send(Bytes message);
+  /// The same for shared bytes, which are kept without a copy.
+  bool send(const Blob& bytes);
   bool flush() noexcept;
 
   void close() noexcept { socket_.close(); }
@@ -89,11 +106,17 @@ class Connection {
  private:
   static constexpr std::size_t kCapacity = 4096;  // larger than the largest request
 
+  struct Unsent {
+    Blob bytes;
+    std::size_t sent;
+  };
+
+  bool write(Bytes message, std::size_t& done) noexcept;
+
   Descriptor socket_;
   std::uint8_t buffer_[kCapacity];
   std::size_t filled_{0};
-  std::vector<std::uint8_t> unsent_;
-  std::size_t sent_{0};
+  std::vector<Unsent> unsent_;
 };
 
 /// A UDP socket on one address, with one peer at a time.
@@ -103,10 +126,11 @@ class Datagrams {
   explicit Datagrams(const std::string& address);
 
   int descriptor() const noexcept { return socket_.get(); }
-  void setPeer(const sockaddr_in& peer) noexcept { peer_ = peer; }
+  /// The system keeps away what others send from then on.
+  void setPeer(const sockaddr_in& peer) noexcept;
   /// Real-time safe. A datagram that the system does not take is lost, as on a wire.
   void send(Bytes datagram) noexcept;
-  /// The next datagram from the peer's address; others are dropped.
+  /// The next datagram from the peer's address; others are dropped, a limited number a call.
   /// @returns its size, which may be larger than `capacity`; -1 when there is none.
   std::ptrdiff_t receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
 

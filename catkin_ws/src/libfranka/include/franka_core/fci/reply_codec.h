@@ -38,6 +38,11 @@ CodecError encodeReply(std::uint16_t version, Command command, std::uint32_t com
 CodecError encodeModelReply(std::uint16_t version, Command command, std::uint32_t command_id,
                             Bytes model, std::vector<std::uint8_t>& message);
 
+/// The same without the model itself, for a robot that sends it from where it stands: what goes
+/// before `model_size` bytes of it. No allocation.
+CodecError encodeModelReplyHead(std::uint16_t version, Command command, std::uint32_t command_id,
+                                std::size_t model_size, ReplyMessage& message) noexcept;
+
 /// Client: reads a reply to `command`. `header` is filled whenever there are 12 bytes. `model` is
 /// what follows the status of LoadModelLibrary and GetRobotModel (it points into `message`), empty
 /// for other commands. The header's command is not compared, as in the genuine client: replies
