@@ -3,6 +3,7 @@
 //
 // Our own libfranka against the simulated robot in lock-step, in every version of the protocol.
 #include <franka/exception.h>
+#include <franka/gripper.h>
 #include <franka/model.h>
 #include <franka/robot.h>
 #include <franka_core/limits.h>
@@ -16,6 +17,7 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <future>
 #include <memory>
 #include <sstream>
@@ -51,7 +53,12 @@ struct Place {
 class SimulatedRobots {
  public:
   explicit SimulatedRobots(const std::vector<Place>& places, bool by_clock = false)
-      : host_([this] { world_.step(); }, pace(by_clock)) {
+      : host_(
+            [this] {
+              std::this_thread::sleep_for(std::chrono::milliseconds(hold_up_.exchange(0)));
+              world_.step();
+            },
+            pace(by_clock)) {
     for (const Place& place : places) {
       add(place);
     }
@@ -62,6 +69,11 @@ class SimulatedRobots {
     thread_.join();
   }
 
+  /// Nothing runs for so long, as on a machine that does something else.
+  void holdUp(int milliseconds) { hold_up_ = milliseconds; }
+  std::string gripperAddress(std::size_t robot = 0) const {
+    return "127.0.0.1:" + std::to_string(robots_[robot]->gripperPort());
+  }
   std::string address(std::size_t robot = 0) const {
     return "127.0.0.1:" + std::to_string(robots_[robot]->server().port());
   }
@@ -111,6 +123,7 @@ class SimulatedRobots {
   std::vector<std::unique_ptr<SimRobot>> robots_;
   Host host_;
   std::atomic<bool> stop_{false};
+  std::atomic<int> hold_up_{0};
   std::thread thread_;
 };
 
@@ -141,14 +154,17 @@ double speed(double t) {
 constexpr double kAngle = 0.1;    // [rad]
 constexpr double kLength = 0.05;  // [m]
 
-void swing(franka::Robot& robot, double angle) {
+void swing(
+    franka::Robot& robot, double angle, const std::function<void(int)>& in_cycle = [](int) {}) {
   double time = 0.0;
+  int cycle = 0;
   std::array<double, 7> begin{};
   robot.control([&](const franka::RobotState& state, franka::Duration period) {
     if (time == 0.0) {
       begin = state.q_d;
     }
     time += period.toSec();
+    in_cycle(cycle++);
     franka::JointPositions positions(begin);
     positions.q[3] += angle * way(time);
     return time >= kDuration + 0.2 ? franka::MotionFinished(positions) : positions;
@@ -293,6 +309,47 @@ TEST_P(TwoArms, MoveAtOnceForAClientEach) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pace, TwoArms, ::testing::Bool());
+
+constexpr int kLonger = 1300;  // than clients wait for a state [ms]
+
+TEST(StarvedMachine, ARobotThatWaitsForItsClientIsWaitedForByItsClient) {
+  SimulatedRobots simulated(std::vector<Place>{{5}});
+  franka::Robot robot(simulated.address(), franka::RealtimeConfig::kIgnore);
+  swing(robot, kAngle, [&](int cycle) {
+    // From here on the client can know that the robot's time is not the wall's.
+    if (cycle == 500) {
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+    } else if (cycle == 600) {
+      simulated.holdUp(kLonger);
+    }
+  });
+  EXPECT_NEAR(robot.readOnce().q[3], kReady[3] + kAngle, 2e-3);
+}
+
+TEST(StarvedMachine, NobodyGivesUpWhileAnotherArmsClientIsAwaited) {
+  SimulatedRobots simulated({{5, 0.0}, {10, 1.0}});
+  franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
+  franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
+  franka::Gripper gripper(simulated.gripperAddress(0));
+  std::atomic<bool> done{false};
+  std::thread reading([&] {
+    while (!done) {
+      EXPECT_NO_THROW(gripper.readOnce());
+    }
+  });
+  auto other = std::async(std::launch::async, [&fr3] { swing(fr3, -kAngle); });
+  swing(panda, kAngle, [](int cycle) {
+    if (cycle == 300) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(kLonger));
+    }
+  });
+  EXPECT_NO_THROW(other.get());
+  EXPECT_NO_THROW(fr3.readOnce());
+  done = true;
+  reading.join();
+  EXPECT_NEAR(panda.readOnce().q[3], kReady[3] + kAngle, 2e-3);
+  EXPECT_NEAR(fr3.readOnce().q[3], kReady[3] - kAngle, 2e-3);
+}
 
 TEST(TwoArmsInOneWorld, CanRunIntoEachOther) {
   SimulatedRobots simulated({{5, 0.0}, {10, 0.75, M_PI}});

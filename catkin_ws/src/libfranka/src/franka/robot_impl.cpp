@@ -7,6 +7,7 @@
 #include <franka_core/fci/texts.h>
 #include <franka_core/to_franka.h>
 
+#include <algorithm>
 #include <mutex>
 #include <thread>
 
@@ -16,6 +17,13 @@ namespace {
 
 namespace fci = franka_core::fci;
 using franka_core::MotionGeneratorMode;
+
+// A wait for a state looks so often whether the connection still stands.
+constexpr std::chrono::milliseconds kSlice{50};
+
+// A robot's clock and this machine's differ by less; so far may the time at which a starved client
+// reads a state lie behind that at which it came (our choice).
+constexpr std::chrono::milliseconds kSameTime{200};
 
 // More datagrams than this in one go are left for the next look; nobody sends so many in earnest.
 constexpr int kDatagramsAtOnce = 4096;
@@ -75,7 +83,7 @@ Robot::Impl::Impl(const std::string& address, RealtimeConfig realtime_config, st
     : realtime_config_(realtime_config),
       log_size_(log_size),
       timeouts_(timeouts()),
-      datagrams_(timeouts_.state) {
+      datagrams_(std::min(timeouts_.state, kSlice)) {
   connect(address);
   limits_ = rateLimitsOfProtocol(version_);
   {
@@ -215,7 +223,7 @@ std::vector<std::uint8_t> Robot::Impl::receiveMessage(Command command, std::uint
                                                       bool owns_states) {
   Clock::time_point last_state = Clock::now();
   const auto watch = [&] {
-    const bool news = owns_states ? takeStates() : takeStatesUnlessInUse();
+    const bool news = owns_states ? takesStatesIn() : takeStatesUnlessInUse();
     const Clock::time_point now = Clock::now();
     if (news) {
       last_state = now;
@@ -271,18 +279,44 @@ const franka_core::RobotState& Robot::Impl::receiveState() {
   if (channel_->closedByServer()) {
     throw NetworkException(fci::kServerClosed);
   }
-  const Clock::time_point deadline = Clock::now() + timeouts_.state;
+  Clock::duration waited{};
+  Clock::time_point looked_at = Clock::now();
   bool news = takeStates();
   while (!news) {
+    repeated_ = false;
     const Datagram datagram = datagrams_.receive(buffer_.data(), buffer_.size());
     news = datagram.any && accept(datagram);
     // What came right behind it is newer still.
     news = takeStates() || news;
-    if (!news && (!datagram.any || Clock::now() >= deadline)) {
-      throw NetworkException(channel_->closedByServer() ? fci::kServerClosed : fci::kStateTimeout);
+    const Clock::time_point now = Clock::now();
+    waited = repeated_ ? Clock::duration{}
+                       : waited + std::min<Clock::duration>(now - looked_at, 2 * kSlice);
+    looked_at = now;
+    if (!news && channel_->closedByServer()) {
+      throw NetworkException(fci::kServerClosed);
+    }
+    if (!news && waited >= stateBound()) {
+      throw NetworkException(fci::kStateTimeout);
     }
   }
   return state();
+}
+
+std::chrono::milliseconds Robot::Impl::stateBound() const noexcept {
+  return keepsOtherTime() ? std::max(timeouts_.state, timeouts_.long_command) : timeouts_.state;
+}
+
+void Robot::Impl::beginMotion() noexcept {
+  motion_began_ = Moment{received_at_, state().message_id};
+}
+
+bool Robot::Impl::keepsOtherTime() const noexcept {
+  if (!motion_began_) {
+    return false;
+  }
+  const auto here = received_at_ - motion_began_->here;
+  const std::chrono::milliseconds at_robot(state().message_id - motion_began_->at_robot);
+  return std::chrono::abs(here - at_robot) > kSameTime;
 }
 
 bool Robot::Impl::takeStates() {
@@ -305,7 +339,13 @@ bool Robot::Impl::takeStatesUnlessInUse() {
     std::atomic_flag& flag;
     ~Release() { flag.clear(std::memory_order_release); }
   } release{states_in_use_};
-  return takeStates();
+  return takesStatesIn();
+}
+
+// Also where what comes is the last state once more: the robot is there.
+bool Robot::Impl::takesStatesIn() {
+  repeated_ = false;
+  return takeStates() || repeated_;
 }
 
 bool Robot::Impl::accept(const Datagram& datagram) {
@@ -323,9 +363,11 @@ bool Robot::Impl::accept(const Datagram& datagram) {
   }
   datagrams_.accept();
   if (next.message_id <= state().message_id) {
+    repeated_ = repeated_ || next.message_id == state().message_id;
     return false;
   }
   newest_ = 1 - newest_;
+  received_at_ = Clock::now();
   mode_.store(next.robot_mode, std::memory_order_relaxed);
   return true;
 }

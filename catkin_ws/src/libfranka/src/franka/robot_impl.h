@@ -90,8 +90,11 @@ class Robot::Impl {
 
   /// The newest state.
   const franka_core::RobotState& state() const noexcept { return states_[newest_]; }
-  /// Waits for a newer state. Older and repeated ones are dropped.
-  /// @throws NetworkException after Timeouts::state, or if the connection is closed.
+  /// Waits for a newer state. Older and repeated ones are dropped; but a robot that repeats its
+  /// last state waits for another client (a simulated one in lock-step), and is waited for in turn.
+  /// Time in which this process itself does not run does not count.
+  /// @throws NetworkException after Timeouts::state, or Timeouts::long_command where
+  /// keepsOtherTime; at once if the connection is closed.
   /// @throws ProtocolException for a datagram that is no state.
   const franka_core::RobotState& receiveState();
   /// Takes in what has arrived, without waiting. @returns whether there was a newer state.
@@ -99,12 +102,24 @@ class Robot::Impl {
   /// Sends a command in answer to the newest state. @throws NetworkException if it cannot be sent.
   void sendCommand(franka_core::RobotCommand& command);
 
+  /// A motion begins (or ends): from now on its clock is compared with this machine's.
+  void beginMotion() noexcept;
+  void endMotion() noexcept { motion_began_.reset(); }
+  /// Whether the robot's clock has gone differently from this machine's in this motion. No robot's
+  /// does; a simulated one's does that waits for its client's answers, and a busy machine may hold
+  /// it up.
+  bool keepsOtherTime() const noexcept;
+
   /// Whether the newest state shows a motion generator or the external controller at work.
   bool isMoving() const noexcept;
   /// @}
 
  private:
   using Datagram = network::DatagramSocket::Received;
+  struct Moment {
+    Clock::time_point here;
+    std::uint64_t at_robot;  // [ms]
+  };
 
   void connect(const std::string& address);
   /// Offers a version. @returns the version the robot wants instead, or nothing if it agrees.
@@ -117,7 +132,9 @@ class Robot::Impl {
   Reply decode(Command command, const std::vector<std::uint8_t>& message,
                franka_core::fci::Bytes& model) const;
   bool takeStatesUnlessInUse();
+  bool takesStatesIn();
   bool accept(const Datagram& datagram);
+  std::chrono::milliseconds stateBound() const noexcept;
 
   const RealtimeConfig realtime_config_;
   const std::size_t log_size_;
@@ -134,6 +151,9 @@ class Robot::Impl {
   franka_core::fci::StateBuffer buffer_{};
   std::array<franka_core::RobotState, 2> states_;  // the newest, and room for the next
   std::size_t newest_{0};
+  Clock::time_point received_at_{};  // the newest state
+  bool repeated_{false};             // it has come once more since
+  std::optional<Moment> motion_began_;
   std::atomic<franka_core::RobotMode> mode_{franka_core::RobotMode::kOther};
 };
 

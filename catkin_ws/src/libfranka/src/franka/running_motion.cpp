@@ -38,10 +38,14 @@ void RunningMotion::abandonStart() noexcept {
   if (!end_) {
     cancel();
   }
+  robot_.endMotion();
   robot_.forget(id_);
 }
 
-RunningMotion::~RunningMotion() { robot_.forget(id_); }
+RunningMotion::~RunningMotion() {
+  robot_.endMotion();
+  robot_.forget(id_);
+}
 
 void RunningMotion::requireRunning() const {
   if (end_) {
@@ -63,6 +67,7 @@ void RunningMotion::concludeWith(Function function) {
 void RunningMotion::start() {
   const Reply reply =
       robot_.receive(fci::Command::kMove, id_, robot_.bounds().command, /*owns_states=*/true);
+  robot_.beginMotion();
   if (fci::meaning(reply.status) != fci::Meaning::kGood) {
     concludeWith([&] {
       throw CommandException(fci::statusText(fci::Command::kMove, reply.status, robot_.mode()));

@@ -210,7 +210,8 @@ std::optional<CommandChannel::Message> CommandChannel::receive(std::uint32_t id,
 
 bool CommandChannel::closedByServer() const noexcept {
   std::uint8_t byte = 0;
-  return recv(socket_.get(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+  const ssize_t size = recv(socket_.get(), &byte, 1, MSG_PEEK | MSG_DONTWAIT);
+  return size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR);
 }
 
 }  // namespace franka::network

@@ -62,8 +62,8 @@ class CommandChannel {
   std::optional<Message> receive(std::uint32_t id, Clock::time_point deadline,
                                  const std::function<void()>& watch = {});
 
-  /// Whether the server has closed the connection, as far as visible without reading what it sent
-  /// before. One system call; safe in the 1 kHz loop.
+  /// Whether the server has closed the connection or vanished, as far as visible without reading
+  /// what it sent before. One system call; safe in the 1 kHz loop.
   bool closedByServer() const noexcept;
 
  private:

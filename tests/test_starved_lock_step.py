@@ -1,0 +1,95 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A lock-step robot and its client on a machine that starves them: slower, never red, never another result.
+
+Either of the two is stopped in the middle of a motion, on a machine with as many busy processes as
+processors (the long form: eight for each).
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import contextmanager, suppress
+
+import pytest
+from fci_session import client_process, simulated
+from fci_wire import IDLE, LAYOUTS, MOVE, connected
+
+LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
+SPINNERS = (8 if LONG else 1) * os.cpu_count()
+STOPPED = 0.7  # [s]; genuine clients give up after a second without a state
+
+
+@contextmanager
+def busy():
+    spinners = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(SPINNERS)]
+    try:
+        yield
+    finally:
+        for spinner in spinners:
+            spinner.kill()
+            spinner.wait()
+
+
+def stop_for_a_while(pid):
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        time.sleep(STOPPED)  # the fault itself
+    finally:
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGCONT)
+
+
+def moved(sim, client, torque, stopped=None):
+    """One motion from a reset world. @returns the hash of what the robot did."""
+    sim.ask("reset")
+    client.give("move", seconds=4.0, amplitude=0.0 if torque else 0.1, torque=torque, announce=True)
+    begun = client.line()
+    assert begun == "moving", begun
+    if stopped is not None:
+        stop_for_a_while(stopped)
+    result = client.result()
+    assert result["outcome"] == "ok", result
+    assert stopped is None or result["wall"] > STOPPED, "The motion had ended before."
+    assert client.tell("set_load")["outcome"] == "ok"  # answered when the world is at rest
+    return sim.ask("hash")
+
+
+LIBRARIES = [("pyfranka", "panda"), ("pyfranka", "fr3")]
+
+
+@pytest.mark.parametrize("library, robot", LIBRARIES)
+def test_who_is_starved_is_waited_for_and_does_the_same(library, robot):
+    address = {"panda": "127.0.41.1", "fr3": "127.0.41.2"}[robot]
+    with simulated(robot, address, "lockstep") as sim, client_process(library) as client, busy():
+        assert client.tell("connect", address=address)["outcome"] == "ok"
+        for torque in (False, True):
+            hashes = [
+                moved(sim, client, torque, stopped)
+                for stopped in (None, client.process.pid, sim.process.pid)
+            ]
+            assert len(set(hashes)) == 1, hashes
+        assert sim.ask("state").startswith("Idle")
+
+
+def test_a_silent_client_is_waited_for_as_long_as_one_likes_and_a_dead_one_not_at_all():
+    address = "127.0.41.3"
+    with simulated("panda", address, "lockstep", "--patience", "0.1") as sim:
+        with connected(sim) as client:
+            client.start(0, 0)
+            client.state_until(lambda state: state.mode != MOVE)  # without an answer
+            assert sim.ask("state").startswith("Reflex")
+            assert client.reply()[1][0] == LAYOUTS[5].reflex
+            client.recover()
+    with simulated("panda", address, "lockstep", "--patience", "forever") as sim:
+        client = connected(sim)
+        client.start(0, 0)
+        client.reset()
+        begin = time.monotonic()
+        while sim.ask("state").startswith("Move"):
+            assert time.monotonic() - begin < 20.0, sim.ask("state")
+        with connected(sim) as client:
+            client.recover()
+            assert client.state().mode == IDLE
