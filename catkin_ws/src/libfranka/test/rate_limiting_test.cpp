@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "off_rotation.h"
+
 namespace {
 
 using franka::kDeltaT;
@@ -164,6 +166,20 @@ TEST(LimitRate, RefusesPosesThatAreNone) {
   EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, wrong, identity(), Six{}, Six{}),
                std::invalid_argument);
   EXPECT_EQ(identity(), limitRate(kV, kA, kJ, kV, kA, kJ, identity(), identity(), Six{}, Six{}));
+}
+
+// As libfranka 0.9.2 and 0.21.2 were seen to do, also where nothing turns.
+TEST(LimitRate, PosesCountAsTheirNearestRotation) {
+  OffRotations off(5e-6);
+  const Six rest{};
+  for (int i = 0; i < 100; i++) {
+    const Pose last = off.pose();
+    const Pose still = limitRate(3.0, 9.0, 4500.0, 2.5, 17.0, 8500.0, last, last, rest, rest);
+    EXPECT_LT(distance(polarFactor(last), still), 1e-13) << i;
+    const Pose wanted = off.pose();
+    const Pose there = limitRate(1e9, 1e12, 1e15, 1e9, 1e12, 1e15, wanted, last, rest, rest);
+    EXPECT_LT(distance(polarFactor(wanted), there), 1e-12) << i;
+  }
 }
 
 }  // namespace

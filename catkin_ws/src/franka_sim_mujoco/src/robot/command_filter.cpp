@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 
+#include "robot/motion/rotations.h"
+
 namespace franka_sim_mujoco {
 
 namespace {
@@ -34,9 +36,9 @@ void smoothPose(double gain, const Transform& input, Transform& output) noexcept
   }
   const Eigen::Map<const Eigen::Matrix4d> next(input.data());
   Eigen::Map<Eigen::Matrix4d> last(output.data());
-  const Eigen::Quaterniond from(Eigen::Matrix3d(last.topLeftCorner<3, 3>()));
-  const Eigen::Quaterniond to(Eigen::Matrix3d(next.topLeftCorner<3, 3>()));
-  last.topLeftCorner<3, 3>() = from.slerp(gain, to).normalized().toRotationMatrix();
+  const Eigen::Quaterniond from(orthonormalised(last.topLeftCorner<3, 3>()));
+  const Eigen::Quaterniond to(orthonormalised(next.topLeftCorner<3, 3>()));
+  last.topLeftCorner<3, 3>() = from.slerp(gain, to).toRotationMatrix();
   last.topRightCorner<3, 1>() += gain * (next.topRightCorner<3, 1>() - last.topRightCorner<3, 1>());
 }
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The small parts of the robot room, each alone.
+#include <franka_sim_mujoco/robot/command_filter.h>
 #include <franka_sim_mujoco/robot/command_window.h>
 #include <franka_sim_mujoco/robot/contact_monitor.h>
 #include <franka_sim_mujoco/robot/external_wrench.h>
@@ -13,6 +14,7 @@
 #include <franka_sim_mujoco/robot/width_ramp.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -207,6 +209,27 @@ TEST(FingerForce, IntegratesWithoutWindingUp) {
   EXPECT_NEAR(4 + 10, finger.update(0.04, 0, 1e-3), 1e-12);
   finger.restart();
   EXPECT_NEAR(0.0, finger.update(0, 0, 1e-3), 1e-12);
+}
+
+// As the client's filter: a pose that is not quite orthogonal counts as the nearest rotation.
+TEST(CommandFilter, TakesTheNearestRotationOfAPose) {
+  franka_core::fci::SetFiltersRequest cutoffs{1000, 1000, 100, 1000, 1000};
+  franka_core::RobotState state;
+  Eigen::Map<Eigen::Matrix4d> pose(state.O_T_EE_c.data());
+  pose.setIdentity();
+  pose.topLeftCorner<3, 3>() =
+      Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  pose(0, 1) += 8e-6;
+  pose(2, 0) -= 7e-6;
+  pose(1, 1) += 5e-6;
+  franka_core::RobotCommand command;
+  command.O_T_EE_c = state.O_T_EE_c;
+  CommandFilter filter;
+  ASSERT_TRUE(filter.set(cutoffs));
+  filter.begin(state);
+  const Eigen::Matrix4d filtered = Eigen::Matrix4d::Map(filter.apply(command).O_T_EE_c.data());
+  const Eigen::Matrix3d nearest = Eigen::Affine3d(pose).rotation();
+  EXPECT_LT((filtered.topLeftCorner<3, 3>() - nearest).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 TEST(TicketLog, RemembersSixteen) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "franka/nearest_rotation.h"
+
 namespace franka {
 
 namespace {
@@ -32,12 +34,6 @@ bool isFinite(const std::array<double, kSize>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-// The nearest rotation as a quaternion; its normalisation mends what rounding did to the matrix.
-Eigen::Quaterniond rotationOf(const std::array<double, 16>& transform) {
-  const Eigen::Map<const Eigen::Matrix4d> matrix(transform.data());
-  return Eigen::Quaterniond(matrix.topLeftCorner<3, 3>()).normalized();
-}
-
 }  // namespace
 
 double lowpassFilter(double sample_time, double y, double y_last, double cutoff_frequency) {
@@ -55,7 +51,9 @@ std::array<double, 16> cartesianLowpassFilter(double sample_time, std::array<dou
           "libfranka lowpass filter: the poses to filter must be finite.");
   std::array<double, 16> filtered = y;
   Eigen::Map<Eigen::Matrix4d> matrix(filtered.data());
-  matrix.topLeftCorner<3, 3>() = rotationOf(y_last).slerp(gain, rotationOf(y)).toRotationMatrix();
+  const Eigen::Quaterniond from(nearestRotation(y_last));
+  const Eigen::Quaterniond to(nearestRotation(y));
+  matrix.topLeftCorner<3, 3>() = from.slerp(gain, to).toRotationMatrix();
   for (std::size_t i = 12; i < 15; i++) {
     filtered[i] = gain * y[i] + (1.0 - gain) * y_last[i];
   }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "franka/nearest_rotation.h"
+
 namespace franka {
 
 namespace {
@@ -173,9 +175,9 @@ std::array<double, 16> limitRate(double max_translational_velocity,
   }
   const Eigen::Map<const Eigen::Matrix4d> wanted(O_T_EE_c.data());
   const Eigen::Map<const Eigen::Matrix4d> last(last_O_T_EE_c.data());
-  const Eigen::Matrix3d last_rotation = last.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d last_rotation = nearestRotation(last_O_T_EE_c);
   const Eigen::AngleAxisd step(
-      Eigen::Matrix3d(wanted.topLeftCorner<3, 3>() * last_rotation.transpose()));
+      Eigen::Matrix3d(nearestRotation(O_T_EE_c) * last_rotation.transpose()));
 
   std::array<double, 6> twist{};
   Eigen::Map<Eigen::Vector3d> linear(twist.data());
@@ -192,6 +194,7 @@ std::array<double, 16> limitRate(double max_translational_velocity,
   std::array<double, 16> limited = last_O_T_EE_c;
   Eigen::Map<Eigen::Matrix4d> result(limited.data());
   result.topRightCorner<3, 1>() += linear * kDeltaT;
+  result.topLeftCorner<3, 3>() = last_rotation;
   const double angle = angular.norm() * kDeltaT;
   if (angle > kNormEps) {
     result.topLeftCorner<3, 3>() =
