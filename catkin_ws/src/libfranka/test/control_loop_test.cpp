@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The control loops: every mode, the order of callbacks, filters, limits, and bad values.
+#include <franka/active_control_base.h>
 #include <franka/control_tools.h>
 #include <franka/rate_limiting.h>
 #include <franka_core/limits.h>
@@ -31,6 +32,9 @@ constexpr std::array<double, 7> kJoints{0.1, -0.9, 0.2, -2.2, 0.3, 1.5, 0.7};
 constexpr std::array<double, 6> kTwist{0.01, -0.02, 0.03, 0.1, -0.2, 0.3};
 constexpr std::array<double, 16> kPose{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1};
 constexpr std::array<double, 2> kElbow{0.25, -1.0};
+
+template <typename Value>
+using Callback = std::function<Value(const RobotState&, Duration)>;
 
 /// Returns the same value for some cycles.
 template <typename Value>
@@ -404,6 +408,41 @@ TEST_F(Loop, BadSettingsDoNotStartAMotion) {
   EXPECT_THROW(robot->control(torques, true, std::nan("")), std::invalid_argument);
   EXPECT_THROW(robot->control(positions, static_cast<ControllerMode>(7)), std::invalid_argument);
   EXPECT_EQ(0, fake.count(Command::kMove));
+}
+
+// A busy robot says so, whatever else is wrong with a call.
+TEST_F(Loop, WhetherTheRobotIsBusyIsCheckedFirst) {
+  const Callback<Torques> no_torques;
+  const Callback<JointPositions> no_positions;
+  const Callback<JointVelocities> no_velocities;
+  const Callback<CartesianPose> no_pose;
+  const Callback<CartesianVelocities> no_twist;
+  const auto no_mode = static_cast<ControllerMode>(7);
+  using ActiveMode = research_interface::robot::Move::ControllerMode;
+  const auto no_active_mode = static_cast<ActiveMode>(7);
+  const auto torques = constant(Torques(kTorques));
+  const std::vector<std::function<void()>> wrong{
+      [&] { robot->control(no_torques); },
+      [&] { robot->control(torques, true, -1.0); },
+      [&] { robot->control(no_torques, no_positions); },
+      [&] { robot->control(no_torques, no_velocities); },
+      [&] { robot->control(no_torques, no_pose); },
+      [&] { robot->control(no_torques, no_twist); },
+      [&] { robot->control(no_positions, no_mode); },
+      [&] { robot->control(no_velocities, no_mode); },
+      [&] { robot->control(no_pose, no_mode); },
+      [&] { robot->control(no_twist, no_mode); },
+      [&] { robot->read(nullptr); },
+      [&] { robot->startJointPositionControl(no_active_mode); },
+      [&] { robot->startJointVelocityControl(no_active_mode); },
+      [&] { robot->startCartesianPoseControl(no_active_mode); },
+      [&] { robot->startCartesianVelocityControl(no_active_mode); },
+      [&] { robot->startAsyncJointPositionControl(no_active_mode, std::nullopt); },
+  };
+  const auto motion = robot->startTorqueControl();
+  for (std::size_t i = 0; i < wrong.size(); i++) {
+    EXPECT_THROW(wrong[i](), franka::InvalidOperationException) << i;
+  }
 }
 
 TEST(LoopRealtime, IsEnforcedWhereAsked) {

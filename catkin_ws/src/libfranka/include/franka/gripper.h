@@ -13,6 +13,9 @@
 
 namespace franka {
 
+/// Name of a class that the vendor's header declares; this library has none.
+class Network;
+
 /// A connection to the Franka Hand of a robot.
 ///
 /// Commands wait for their end, at most 60 s (a NetworkException tells then that the hand has not

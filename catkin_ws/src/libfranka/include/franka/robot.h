@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -139,10 +140,10 @@ class Robot {
   /// come every millisecond.
   /// @param maximum_velocities seven limits of the joint velocities [rad/s].
   /// @throws CommandException if the robot's system has no such motion.
-  /// @throws std::invalid_argument for fewer than seven limits or one that is not positive.
+  /// @throws std::invalid_argument without seven limits, or for one that is not positive.
   std::unique_ptr<ActiveControlBase> startAsyncJointPositionControl(
       const research_interface::robot::Move::ControllerMode& control_type,
-      const std::vector<double>& maximum_velocities);
+      const std::optional<std::vector<double>>& maximum_velocities);
   /// @}
 
   /// Calls back with every new state until the callback returns false. For following the robot

@@ -14,6 +14,9 @@
 
 namespace franka {
 
+/// Name of a class that the vendor's header declares; this library has none.
+class Network;
+
 /// A connection to a vacuum gripper. Threads and waiting: as franka::Gripper.
 class VacuumGripper {
  public:

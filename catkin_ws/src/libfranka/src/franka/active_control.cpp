@@ -93,10 +93,11 @@ template class ActiveMotionGenerator<CartesianPose>;
 template class ActiveMotionGenerator<CartesianVelocities>;
 
 ActiveControl::Motion::Motion(std::shared_ptr<Robot::Impl> robot,
-                              const franka_core::fci::MoveRequest& request)
-    : robot_(std::move(robot)),
-      needs_torques_(request.controller_mode == franka_core::ControllerMode::kExternalController) {
+                              const std::function<franka_core::fci::MoveRequest()>& checked_request)
+    : robot_(std::move(robot)) {
   operation_.emplace(*robot_);
+  const franka_core::fci::MoveRequest request = checked_request();
+  needs_torques_ = request.controller_mode == franka_core::ControllerMode::kExternalController;
   prepareControlThread(robot_->realtimeConfig());
   running_.emplace(*robot_, request);
 }

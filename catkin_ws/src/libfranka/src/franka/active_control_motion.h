@@ -4,6 +4,7 @@
 
 #include <franka/active_control.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -17,7 +18,10 @@ namespace franka {
 /// A motion that the program drives; keeps the connection open and busy until it ends.
 class ActiveControl::Motion {
  public:
-  Motion(std::shared_ptr<Robot::Impl> robot, const franka_core::fci::MoveRequest& request);
+  /// Starts the motion. Whether another operation runs is checked first.
+  /// @param checked_request checks the arguments and gives the request that starts the motion.
+  Motion(std::shared_ptr<Robot::Impl> robot,
+         const std::function<franka_core::fci::MoveRequest()>& checked_request);
   ~Motion();
 
   bool needsTorques() const noexcept { return needs_torques_; }
@@ -31,7 +35,7 @@ class ActiveControl::Motion {
   void end() noexcept;
 
   std::shared_ptr<Robot::Impl> robot_;
-  bool needs_torques_;
+  bool needs_torques_{false};
   std::optional<Robot::Impl::Operation> operation_;
   std::optional<RunningMotion> running_;
   franka_core::RobotCommand command_;

@@ -52,11 +52,13 @@ bool call(const Callback<Value>& callback, Cycle& cycle) {
 }
 
 /// Calls `step` once a state until it says that the motion ends.
-template <typename Step>
-void run(Robot::Impl& robot, const fci::MoveRequest& request, const LoopSettings& settings,
+/// @param checked_request checks the arguments and gives the request that starts the motion.
+template <typename CheckedRequest, typename Step>
+void run(Robot::Impl& robot, CheckedRequest checked_request, const LoopSettings& settings,
          Step step) {
-  requireSettings(settings);
   const Robot::Impl::Operation operation(robot);
+  const fci::MoveRequest request = checked_request();
+  requireSettings(settings);
   prepareControlThread(robot.realtimeConfig());
   const bool starts_at_command =
       robot.options().load().first_cycle_reference == FirstCycleReference::kCommand;
@@ -98,55 +100,84 @@ void requireCallback(const Callback<Value>& callback, const char* sentence) {
 constexpr const char* kNoControlCallback = "libfranka: The control callback is empty.";
 constexpr const char* kNoMotionCallback = "libfranka: The motion generator callback is empty.";
 
+franka_core::ControllerMode toWire(ControllerMode mode) {
+  switch (mode) {
+    case ControllerMode::kJointImpedance:
+      return franka_core::ControllerMode::kJointImpedance;
+    case ControllerMode::kCartesianImpedance:
+      return franka_core::ControllerMode::kCartesianImpedance;
+  }
+  throw std::invalid_argument("libfranka: Invalid controller mode given.");
+}
+
+fci::MoveRequest moveRequest(franka_core::ControllerMode controller,
+                             franka_core::MotionGeneratorMode generator) {
+  fci::MoveRequest request;
+  request.controller_mode = controller;
+  request.motion_generator_mode = generator;
+  return request;
+}
+
+constexpr auto kExternal = franka_core::ControllerMode::kExternalController;
+
 }  // namespace
 
 void runTorqueLoop(Robot::Impl& robot, const Callback<Torques>& control_callback,
                    const LoopSettings& settings) {
-  requireCallback(control_callback, kNoControlCallback);
-  fci::MoveRequest request;
-  request.controller_mode = franka_core::ControllerMode::kExternalController;
-  request.motion_generator_mode = torqueGeneratorOf(robot.version());
-  run(robot, request, settings,
-      [&control_callback](Cycle& cycle) { return call(control_callback, cycle); });
+  const auto checked_request = [&] {
+    requireCallback(control_callback, kNoControlCallback);
+    return moveRequest(kExternal, torqueGeneratorOf(robot.version()));
+  };
+  run(robot, checked_request, settings,
+      [&](Cycle& cycle) { return call(control_callback, cycle); });
 }
 
 template <typename Value>
-void runMotionLoop(Robot::Impl& robot, franka_core::ControllerMode controller,
-                   const Callback<Value>& motion_callback,
-                   const Callback<Torques>* control_callback, const LoopSettings& settings) {
-  requireCallback(motion_callback, kNoMotionCallback);
-  if (control_callback != nullptr) {
-    requireCallback(*control_callback, kNoControlCallback);
-  }
-  fci::MoveRequest request;
-  request.controller_mode = controller;
-  request.motion_generator_mode = kGeneratorOf<Value>;
-  if (control_callback == nullptr) {
-    run(robot, request, settings, [&](Cycle& cycle) { return call(motion_callback, cycle); });
-  } else if (robot.options().load().callback_order == CallbackOrder::kMotionFirst) {
+void runMotionLoop(Robot::Impl& robot, const Callback<Value>& motion_callback,
+                   ControllerMode controller, const LoopSettings& settings) {
+  const auto checked_request = [&] {
+    requireCallback(motion_callback, kNoMotionCallback);
+    return moveRequest(toWire(controller), kGeneratorOf<Value>);
+  };
+  run(robot, checked_request, settings, [&](Cycle& cycle) { return call(motion_callback, cycle); });
+}
+
+template <typename Value>
+void runMotionLoop(Robot::Impl& robot, const Callback<Torques>& control_callback,
+                   const Callback<Value>& motion_callback, const LoopSettings& settings) {
+  const auto checked_request = [&] {
+    requireCallback(motion_callback, kNoMotionCallback);
+    requireCallback(control_callback, kNoControlCallback);
+    return moveRequest(kExternal, kGeneratorOf<Value>);
+  };
+  if (robot.options().load().callback_order == CallbackOrder::kMotionFirst) {
     // The callback that comes second is not asked once the first has ended the motion: its last
     // value stays.
-    run(robot, request, settings, [&](Cycle& cycle) {
-      return call(motion_callback, cycle) || call(*control_callback, cycle);
+    run(robot, checked_request, settings, [&](Cycle& cycle) {
+      return call(motion_callback, cycle) || call(control_callback, cycle);
     });
   } else {
-    run(robot, request, settings, [&](Cycle& cycle) {
-      return call(*control_callback, cycle) || call(motion_callback, cycle);
+    run(robot, checked_request, settings, [&](Cycle& cycle) {
+      return call(control_callback, cycle) || call(motion_callback, cycle);
     });
   }
 }
 
-template void runMotionLoop(Robot::Impl&, franka_core::ControllerMode,
-                            const Callback<JointPositions>&, const Callback<Torques>*,
+template void runMotionLoop(Robot::Impl&, const Callback<JointPositions>&, ControllerMode,
                             const LoopSettings&);
-template void runMotionLoop(Robot::Impl&, franka_core::ControllerMode,
-                            const Callback<JointVelocities>&, const Callback<Torques>*,
+template void runMotionLoop(Robot::Impl&, const Callback<Torques>&, const Callback<JointPositions>&,
                             const LoopSettings&);
-template void runMotionLoop(Robot::Impl&, franka_core::ControllerMode,
-                            const Callback<CartesianPose>&, const Callback<Torques>*,
+template void runMotionLoop(Robot::Impl&, const Callback<JointVelocities>&, ControllerMode,
                             const LoopSettings&);
-template void runMotionLoop(Robot::Impl&, franka_core::ControllerMode,
-                            const Callback<CartesianVelocities>&, const Callback<Torques>*,
+template void runMotionLoop(Robot::Impl&, const Callback<Torques>&,
+                            const Callback<JointVelocities>&, const LoopSettings&);
+template void runMotionLoop(Robot::Impl&, const Callback<CartesianPose>&, ControllerMode,
                             const LoopSettings&);
+template void runMotionLoop(Robot::Impl&, const Callback<Torques>&, const Callback<CartesianPose>&,
+                            const LoopSettings&);
+template void runMotionLoop(Robot::Impl&, const Callback<CartesianVelocities>&, ControllerMode,
+                            const LoopSettings&);
+template void runMotionLoop(Robot::Impl&, const Callback<Torques>&,
+                            const Callback<CartesianVelocities>&, const LoopSettings&);
 
 }  // namespace franka

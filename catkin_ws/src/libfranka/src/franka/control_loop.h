@@ -22,18 +22,25 @@ struct LoopSettings {
   double cutoff_frequency;  ///< [Hz]
 };
 
-/// Runs a motion that torques alone move, until a callback ends it.
-/// @throws as Robot::control.
+/// @name Loops
+/// Each runs a motion until a callback ends it. Whether another operation runs is checked before
+/// the arguments. @throws as Robot::control.
+/// @{
+
+/// A motion that torques alone move.
 void runTorqueLoop(Robot::Impl& robot, const Callback<Torques>& control_callback,
                    const LoopSettings& settings);
 
-/// Runs a motion of one of the four motion generators.
-/// @param controller the robot's controller, or kExternalController.
-/// @param control_callback for the external controller; null otherwise.
+/// A motion generator that one of the robot's controllers follows.
 template <typename Value>
-void runMotionLoop(Robot::Impl& robot, franka_core::ControllerMode controller,
-                   const Callback<Value>& motion_callback,
-                   const Callback<Torques>* control_callback, const LoopSettings& settings);
+void runMotionLoop(Robot::Impl& robot, const Callback<Value>& motion_callback,
+                   ControllerMode controller, const LoopSettings& settings);
+
+/// A motion generator that the caller's torques follow.
+template <typename Value>
+void runMotionLoop(Robot::Impl& robot, const Callback<Torques>& control_callback,
+                   const Callback<Value>& motion_callback, const LoopSettings& settings);
+/// @}
 
 /// The motion generator that a kind of command drives.
 template <typename Value>

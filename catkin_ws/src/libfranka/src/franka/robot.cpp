@@ -7,23 +7,7 @@
 
 namespace franka {
 
-namespace {
-
 namespace fci = franka_core::fci;
-
-franka_core::ControllerMode toWire(ControllerMode mode) {
-  switch (mode) {
-    case ControllerMode::kJointImpedance:
-      return franka_core::ControllerMode::kJointImpedance;
-    case ControllerMode::kCartesianImpedance:
-      return franka_core::ControllerMode::kCartesianImpedance;
-  }
-  throw std::invalid_argument("libfranka: Invalid controller mode given.");
-}
-
-constexpr auto kExternal = franka_core::ControllerMode::kExternalController;
-
-}  // namespace
 
 Robot::Robot(const std::string& franka_address, RealtimeConfig realtime_config, size_t log_size)
     : impl_(std::make_shared<Impl>(franka_address, realtime_config, log_size)) {}
@@ -45,7 +29,7 @@ void Robot::control(
     std::function<Torques(const RobotState&, Duration)> control_callback,
     std::function<JointPositions(const RobotState&, Duration)> motion_generator_callback,
     bool limit_rate, double cutoff_frequency) {
-  runMotionLoop(*impl_, kExternal, motion_generator_callback, &control_callback,
+  runMotionLoop(*impl_, control_callback, motion_generator_callback,
                 {limit_rate, cutoff_frequency});
 }
 
@@ -53,7 +37,7 @@ void Robot::control(
     std::function<Torques(const RobotState&, Duration)> control_callback,
     std::function<JointVelocities(const RobotState&, Duration)> motion_generator_callback,
     bool limit_rate, double cutoff_frequency) {
-  runMotionLoop(*impl_, kExternal, motion_generator_callback, &control_callback,
+  runMotionLoop(*impl_, control_callback, motion_generator_callback,
                 {limit_rate, cutoff_frequency});
 }
 
@@ -61,7 +45,7 @@ void Robot::control(
     std::function<Torques(const RobotState&, Duration)> control_callback,
     std::function<CartesianPose(const RobotState&, Duration)> motion_generator_callback,
     bool limit_rate, double cutoff_frequency) {
-  runMotionLoop(*impl_, kExternal, motion_generator_callback, &control_callback,
+  runMotionLoop(*impl_, control_callback, motion_generator_callback,
                 {limit_rate, cutoff_frequency});
 }
 
@@ -69,36 +53,32 @@ void Robot::control(
     std::function<Torques(const RobotState&, Duration)> control_callback,
     std::function<CartesianVelocities(const RobotState&, Duration)> motion_generator_callback,
     bool limit_rate, double cutoff_frequency) {
-  runMotionLoop(*impl_, kExternal, motion_generator_callback, &control_callback,
+  runMotionLoop(*impl_, control_callback, motion_generator_callback,
                 {limit_rate, cutoff_frequency});
 }
 
 void Robot::control(
     std::function<JointPositions(const RobotState&, Duration)> motion_generator_callback,
     ControllerMode controller_mode, bool limit_rate, double cutoff_frequency) {
-  runMotionLoop(*impl_, toWire(controller_mode), motion_generator_callback, nullptr,
-                {limit_rate, cutoff_frequency});
+  runMotionLoop(*impl_, motion_generator_callback, controller_mode, {limit_rate, cutoff_frequency});
 }
 
 void Robot::control(
     std::function<JointVelocities(const RobotState&, Duration)> motion_generator_callback,
     ControllerMode controller_mode, bool limit_rate, double cutoff_frequency) {
-  runMotionLoop(*impl_, toWire(controller_mode), motion_generator_callback, nullptr,
-                {limit_rate, cutoff_frequency});
+  runMotionLoop(*impl_, motion_generator_callback, controller_mode, {limit_rate, cutoff_frequency});
 }
 
 void Robot::control(
     std::function<CartesianPose(const RobotState&, Duration)> motion_generator_callback,
     ControllerMode controller_mode, bool limit_rate, double cutoff_frequency) {
-  runMotionLoop(*impl_, toWire(controller_mode), motion_generator_callback, nullptr,
-                {limit_rate, cutoff_frequency});
+  runMotionLoop(*impl_, motion_generator_callback, controller_mode, {limit_rate, cutoff_frequency});
 }
 
 void Robot::control(
     std::function<CartesianVelocities(const RobotState&, Duration)> motion_generator_callback,
     ControllerMode controller_mode, bool limit_rate, double cutoff_frequency) {
-  runMotionLoop(*impl_, toWire(controller_mode), motion_generator_callback, nullptr,
-                {limit_rate, cutoff_frequency});
+  runMotionLoop(*impl_, motion_generator_callback, controller_mode, {limit_rate, cutoff_frequency});
 }
 
 void Robot::read(std::function<bool(const RobotState&)> read_callback) {

@@ -52,49 +52,53 @@ std::array<double, 7> toVelocities(const std::vector<double>& velocities) {
 }  // namespace
 
 std::unique_ptr<ActiveControlBase> Robot::startTorqueControl() {
-  const fci::MoveRequest request =
-      moveRequest(Mode::kExternalController, torqueGeneratorOf(impl_->version()));
+  const auto request = [this] {
+    return moveRequest(Mode::kExternalController, torqueGeneratorOf(impl_->version()));
+  };
   return std::unique_ptr<ActiveControlBase>(
       new ActiveTorqueControl(std::make_unique<ActiveControl::Motion>(impl_, request)));
 }
 
 std::unique_ptr<ActiveControlBase> Robot::startJointPositionControl(const Mode& control_type) {
-  const fci::MoveRequest request = moveRequest(control_type, kGeneratorOf<JointPositions>);
+  const auto request = [&] { return moveRequest(control_type, kGeneratorOf<JointPositions>); };
   return std::unique_ptr<ActiveControlBase>(new ActiveMotionGenerator<JointPositions>(
       std::make_unique<ActiveControl::Motion>(impl_, request)));
 }
 
 std::unique_ptr<ActiveControlBase> Robot::startJointVelocityControl(const Mode& control_type) {
-  const fci::MoveRequest request = moveRequest(control_type, kGeneratorOf<JointVelocities>);
+  const auto request = [&] { return moveRequest(control_type, kGeneratorOf<JointVelocities>); };
   return std::unique_ptr<ActiveControlBase>(new ActiveMotionGenerator<JointVelocities>(
       std::make_unique<ActiveControl::Motion>(impl_, request)));
 }
 
 std::unique_ptr<ActiveControlBase> Robot::startCartesianPoseControl(const Mode& control_type) {
-  const fci::MoveRequest request = moveRequest(control_type, kGeneratorOf<CartesianPose>);
+  const auto request = [&] { return moveRequest(control_type, kGeneratorOf<CartesianPose>); };
   return std::unique_ptr<ActiveControlBase>(new ActiveMotionGenerator<CartesianPose>(
       std::make_unique<ActiveControl::Motion>(impl_, request)));
 }
 
 std::unique_ptr<ActiveControlBase> Robot::startCartesianVelocityControl(const Mode& control_type) {
-  const fci::MoveRequest request = moveRequest(control_type, kGeneratorOf<CartesianVelocities>);
+  const auto request = [&] { return moveRequest(control_type, kGeneratorOf<CartesianVelocities>); };
   return std::unique_ptr<ActiveControlBase>(new ActiveMotionGenerator<CartesianVelocities>(
       std::make_unique<ActiveControl::Motion>(impl_, request)));
 }
 
 std::unique_ptr<ActiveControlBase> Robot::startAsyncJointPositionControl(
-    const Mode& control_type, const std::vector<double>& maximum_velocities) {
-  if (!fci::hasAsyncMotion(impl_->version())) {
-    throw CommandException(
-        "libfranka: Move command rejected: asynchronous motions need an FR3 with system 5.9.0 or "
-        "later (protocol version 10); this robot speaks version " +
-        std::to_string(impl_->version()) + ".");
-  }
-  fci::MoveRequest request = moveRequest(control_type, kGeneratorOf<JointPositions>);
-  request.use_async_motion_generator = true;
-  request.maximum_velocity = toVelocities(maximum_velocities);
+    const Mode& control_type, const std::optional<std::vector<double>>& maximum_velocities) {
+  const auto checked_request = [&] {
+    if (!fci::hasAsyncMotion(impl_->version())) {
+      throw CommandException(
+          "libfranka: Move command rejected: asynchronous motions need an FR3 with system 5.9.0 or "
+          "later (protocol version 10); this robot speaks version " +
+          std::to_string(impl_->version()) + ".");
+    }
+    fci::MoveRequest request = moveRequest(control_type, kGeneratorOf<JointPositions>);
+    request.use_async_motion_generator = true;
+    request.maximum_velocity = toVelocities(maximum_velocities.value_or(std::vector<double>()));
+    return request;
+  };
   return std::unique_ptr<ActiveControlBase>(new ActiveMotionGenerator<JointPositions>(
-      std::make_unique<ActiveControl::Motion>(impl_, request)));
+      std::make_unique<ActiveControl::Motion>(impl_, checked_request)));
 }
 
 }  // namespace franka
