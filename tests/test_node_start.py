@@ -266,7 +266,8 @@ def test_a_node_without_privileges_moves_where_it_need_not_enforce_real_time(mas
 
 def test_a_node_without_privileges_says_why_it_does_not_move_where_it_must(master):
     master.set(ONE + "/realtime_config", "enforce")
-    with moving(master, UNPRIVILEGED) as (node, robot):
+    as_a_real_robot = ("env", "FRANKA_REALTIME=enforce")
+    with moving(master, (*as_a_real_robot, *UNPRIVILEGED)) as (node, robot):
         assert node.says("RealtimeConfig::kIgnore"), node.output
         assert "realtime" in node.output
         assert robot.ask("state").startswith("Idle")

@@ -8,6 +8,8 @@
 #include <franka_core/limits.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <franka/logging/logger.hpp>
 #include <limits>
 #include <random>
 
@@ -445,19 +447,99 @@ TEST_F(Loop, WhetherTheRobotIsBusyIsCheckedFirst) {
   }
 }
 
-TEST(LoopRealtime, IsEnforcedWhereAsked) {
-  FakeRobot fake(5);
-  franka::Robot robot(fake.address(), franka::RealtimeConfig::kEnforce);
-  const auto run = [&] { robot.control(constant(Torques(kTorques))); };
-  if (franka::hasRealtimeKernel()) {
-    EXPECT_NO_THROW(run());
-  } else {
-    EXPECT_TRUE(startsWith(textOf<franka::RealtimeException>(run),
-                           "libfranka: Running kernel does not have realtime capabilities."));
-    EXPECT_EQ(0, fake.count(Command::kMove));
+/// Sets FRANKA_REALTIME for a while; null: not set.
+class RealtimeVariable {
+ public:
+  explicit RealtimeVariable(const char* value) {
+    if (value != nullptr) {
+      setenv("FRANKA_REALTIME", value, 1);
+    } else {
+      unsetenv("FRANKA_REALTIME");
+    }
   }
+  ~RealtimeVariable() { unsetenv("FRANKA_REALTIME"); }
+};
+
+/// A motion and a motion that the program drives itself, of a robot on a loopback address.
+class SimulatedRobot {
+ public:
+  void move() { robot_.control(constant(Torques(kTorques))); }
+  void drive() { robot_.startTorqueControl()->readOnce(); }
+  int motions() { return fake_.count(Command::kMove); }
+  void readOnce() { robot_.readOnce(); }
+
+ private:
+  FakeRobot fake_{5};
+  franka::Robot robot_{fake_.address(), franka::RealtimeConfig::kEnforce};
+};
+
+/// What the library warns of: to a sink, not to the terminal.
+class Warnings : public franka::LoggingSinkInterface {
+ public:
+  std::string getName() const override { return "Warnings"; }
+  void logInfo(const std::string&) override {}
+  void logWarn(const std::string& message) override { texts.push_back(message); }
+  void logError(const std::string&) override {}
+  std::vector<std::string> texts;
+};
+
+class LoopRealtime : public ::testing::Test {
+ protected:
+  LoopRealtime() { franka::logging::addLogger(warnings_); }
+  ~LoopRealtime() override { franka::logging::removeAllLoggers(); }
+
+  const std::shared_ptr<Warnings> warnings_ = std::make_shared<Warnings>();
+};
+
+TEST_F(LoopRealtime, SimulatedRobotsNeedNoRealtimeKernelWhichIsSaidOnce) {
+  const RealtimeVariable variable(nullptr);
+  if (franka::hasRealtimeKernel()) {
+    GTEST_SKIP() << "this kernel has real-time support";
+  }
+  SimulatedRobot robot;
+  robot.readOnce();
+  EXPECT_TRUE(warnings_->texts.empty()) << "reading needs none";
+  robot.move();
+  robot.drive();
+  robot.move();
+  EXPECT_EQ(3, robot.motions());
+  ASSERT_EQ(1u, warnings_->texts.size());
+  EXPECT_TRUE(startsWith(warnings_->texts[0],
+                         "libfranka: The running kernel has no real-time support. The robot is on "
+                         "a loopback address"));
+}
+
+TEST_F(LoopRealtime, TheEnvironmentCanEnforceIt) {
+  const RealtimeVariable variable("enforce");
+  if (franka::hasRealtimeKernel()) {
+    GTEST_SKIP() << "this kernel has real-time support";
+  }
+  SimulatedRobot robot;
+  const std::string refusal = "libfranka: Running kernel does not have realtime capabilities.";
+  EXPECT_TRUE(startsWith(textOf<franka::RealtimeException>([&] { robot.move(); }), refusal));
+  EXPECT_TRUE(startsWith(textOf<franka::RealtimeException>([&] { robot.drive(); }), refusal));
+  EXPECT_EQ(0, robot.motions());
+  EXPECT_TRUE(warnings_->texts.empty());
   // Reading asks for nothing.
   EXPECT_NO_THROW(robot.readOnce());
+}
+
+TEST_F(LoopRealtime, TheEnvironmentCanIgnoreItInSilence) {
+  const RealtimeVariable variable("ignore");
+  SimulatedRobot robot;
+  robot.move();
+  EXPECT_TRUE(warnings_->texts.empty());
+}
+
+TEST_F(LoopRealtime, AnotherWordInTheEnvironmentIsRefused) {
+  const RealtimeVariable variable("perhaps");
+  SimulatedRobot robot;
+  const std::string text = textOf<franka::RealtimeException>([&] { robot.move(); });
+  EXPECT_TRUE(startsWith(text,
+                         "libfranka: The environment variable FRANKA_REALTIME is \"perhaps\", but "
+                         "must be enforce or ignore."))
+      << text;
+  EXPECT_EQ(0, robot.motions());
 }
 
 TEST(LoopLog, MayBeEmpty) {

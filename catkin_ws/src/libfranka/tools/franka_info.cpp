@@ -157,9 +157,8 @@ int verdict(const franka::RobotState& state, const ConnectionStatistics& statist
   }
   if (!franka::hasRealtimeKernel()) {
     std::printf(
-        "Note            this kernel is not a real-time one; use RealtimeConfig::kIgnore, and "
-        "expect "
-        "lost commands under load\n");
+        "Note            this kernel is not a real-time one: robots that are not on a loopback "
+        "address need RealtimeConfig::kIgnore; expect lost commands under load\n");
   }
   if (problems.empty()) {
     std::printf("Verdict         ready to be controlled\n");

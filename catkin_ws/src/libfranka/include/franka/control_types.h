@@ -19,7 +19,7 @@ enum class ControllerMode {
 
 /// What to do when the calling thread cannot be given realtime priority.
 enum class RealtimeConfig {
-  kEnforce,  ///< refuse to control the robot
+  kEnforce,  ///< refuse to control the robot (simulated ones: see Robot)
   kIgnore    ///< go on without
 };
 

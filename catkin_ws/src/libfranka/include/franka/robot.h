@@ -43,7 +43,9 @@ class Model;
 ///
 /// **Real time.** The loop inside control allocates nothing, takes no lock and writes no log. A
 /// thread that calls control or start...Control is given the highest priority of SCHED_FIFO and,
-/// with RealtimeConfig::kEnforce, memory is locked as far as allowed.
+/// with RealtimeConfig::kEnforce, memory is locked as far as allowed. A robot on a loopback address
+/// counts as simulated: where the kernel has no real-time support, kEnforce is a warning there (see
+/// franka_core/realtime_rule.h).
 ///
 /// **Time.** No call waits for ever. Unless franka/extensions.h sets other bounds: connecting takes
 /// at most 5 s; a motion or read is given up with a NetworkException when no state arrives for 1 s,

@@ -59,7 +59,7 @@ void run(Robot::Impl& robot, CheckedRequest checked_request, const LoopSettings&
   const Robot::Impl::Operation operation(robot);
   const fci::MoveRequest request = checked_request();
   requireSettings(settings);
-  prepareControlThread(robot.realtimeConfig());
+  prepareControlThread(robot.realtimeForMotion());
   const bool starts_at_command =
       robot.options().load().first_cycle_reference == FirstCycleReference::kCommand;
   RunningMotion motion(robot, request);

@@ -28,7 +28,7 @@ void prepareControlThread(RealtimeConfig realtime_config) {
     throw RealtimeException(
         "libfranka: Running kernel does not have realtime capabilities. Please boot a PREEMPT_RT "
         "kernel (Debian: package linux-image-rt-amd64), or construct the Robot with "
-        "RealtimeConfig::kIgnore, as is right for simulated robots.");
+        "RealtimeConfig::kIgnore, as is right for simulated robots on other machines.");
   }
   std::string error;
   if (!setCurrentThreadToHighestSchedulerPriority(&error) && enforce) {

@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "franka/robot_impl.h"
 
+#include <franka/control_tools.h>
 #include <franka_core/fci/command_codec.h>
 #include <franka_core/fci/reply_codec.h>
 #include <franka_core/fci/texts.h>
+#include <franka_core/realtime_rule.h>
 #include <franka_core/to_franka.h>
 
 #include <algorithm>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
+
+#include "franka/warning.h"
 
 namespace franka {
 
@@ -92,6 +97,20 @@ Robot::Impl::Impl(const std::string& address, RealtimeConfig realtime_config, st
   }
   if (version_ >= 10) {
     readLimits();
+  }
+}
+
+RealtimeConfig Robot::Impl::realtimeForMotion() {
+  try {
+    const franka_core::RealtimeRule rule =
+        franka_core::realtimeRule(realtime_config_ == RealtimeConfig::kEnforce,
+                                  channel_->serverIsLoopback(), hasRealtimeKernel());
+    if (!rule.warning.empty() && !warned_of_realtime_.test_and_set()) {
+      logging::warn("libfranka: " + rule.warning);
+    }
+    return rule.enforce ? RealtimeConfig::kEnforce : RealtimeConfig::kIgnore;
+  } catch (const std::invalid_argument& error) {
+    throw RealtimeException(std::string("libfranka: ") + error.what());
   }
 }
 

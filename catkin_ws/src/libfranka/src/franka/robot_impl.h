@@ -36,7 +36,10 @@ class Robot::Impl {
   Impl(const std::string& address, RealtimeConfig realtime_config, std::size_t log_size);
 
   std::uint16_t version() const noexcept { return version_; }
-  RealtimeConfig realtimeConfig() const noexcept { return realtime_config_; }
+  /// What the thread of a motion has to have: as constructed, unless franka_core::realtimeRule
+  /// lifts it for a simulated robot, which is said once. Not real-time safe. Thread-safe.
+  /// @throws RealtimeException if the environment variable FRANKA_REALTIME makes no sense.
+  RealtimeConfig realtimeForMotion();
   std::size_t logSize() const noexcept { return log_size_; }
   const ArmRateLimits& limits() const noexcept { return limits_; }
   const Timeouts& bounds() const noexcept { return timeouts_; }
@@ -137,6 +140,7 @@ class Robot::Impl {
   std::chrono::milliseconds stateBound() const noexcept;
 
   const RealtimeConfig realtime_config_;
+  std::atomic_flag warned_of_realtime_ = ATOMIC_FLAG_INIT;
   const std::size_t log_size_;
   const Timeouts timeouts_;
   std::atomic<ControlOptions> options_{ControlOptions{}};

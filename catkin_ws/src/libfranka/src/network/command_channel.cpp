@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <franka/exception.h>
 #include <franka_core/fci/texts.h>
+#include <franka_core/realtime_rule.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -212,6 +213,13 @@ bool CommandChannel::closedByServer() const noexcept {
   std::uint8_t byte = 0;
   const ssize_t size = recv(socket_.get(), &byte, 1, MSG_PEEK | MSG_DONTWAIT);
   return size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR);
+}
+
+bool CommandChannel::serverIsLoopback() const noexcept {
+  sockaddr_storage address{};
+  socklen_t size = sizeof(address);
+  return getpeername(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
+         franka_core::isLoopback(reinterpret_cast<const sockaddr&>(address));
 }
 
 }  // namespace franka::network

@@ -66,6 +66,9 @@ class CommandChannel {
   /// what it sent before. One system call; safe in the 1 kHz loop.
   bool closedByServer() const noexcept;
 
+  /// Whether the server is on this machine (see franka_core::isLoopback). Real-time safe.
+  bool serverIsLoopback() const noexcept;
+
  private:
   void readWhatIsThere();
   void sortStream();

@@ -1,0 +1,26 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+/// @file
+/// Where messages of the library go.
+
+namespace franka {
+
+/// Takes messages; registered with franka::logging::addLogger. Its functions may be called from any
+/// thread, one at a time, and never from the 1 kHz loop. They must not call franka::logging.
+class LoggingSinkInterface {
+ public:
+  virtual ~LoggingSinkInterface() = default;
+
+  /// What removeLogger calls it. Must not change while it is registered.
+  virtual std::string getName() const = 0;
+
+  virtual void logInfo(const std::string& message) = 0;
+  virtual void logWarn(const std::string& message) = 0;
+  virtual void logError(const std::string& message) = 0;
+};
+
+}  // namespace franka

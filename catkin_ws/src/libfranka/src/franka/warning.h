@@ -1,0 +1,13 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace franka::logging {
+
+/// A warning of the library itself: to the program's sinks, or to standard error where there is
+/// none. Not real-time safe. Thread-safe.
+void warn(const std::string& message);
+
+}  // namespace franka::logging
