@@ -35,11 +35,10 @@ class OffRotations {
 /// The nearest rotation in another way than the code under test: R (R^T R)^(-1/2).
 inline Eigen::Matrix3d polarFactor(const std::array<double, 16>& pose) {
   const Eigen::Matrix3d R = Eigen::Matrix4d::Map(pose.data()).topLeftCorner<3, 3>();
-  return R * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(R.transpose() * R).operatorInverseSqrt();
+  return R *
+         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(R.transpose() * R).operatorInverseSqrt();
 }
 
 inline double distance(const Eigen::Matrix3d& rotation, const std::array<double, 16>& pose) {
-  return (rotation - Eigen::Matrix4d::Map(pose.data()).topLeftCorner<3, 3>())
-      .cwiseAbs()
-      .maxCoeff();
+  return (rotation - Eigen::Matrix4d::Map(pose.data()).topLeftCorner<3, 3>()).cwiseAbs().maxCoeff();
 }

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/joint_velocity_limits.h>
 #include <franka/rate_limiting.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include "off_rotation.h"
@@ -166,6 +168,93 @@ TEST(LimitRate, RefusesPosesThatAreNone) {
   EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, wrong, identity(), Six{}, Six{}),
                std::invalid_argument);
   EXPECT_EQ(identity(), limitRate(kV, kA, kJ, kV, kA, kJ, identity(), identity(), Six{}, Six{}));
+}
+
+// The functions of libfranka 0.11 and later, which have lower velocity limits of their own; the
+// numbers are what 0.21.2 returned for these arguments.
+TEST(LimitRate, VelocitiesAndPositionsKeepBetweenTwoVelocityLimits) {
+  EXPECT_DOUBLE_EQ(-0.948001, limitRate(2.0, -1.0, 9.9, 4999.0, -0.5, -0.95, -3.0));
+  EXPECT_DOUBLE_EQ(0.409042001, limitRate(2.0, -1.0, 9.9, 4999.0, 0.4, 0.41, -0.95, -3.0));
+  // Beyond a joint's lower end the lower limit is the margin alone.
+  EXPECT_DOUBLE_EQ(-0.098505151515151518, limitRate(2.0, 0.001, 9.9, 4999.0, -0.5, -0.2, 0.0));
+  EXPECT_THROW(limitRate(2.0, -1.0, 9.9, 4999.0, kNan, 0.0, 0.0), std::invalid_argument);
+  EXPECT_THROW(limitRate(2.0, -1.0, 9.9, 4999.0, kNan, 0.0, 0.0, 0.0), std::invalid_argument);
+}
+
+TEST(LimitRate, SevenJointsKeepBetweenTwoVelocityLimits) {
+  const Seven q{2.8, 0.0, 0.0, -1.5,
+                0.0, 0.5, 0.0};  // joint 1 near its upper, 6 beyond its lower end
+  const Seven upper = franka::computeUpperLimitsJointVelocity(q);
+  const Seven lower = franka::computeLowerLimitsJointVelocity(q);
+  const Seven acceleration = {9.9, 9.9, 9.9, 9.9, 9.9, 9.9, 9.9};
+  const Seven jerk = {4999, 4999, 4999, 4999, 4999, 4999, 4999};
+  const Seven wanted{1.0, -1.0, 0.1, -0.1, 5.0, -5.0, 0.0};
+  const Seven last{0.1, -0.2, 0.1, -0.1, 1.0, -0.2, 0.3};
+  const Seven last_a{1.0, -1.0, 0.0, 0.5, 0.0, 0.0, -2.0};
+  const Seven velocities = limitRate(upper, lower, acceleration, jerk, wanted, last, last_a);
+  Seven positions{};
+  for (std::size_t i = 0; i < 7; i++) {
+    positions[i] = q[i] + wanted[i] * kDeltaT;
+  }
+  const Seven limited = limitRate(upper, lower, acceleration, jerk, positions, q, last, last_a);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_EQ(limitRate(upper[i], lower[i], 9.9, 4999.0, wanted[i], last[i], last_a[i]),
+              velocities[i])
+        << i;
+    EXPECT_NEAR(q[i] + velocities[i] * kDeltaT, limited[i], 1e-15) << i;
+  }
+  EXPECT_THROW(limitRate(upper, lower, acceleration, jerk, Seven{kNan}, last, last_a),
+               std::invalid_argument);
+  EXPECT_THROW(limitRate(upper, lower, acceleration, jerk, Seven{kNan}, q, last, last_a),
+               std::invalid_argument);
+}
+
+// min(V, max(0, sqrt(c (q_max - q)) - o)) - 0.001 and its mirror, by hand.
+TEST(JointVelocityLimits, OfAnFr3ShrinkTowardsTheEnds) {
+  const Seven q{2.5, 0.0, 0.0, -0.2, 3.0, 4.4, 0.0};
+  const Seven upper = franka::computeUpperLimitsJointVelocity(q);
+  EXPECT_NEAR(std::sqrt(12.0 * (2.7501 - 2.5)) - 0.30 - 0.001, upper[0], 1e-12);
+  EXPECT_NEAR(2.62 - 0.001, upper[1], 1e-12);
+  EXPECT_NEAR(std::sqrt(8.0 * (-0.1458 + 0.2)) - 0.30 - 0.001, upper[3], 1e-12);
+  EXPECT_NEAR(-0.001, upper[4], 1e-12);
+  EXPECT_NEAR(std::sqrt(11.0 * (4.5205 - 4.4)) - 0.35 - 0.001, upper[5], 1e-12);
+  const Seven lower = franka::computeLowerLimitsJointVelocity({-2.5, 0, 0, -3.0, 0, 0.6, 0});
+  EXPECT_NEAR(0.30 - std::sqrt(12.0 * (2.7501 - 2.5)) + 0.001, lower[0], 1e-12);
+  EXPECT_NEAR(-2.62 + 0.001, lower[2], 1e-12);
+  EXPECT_NEAR(0.30 - std::sqrt(8.0 * (3.0481 - 3.0)) + 0.001, lower[3], 1e-12);
+  EXPECT_NEAR(0.35 - std::sqrt(11.0 * (0.6 - 0.54092)) + 0.001, lower[5], 1e-12);
+}
+
+// The numbers are what libfranka 0.21.2 returned for the limits of the public tables.
+TEST(JointVelocityLimits, AreReadFromADescription) {
+  const Seven velocity{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26};
+  const Seven offset{0.6599, 0.2517, 0.2, 0.3533, 0.5757, 0.4878, 0.4628};
+  const Seven deceleration{6, 2.585, 3.5, 4, 17, 5.5, 17};
+  const Seven low{-2.9007, -1.8361, -2.9007, -3.0770, -2.8763, 0.4398, -3.0508};
+  const Seven high{2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508};
+  std::ostringstream urdf;
+  urdf << "<robot name='fr3'>";
+  for (int i = 0; i < 7; i++) {
+    urdf << "<joint name='fr3_joint" << i + 1 << "' type='revolute'><limit lower='" << low[i]
+         << "' upper='" << high[i] << "' velocity='" << velocity[i] << "' effort='87'/>"
+         << "<position_based_velocity_limits velocity_offset='" << offset[i]
+         << "' deceleration_limit='" << deceleration[i] << "'/></joint>";
+  }
+  urdf << "</robot>";
+  franka::JointVelocityLimitsConfig limits(urdf.str());
+  const Seven upper = limits.getUpperJointVelocityLimits({2.8, 1.8, 2.85, -0.13, 2.8, 4.6, 3.0});
+  const Seven expected{
+      0.438372486692905, 0.179315046034279, 0.394734840344259, -0.001, 1.03395204187621, -0.001,
+      0.850429812475735};
+  const Seven lower = limits.getLowerJointVelocityLimits({0, 0, 0, -1.5, 0, 1.5, 0});
+  const Seven lowest{-2.619, -2.619, -2.619, -2.619, -5.259, -2.92619633967593, -5.259};
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(expected[i], upper[i], 1e-13) << i;
+    EXPECT_NEAR(lowest[i], lower[i], 1e-13) << i;
+  }
+  EXPECT_THROW(limits.parseFromURDF("<robot name='fr3'/>"), std::runtime_error);
+  EXPECT_THROW(franka::JointVelocityLimitsConfig("<robot"), std::runtime_error);
+  EXPECT_EQ(upper, limits.getUpperJointVelocityLimits({2.8, 1.8, 2.85, -0.13, 2.8, 4.6, 3.0}));
 }
 
 // As libfranka 0.9.2 and 0.21.2 were seen to do, also where nothing turns.

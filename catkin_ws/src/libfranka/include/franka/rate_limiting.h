@@ -45,6 +45,24 @@ constexpr std::array<double, 7> withMargin(const std::array<double, 7>& velociti
   return result;
 }
 inline constexpr const franka_core::ArmLimits& kFer = franka_core::kFerLimits;
+
+/// The limits of an FR3 at q [rad], each kLimitEps smaller: it tolerates no lost packets on top.
+inline std::array<double, 7> upperJointVelocities(const franka_core::PositionVelocityLimits& limits,
+                                                  const std::array<double, 7>& q) noexcept {
+  std::array<double, 7> velocities{};
+  for (std::size_t i = 0; i < 7; i++) {
+    velocities[i] = franka_core::upperVelocityLimit(limits, i, q[i]) - kLimitEps;
+  }
+  return velocities;
+}
+inline std::array<double, 7> lowerJointVelocities(const franka_core::PositionVelocityLimits& limits,
+                                                  const std::array<double, 7>& q) noexcept {
+  std::array<double, 7> velocities{};
+  for (std::size_t i = 0; i < 7; i++) {
+    velocities[i] = franka_core::lowerVelocityLimit(limits, i, q[i]) + kLimitEps;
+  }
+  return velocities;
+}
 }  // namespace rate_limiting_detail
 
 /// Torque rate [Nm/s].
@@ -88,6 +106,23 @@ constexpr double kMaxElbowAcceleration =
 constexpr double kMaxElbowVelocity = rate_limiting_detail::withMargin(
     rate_limiting_detail::kFer.elbow.velocity, rate_limiting_detail::kFer.elbow.acceleration);
 
+/// Elbow velocity in the other direction [rad/s].
+constexpr double kMinElbowVelocity = -kMaxElbowVelocity;
+
+/// Highest velocity of each joint of an FR3 at q [rad/s], by the published table (systems before
+/// 5.9). Robot::getUpperJointVelocityLimits knows the limits of the robot that is connected.
+/// Real-time safe.
+/// @param q joint positions [rad].
+inline std::array<double, 7> computeUpperLimitsJointVelocity(
+    const std::array<double, 7>& q) noexcept {
+  return rate_limiting_detail::upperJointVelocities(franka_core::kFr3PositionVelocityLimits, q);
+}
+/// Lowest velocity, as computeUpperLimitsJointVelocity.
+inline std::array<double, 7> computeLowerLimitsJointVelocity(
+    const std::array<double, 7>& q) noexcept {
+  return rate_limiting_detail::lowerJointVelocities(franka_core::kFr3PositionVelocityLimits, q);
+}
+
 /// Limits the rate of seven values.
 /// @param max_derivatives largest change per second of each value.
 /// @param commanded_values wanted values. @param last_commanded_values values of the cycle before.
@@ -106,9 +141,21 @@ double limitRate(double max_velocity, double max_acceleration, double max_jerk,
                  double last_commanded_acceleration);
 
 /// Limits a position and its three derivatives; arguments as for the velocity, positions in [rad].
-/// @throws std::invalid_argument if the wanted position is not finite.
+///
+/// libfranka 0.11 and later have a function of the same seven arguments that limits a velocity:
+/// (upper_velocity, lower_velocity, max_acceleration, max_jerk, commanded_velocity,
+/// last_commanded_velocity, last_commanded_acceleration). A second argument of at most kLimitEps is
+/// no acceleration limit, so it counts as a lower velocity limit and the call as one of that
+/// function. So that programs for either release mean what they say.
+/// @throws std::invalid_argument if the wanted value is not finite.
 double limitRate(double max_velocity, double max_acceleration, double max_jerk,
                  double commanded_position, double last_commanded_position,
+                 double last_commanded_velocity, double last_commanded_acceleration);
+
+/// Limits a position, between a lower and an upper limit of its velocity [rad/s] (libfranka 0.11
+/// and later). @throws std::invalid_argument if the wanted position is not finite.
+double limitRate(double upper_velocity, double lower_velocity, double max_acceleration,
+                 double max_jerk, double commanded_position, double last_commanded_position,
                  double last_commanded_velocity, double last_commanded_acceleration);
 
 /// The velocity version for seven joints. @throws std::invalid_argument if a wanted value is not
@@ -120,9 +167,23 @@ std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
                                 const std::array<double, 7>& last_commanded_velocities,
                                 const std::array<double, 7>& last_commanded_accelerations);
 
-/// The position version for seven joints. @throws std::invalid_argument if a wanted value is not
-/// finite.
+/// The position version for seven joints, or, where a value of the second argument is at most
+/// kLimitEps, the velocity version of libfranka 0.11 and later (see the version for one joint):
+/// (upper_velocity, lower_velocity, max_acceleration, max_jerk, commanded_velocities,
+/// last_commanded_velocities, last_commanded_accelerations).
+/// @throws std::invalid_argument if a wanted value is not finite.
 std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
+                                const std::array<double, 7>& max_acceleration,
+                                const std::array<double, 7>& max_jerk,
+                                const std::array<double, 7>& commanded_positions,
+                                const std::array<double, 7>& last_commanded_positions,
+                                const std::array<double, 7>& last_commanded_velocities,
+                                const std::array<double, 7>& last_commanded_accelerations);
+
+/// The position version between lower and upper velocity limits for seven joints.
+/// @throws std::invalid_argument if a wanted value is not finite.
+std::array<double, 7> limitRate(const std::array<double, 7>& upper_velocity,
+                                const std::array<double, 7>& lower_velocity,
                                 const std::array<double, 7>& max_acceleration,
                                 const std::array<double, 7>& max_jerk,
                                 const std::array<double, 7>& commanded_positions,

@@ -33,8 +33,40 @@ double clampMagnitude(double value, double limit) {
   return std::max(std::min(value, limit), -limit);
 }
 
-// Jerk limit first; then an acceleration small enough that the velocity limit can still be met by
+using Joints = std::array<double, 7>;
+
+template <typename Function>
+Joints forEachJoint(Function function) {
+  Joints values{};
+  for (std::size_t i = 0; i < values.size(); i++) {
+    values[i] = function(i);
+  }
+  return values;
+}
+
+/// Whether what stands where libfranka up to 0.10 has an acceleration limit is the lower velocity
+/// limit of later releases: negative, or beyond a joint's end kLimitEps.
+bool isLowerVelocity(double max_acceleration) { return max_acceleration <= kLimitEps; }
+
+/// What one joint's velocity may be [rad/s].
+struct VelocityRange {
+  double lowest;
+  double highest;
+};
+
+// Jerk limit first; then an acceleration small enough that the velocity limits can still be met by
 // braking with the jerk there is.
+double limitVelocity(const VelocityRange& range, double max_acceleration, double max_jerk,
+                     double velocity, double last_velocity, double last_acceleration) {
+  const double jerk = ((velocity - last_velocity) / kDeltaT - last_acceleration) / kDeltaT;
+  const double acceleration = last_acceleration + clampMagnitude(jerk, max_jerk) * kDeltaT;
+  const double stiffness = max_jerk / max_acceleration;
+  const double highest = std::min(stiffness * (range.highest - last_velocity), max_acceleration);
+  const double lowest = std::max(stiffness * (range.lowest - last_velocity), -max_acceleration);
+  return last_velocity + std::max(std::min(acceleration, highest), lowest) * kDeltaT;
+}
+
+// The same for a vector.
 Eigen::Vector3d limitVelocity(const Bounds& bounds, const Eigen::Vector3d& velocity,
                               const Eigen::Vector3d& last_velocity,
                               const Eigen::Vector3d& last_acceleration) {
@@ -80,61 +112,75 @@ double limitRate(double max_velocity, double max_acceleration, double max_jerk,
                  double commanded_velocity, double last_commanded_velocity,
                  double last_commanded_acceleration) {
   requireFinite(std::array<double, 1>{commanded_velocity});
-  const double jerk =
-      ((commanded_velocity - last_commanded_velocity) / kDeltaT - last_commanded_acceleration) /
-      kDeltaT;
-  const double acceleration =
-      last_commanded_acceleration + clampMagnitude(jerk, max_jerk) * kDeltaT;
-  const double stiffness = max_jerk / max_acceleration;
-  const double highest =
-      std::min(stiffness * (max_velocity - last_commanded_velocity), max_acceleration);
-  const double lowest =
-      std::max(stiffness * (-max_velocity - last_commanded_velocity), -max_acceleration);
-  return last_commanded_velocity + std::max(std::min(acceleration, highest), lowest) * kDeltaT;
+  return limitVelocity({-max_velocity, max_velocity}, max_acceleration, max_jerk,
+                       commanded_velocity, last_commanded_velocity, last_commanded_acceleration);
 }
 
 double limitRate(double max_velocity, double max_acceleration, double max_jerk,
                  double commanded_position, double last_commanded_position,
                  double last_commanded_velocity, double last_commanded_acceleration) {
+  if (isLowerVelocity(max_acceleration)) {
+    // In this order: upper and lower velocity, acceleration, jerk, velocity, and the last two.
+    const double commanded_velocity = last_commanded_position;
+    requireFinite(std::array<double, 1>{commanded_velocity});
+    return limitVelocity({max_acceleration, max_velocity}, max_jerk, commanded_position,
+                         commanded_velocity, last_commanded_velocity, last_commanded_acceleration);
+  }
+  return limitRate(max_velocity, -max_velocity, max_acceleration, max_jerk, commanded_position,
+                   last_commanded_position, last_commanded_velocity, last_commanded_acceleration);
+}
+
+double limitRate(double upper_velocity, double lower_velocity, double max_acceleration,
+                 double max_jerk, double commanded_position, double last_commanded_position,
+                 double last_commanded_velocity, double last_commanded_acceleration) {
   requireFinite(std::array<double, 1>{commanded_position});
   return last_commanded_position +
-         limitRate(max_velocity, max_acceleration, max_jerk,
-                   (commanded_position - last_commanded_position) / kDeltaT,
-                   last_commanded_velocity, last_commanded_acceleration) *
+         limitVelocity({lower_velocity, upper_velocity}, max_acceleration, max_jerk,
+                       (commanded_position - last_commanded_position) / kDeltaT,
+                       last_commanded_velocity, last_commanded_acceleration) *
              kDeltaT;
 }
 
-std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
-                                const std::array<double, 7>& max_acceleration,
-                                const std::array<double, 7>& max_jerk,
-                                const std::array<double, 7>& commanded_velocities,
-                                const std::array<double, 7>& last_commanded_velocities,
-                                const std::array<double, 7>& last_commanded_accelerations) {
-  requireFinite(commanded_velocities);
-  std::array<double, 7> limited{};
-  for (std::size_t i = 0; i < 7; i++) {
-    limited[i] =
-        limitRate(max_velocity[i], max_acceleration[i], max_jerk[i], commanded_velocities[i],
-                  last_commanded_velocities[i], last_commanded_accelerations[i]);
-  }
-  return limited;
+Joints limitRate(const Joints& max_velocity, const Joints& max_acceleration, const Joints& max_jerk,
+                 const Joints& commanded_velocities, const Joints& last_commanded_velocities,
+                 const Joints& last_commanded_accelerations) {
+  return forEachJoint([&](std::size_t i) {
+    return limitRate(max_velocity[i], max_acceleration[i], max_jerk[i], commanded_velocities[i],
+                     last_commanded_velocities[i], last_commanded_accelerations[i]);
+  });
 }
 
-std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
-                                const std::array<double, 7>& max_acceleration,
-                                const std::array<double, 7>& max_jerk,
-                                const std::array<double, 7>& commanded_positions,
-                                const std::array<double, 7>& last_commanded_positions,
-                                const std::array<double, 7>& last_commanded_velocities,
-                                const std::array<double, 7>& last_commanded_accelerations) {
-  requireFinite(commanded_positions);
-  std::array<double, 7> limited{};
-  for (std::size_t i = 0; i < 7; i++) {
-    limited[i] = limitRate(max_velocity[i], max_acceleration[i], max_jerk[i],
-                           commanded_positions[i], last_commanded_positions[i],
+Joints limitRate(const Joints& max_velocity, const Joints& max_acceleration, const Joints& max_jerk,
+                 const Joints& commanded_positions, const Joints& last_commanded_positions,
+                 const Joints& last_commanded_velocities,
+                 const Joints& last_commanded_accelerations) {
+  if (std::any_of(max_acceleration.begin(), max_acceleration.end(), isLowerVelocity)) {
+    // In this order: upper and lower velocity, acceleration, jerk, velocity, and the last two.
+    const Joints& commanded_velocities = last_commanded_positions;
+    requireFinite(commanded_velocities);
+    return forEachJoint([&](std::size_t i) {
+      return limitVelocity({max_acceleration[i], max_velocity[i]}, max_jerk[i],
+                           commanded_positions[i], commanded_velocities[i],
                            last_commanded_velocities[i], last_commanded_accelerations[i]);
+    });
   }
-  return limited;
+  return forEachJoint([&](std::size_t i) {
+    return limitRate(max_velocity[i], max_acceleration[i], max_jerk[i], commanded_positions[i],
+                     last_commanded_positions[i], last_commanded_velocities[i],
+                     last_commanded_accelerations[i]);
+  });
+}
+
+Joints limitRate(const Joints& upper_velocity, const Joints& lower_velocity,
+                 const Joints& max_acceleration, const Joints& max_jerk,
+                 const Joints& commanded_positions, const Joints& last_commanded_positions,
+                 const Joints& last_commanded_velocities,
+                 const Joints& last_commanded_accelerations) {
+  return forEachJoint([&](std::size_t i) {
+    return limitRate(upper_velocity[i], lower_velocity[i], max_acceleration[i], max_jerk[i],
+                     commanded_positions[i], last_commanded_positions[i],
+                     last_commanded_velocities[i], last_commanded_accelerations[i]);
+  });
 }
 
 std::array<double, 6> limitRate(double max_translational_velocity,

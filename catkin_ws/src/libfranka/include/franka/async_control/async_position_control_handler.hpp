@@ -5,6 +5,7 @@
 #include <franka/active_control_base.h>
 #include <franka/robot.h>
 
+#include <franka/async_control/target_status.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,14 +15,6 @@
 /// Joint targets to which the robot finds its own way (protocol 10).
 
 namespace franka {
-
-/// How far the way to a target has come.
-enum class TargetStatus {
-  kIdle,           ///< no target has been set
-  kExecuting,      ///< on the way
-  kTargetReached,  ///< there, and at rest
-  kAborted         ///< the motion has ended; configure a new handler
-};
 
 /// Sends the robot from one joint position to the next; a new target may be set at any time, also
 /// on the way to another. Failures are told in the results, not thrown. To be used from one thread;
