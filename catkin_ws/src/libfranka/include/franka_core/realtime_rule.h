@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/socket.h>
-
 #include <string>
 
 /// @file
 /// Whether a motion needs a real-time kernel: one rule for the client and for the nodes.
+
+struct sockaddr;
 
 namespace franka_core {
 
