@@ -74,6 +74,17 @@ TEST_F(Logger, KeepsTheFirstSinkOfAName) {
   EXPECT_THROW(logging::addLogger(nullptr), std::invalid_argument);
 }
 
+TEST_F(Logger, PutsValuesIntoThePlaceholders) {
+  const auto sink = std::make_shared<Sink>("sink");
+  logging::addLogger(sink);
+  logging::logInfo("{} of {} rad", 1, 0.5);
+  logging::logWarn("{:.3f} {{}} {}", "a");
+  logging::logError("end {", std::string("unused"));
+  logging::logError("{} as it is");
+  EXPECT_EQ((Lines{"info 1 of 0.5 rad", "warn a {} {}", "error end {", "error {} as it is"}),
+            sink->lines);
+}
+
 TEST_F(Logger, CoutLoggingSinkWritesLines) {
   const Captured output(std::cout);
   logging::addLogger(std::make_shared<franka::CoutLoggingSink>());

@@ -40,6 +40,47 @@ INSTANTIATE_TEST_SUITE_P(All, Programs,
                                            "impedance_with_motion", "active_control"),
                          [](const auto& info) { return std::string(info.param); });
 
+/// The arm of the FR3 with the velocity limits that its robot states.
+std::string descriptionOfFr3() {
+  std::string urdf = readData("fr3_hand.urdf");
+  const std::string limits =
+      "<position_based_velocity_limits velocity_offset=\"0.3\" deceleration_limit=\"6\"/>";
+  std::size_t at = 0;
+  while ((at = urdf.find("</joint>", at)) != std::string::npos) {
+    urdf.insert(at, limits);
+    at += limits.size() + 1;
+  }
+  return urdf;
+}
+
+/// Programs for interfaces that libfranka has had since 0.18 to 0.21. @returns the exit status
+int runNewest(const std::string& program, FakeRobot& fake) {
+  const std::string urdf = descriptionOfFr3();
+  fake.script([&urdf](FakeRobot::Script& s) { s.urdf.assign(urdf.begin(), urdf.end()); });
+  const std::string command = std::string(LIBFRANKA_TEST_PROGRAMS) + "/libfranka_program_" +
+                              program + " " + fake.address() + " > /dev/null";
+  return WEXITSTATUS(std::system(command.c_str()));
+}
+
+TEST(NewestPrograms, ReachAsynchronousTargetsAndLogThem) {
+  FakeRobot fake(10);
+  EXPECT_EQ(0, runNewest("asynchronous_targets", fake));
+  EXPECT_EQ(1, fake.count(Command::kMove));
+  FakeRobot without(9);
+  EXPECT_EQ(1, runNewest("asynchronous_targets", without));
+}
+
+TEST(NewestPrograms, KeepVelocityLimitsThatDependOnThePosition) {
+  FakeRobot fake(10);
+  EXPECT_EQ(0, runNewest("velocity_limits", fake));
+  EXPECT_EQ(franka_core::RobotMode::kIdle, fake.state().robot_mode);
+}
+
+TEST(NewestPrograms, HearThatAnArmIsNoMobileBase) {
+  FakeRobot fake(10);
+  EXPECT_EQ(1, runNewest("mobile_base", fake));
+}
+
 /// Runs the program of the hand. @returns its exit status
 int graspAndLetGo(const FakeGripper& fake, const std::string& homing, const std::string& width) {
   const std::string command = std::string(LIBFRANKA_TEST_PROGRAMS) + "/libfranka_program_gripper " +

@@ -54,6 +54,9 @@ class Model {
   static Model fromUrdfFile(const std::string& path, const std::string& arm_id = "");
   /// @}
 
+  /// The arm of a description (URDF) that a robot has sent: as fromUrdf, in the words of libfranka
+  /// 0.14 and later.
+  explicit Model(const std::string& urdf);
   Model(Model&& model) noexcept;
   Model& operator=(Model&& model) noexcept;
   ~Model() noexcept;
@@ -90,6 +93,11 @@ class Model {
   std::array<double, 7> coriolis(const std::array<double, 7>& q, const std::array<double, 7>& dq,
                                  const std::array<double, 9>& I_total, double m_total,
                                  const std::array<double, 3>& F_x_Ctotal) const noexcept;
+  /// The same: gravity, in the words of libfranka 0.14 and later, has no part in it.
+  std::array<double, 7> coriolis(const std::array<double, 7>& q, const std::array<double, 7>& dq,
+                                 const std::array<double, 9>& I_total, double m_total,
+                                 const std::array<double, 3>& F_x_Ctotal,
+                                 const std::array<double, 3>& gravity_earth) const noexcept;
 
   /// Gravity torques: what holds the arm [Nm]. @param gravity_earth in O [m/s^2]
   std::array<double, 7> gravity(const std::array<double, 7>& q, double m_total,

@@ -224,6 +224,10 @@ class Robot {
   /// @throws ModelException if it cannot be loaded, CommandException if the robot refuses.
   Model loadModel();
 
+  /// Whether the robot is a mobile base (see franka/mobile_model.h): one of protocol 10 whose
+  /// description says so. Real-time safe.
+  bool isMobileRobot() const noexcept;
+
   /// The robot's description (URDF) as it sends it (protocol 8 to 10).
   /// @throws CommandException if the robot's system has none.
   std::string getRobotModel();

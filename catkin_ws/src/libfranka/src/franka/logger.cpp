@@ -73,6 +73,24 @@ void logInfo(const std::string& message) { sendToAll(&LoggingSinkInterface::logI
 void logWarn(const std::string& message) { sendToAll(&LoggingSinkInterface::logWarn, message); }
 void logError(const std::string& message) { sendToAll(&LoggingSinkInterface::logError, message); }
 
+std::string fill(const std::string& text, const std::vector<std::string>& values) {
+  std::string filled;
+  auto value = values.begin();
+  for (std::size_t i = 0; i < text.size(); i++) {
+    const bool is_brace = text[i] == '{' || text[i] == '}';
+    const std::size_t end = text.find('}', i);
+    if (is_brace && i + 1 < text.size() && text[i + 1] == text[i]) {
+      filled += text[i++];
+    } else if (text[i] == '{' && end != std::string::npos && value != values.end()) {
+      filled += *value++;
+      i = end;
+    } else {
+      filled += text[i];
+    }
+  }
+  return filled;
+}
+
 void warn(const std::string& message) {
   if (!sendToAll(&LoggingSinkInterface::logWarn, message)) {
     std::cerr << message << std::endl;

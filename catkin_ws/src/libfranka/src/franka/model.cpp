@@ -38,6 +38,12 @@ constexpr fci::Architecture architecture() {
 }  // namespace
 
 Model Robot::loadModel() {
+  if (isMobileRobot()) {
+    throw ModelException(
+        "libfranka: This robot is a mobile base, not an arm. Please make a franka::MobileModel "
+        "from "
+        "what getRobotModel returns.");
+  }
   if (fci::hasRobotModel(impl_->version())) {
     try {
       return Model(modelFromUrdf(getRobotModel(), ""));
@@ -66,6 +72,7 @@ Model Model::fromUrdfFile(const std::string& path, const std::string& arm_id) {
   return fromUrdf(text.str(), arm_id);
 }
 
+Model::Model(const std::string& urdf) : source_(modelFromUrdf(urdf, "")) {}
 Model::Model(std::unique_ptr<Source> source) : source_(std::move(source)) {}
 Model::Model(Model&& model) noexcept = default;
 Model& Model::operator=(Model&& model) noexcept = default;
@@ -115,6 +122,12 @@ std::array<double, 7> Model::coriolis(const std::array<double, 7>& q,
                                       const std::array<double, 9>& I_total, double m_total,
                                       const std::array<double, 3>& F_x_Ctotal) const noexcept {
   return source_->coriolis(q, dq, I_total, m_total, F_x_Ctotal);
+}
+std::array<double, 7> Model::coriolis(
+    const std::array<double, 7>& q, const std::array<double, 7>& dq,
+    const std::array<double, 9>& I_total, double m_total, const std::array<double, 3>& F_x_Ctotal,
+    const std::array<double, 3>& /*gravity_earth*/) const noexcept {
+  return coriolis(q, dq, I_total, m_total, F_x_Ctotal);
 }
 
 std::array<double, 7> Model::gravity(const std::array<double, 7>& q, double m_total,

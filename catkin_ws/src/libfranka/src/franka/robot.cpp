@@ -162,6 +162,8 @@ std::string Robot::getRobotModel() {
   return {urdf.begin(), urdf.end()};
 }
 
+bool Robot::isMobileRobot() const noexcept { return impl_->isMobile(); }
+
 std::array<double, 7> Robot::getUpperJointVelocityLimits(
     const std::array<double, 7>& joint_positions) const noexcept {
   return impl_->limits().upperJointVelocity(joint_positions);

@@ -3,6 +3,7 @@
 #include "franka/robot_impl.h"
 
 #include <franka/control_tools.h>
+#include <franka/mobile_model.h>
 #include <franka_core/fci/command_codec.h>
 #include <franka_core/fci/reply_codec.h>
 #include <franka_core/fci/texts.h>
@@ -96,7 +97,7 @@ Robot::Impl::Impl(const std::string& address, RealtimeConfig realtime_config, st
     receiveState();
   }
   if (version_ >= 10) {
-    readLimits();
+    readDescription();
   }
 }
 
@@ -155,10 +156,12 @@ std::optional<std::uint16_t> Robot::Impl::offer(const network::Endpoint& endpoin
   return std::nullopt;
 }
 
-void Robot::Impl::readLimits() {
+void Robot::Impl::readDescription() {
   try {
-    const std::vector<std::uint8_t> urdf = download(fci::GetRobotModelRequest{}, timeouts_.connect);
-    const auto limits = velocityLimitsFromUrdf(std::string(urdf.begin(), urdf.end()));
+    const std::vector<std::uint8_t> text = download(fci::GetRobotModelRequest{}, timeouts_.connect);
+    const std::string urdf(text.begin(), text.end());
+    is_mobile_ = isMobileRobotUrdf(urdf);
+    const auto limits = velocityLimitsFromUrdf(urdf);
     // A description without limits leaves those of the published table.
     if (limits) {
       limits_.position_velocity = limits;

@@ -42,6 +42,7 @@ class Robot::Impl {
   RealtimeConfig realtimeForMotion();
   std::size_t logSize() const noexcept { return log_size_; }
   const ArmRateLimits& limits() const noexcept { return limits_; }
+  bool isMobile() const noexcept { return is_mobile_; }
   const Timeouts& bounds() const noexcept { return timeouts_; }
   std::atomic<ControlOptions>& options() noexcept { return options_; }
 
@@ -128,7 +129,8 @@ class Robot::Impl {
   /// Offers a version. @returns the version the robot wants instead, or nothing if it agrees.
   std::optional<std::uint16_t> offer(const network::Endpoint& endpoint, std::uint16_t version,
                                      Clock::time_point deadline);
-  void readLimits();
+  /// What kind of robot it is, and its velocity limits, from the description it sends.
+  void readDescription();
   std::vector<std::uint8_t> download(const Request& request, std::chrono::milliseconds bound);
   std::vector<std::uint8_t> receiveMessage(Command command, std::uint32_t id,
                                            std::chrono::milliseconds bound, bool owns_states);
@@ -147,6 +149,7 @@ class Robot::Impl {
 
   std::uint16_t version_{franka_core::fci::kNewestRobotVersion};
   ArmRateLimits limits_;
+  bool is_mobile_{false};
   std::unique_ptr<network::CommandChannel> channel_;
 
   std::atomic_flag busy_ = ATOMIC_FLAG_INIT;           // an Operation lives

@@ -4,7 +4,9 @@
 
 #include <franka/logging/logging_sink_interface.hpp>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <vector>
 
 /// @file
 /// Messages that go to the sinks which the program registers. Without a sink they are dropped; only
@@ -28,6 +30,35 @@ void removeAllLoggers();
 void logInfo(const std::string& message);
 void logWarn(const std::string& message);
 void logError(const std::string& message);
+/// @}
+
+/// A text with its placeholders replaced in order: each `{}`, also one with a format such as
+/// `{:.3f}`, which is not applied. `{{` and `}}` stand for braces. Placeholders without a value
+/// stay.
+std::string fill(const std::string& text, const std::vector<std::string>& values);
+
+/// A value as `std::ostream` writes it.
+template <typename Value>
+std::string toText(const Value& value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// @name Messages with values, as fill writes them
+/// @{
+template <typename First, typename... Rest>
+void logInfo(const std::string& text, const First& first, const Rest&... rest) {
+  logInfo(fill(text, {toText(first), toText(rest)...}));
+}
+template <typename First, typename... Rest>
+void logWarn(const std::string& text, const First& first, const Rest&... rest) {
+  logWarn(fill(text, {toText(first), toText(rest)...}));
+}
+template <typename First, typename... Rest>
+void logError(const std::string& text, const First& first, const Rest&... rest) {
+  logError(fill(text, {toText(first), toText(rest)...}));
+}
 /// @}
 
 }  // namespace franka::logging
