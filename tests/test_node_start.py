@@ -8,6 +8,7 @@ import socket
 import threading
 import time
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 import ros_nodes
@@ -35,7 +36,7 @@ rospy.sleep(1.0)  # no answer comes that could be waited for: the goal is to lea
 def configured(file: str, **arguments: str):
     """A node's parameters as its launch file loads them."""
     text = (ros_nodes.CONTROL_CONFIG / file).read_text()
-    for name, value in {"realtime_config": "ignore", "connect_timeout": "0", **arguments}.items():
+    for name, value in arguments.items():
         text = text.replace(f"$(arg {name})", value)
     return yaml.safe_load(text)
 
@@ -62,7 +63,7 @@ def prepared(bare, urdf):
     """A master with the parameters of a node for each kind of hardware, where nothing is wrong."""
     bare.set("/robot_description", urdf)
     one = configured("franka_control_node.yaml", arm_id="panda")
-    bare.set(ONE, dict(one, robot_ip=ADDRESS, connect_timeout=0.0))
+    bare.set(ONE, dict(one, robot_ip=ADDRESS, connect_timeout=0.0, realtime_config="ignore"))
     arms = configured("franka_combined_control_node.yaml")
     for arm, address in (("panda_1", ADDRESS), ("panda_2", OTHER)):
         arms[arm]["robot_ip"] = address
@@ -76,12 +77,12 @@ def robot():
         yield robot
 
 
-def one(master, *through):
+def one(master, through=()):
     return master.node("franka_control", "franka_control_node", ONE[1:], through)
 
 
-def combined(master):
-    return master.node("franka_control", "franka_combined_control_node", ALL[1:])
+def combined(master, through=()):
+    return master.node("franka_control", "franka_combined_control_node", ALL[1:], through)
 
 
 @contextmanager
@@ -171,6 +172,78 @@ def test_an_older_robot_is_taken(master, version):
     with simulated("panda", OTHER, "realtime", "--no-hand", "--protocol", str(version)), one(master) as node:
         assert node.says("is ready", 20), node.output
         assert node.interrupt() < IN_TIME
+
+
+# --- robots that are other ones than the parameters say -----------------------------------------------------
+
+TRAJECTORY, STATES = "effort_joint_trajectory_controller", "franka_state_controller"
+
+
+def manager(master, *arguments):
+    """What is said to somebody who asks the controller manager."""
+    result = master.run("rosrun", "controller_manager", "controller_manager", *arguments)
+    return result.stdout + result.stderr
+
+
+def set_controllers(master, arm_id):
+    for name, parameters in configured("default_controllers.yaml", arm_id=arm_id).items():
+        master.set("/" + name, parameters)
+
+
+@pytest.mark.parametrize("there, told", [("fr3", "panda"), ("panda", "fr3")])
+def test_a_robot_of_the_other_kind_is_told_and_not_commanded(master, there, told):
+    set_controllers(master, "panda")
+    master.set("/robot_description", ros_nodes.robot_description(told, arm_id="panda"))
+    master.set(ONE + "/robot_ip", OTHER)
+    is_there, is_told = [{"fr3": "an FR3", "panda": "a Panda"}[kind] for kind in (there, told)]
+    sentence = f"the robot is {is_there} "
+    with simulated(there, OTHER, "lockstep", "--no-hand") as robot, one(master) as node:
+        assert node.says("is ready"), node.output
+        assert node.says(sentence), node.output
+        assert f"robot_description is {is_told}'s" in node.output
+        assert "'/franka_control/ignore_robot_mismatch' is not true" in node.output
+        said = node.output.count(sentence)
+        assert said == 1
+        assert "Started" in manager(master, "spawn", STATES), "who only looks does no harm"
+        assert "Started" not in manager(master, "spawn", TRAJECTORY)
+        assert node.says(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
+        assert node.output.count(sentence) == 2
+        assert robot.ask("state").startswith("Idle")
+        master.set(ONE + "/ignore_robot_mismatch", True)
+        assert "Started" in manager(master, "start", TRAJECTORY), node.output
+
+
+@pytest.mark.parametrize(
+    "name, value, sentence",
+    [
+        ("arm_id", "fr3", "arm_id is 'fr3', but joint_names holds 'panda_joint1'"),
+        (
+            "/robot_description",
+            "left",
+            "robot_description holds no joint 'panda_joint1': it describes 'left'",
+        ),
+    ],
+)
+def test_an_arm_of_another_name_is_told_and_not_commanded(master, robot, urdf, name, value, sentence):
+    set_controllers(master, "panda")
+    if name == "arm_id":
+        master.set(f"{ONE}/arm_id", value)
+    else:
+        master.set(name, urdf.replace("panda_", value + "_"))
+    with one(master) as node:
+        assert node.says("is ready"), node.output
+        assert node.says(sentence), node.output
+        assert "Started" not in manager(master, "spawn", TRAJECTORY)
+        # A controller that finds its joints in the description is refused, another one does not load.
+        assert node.output.count(sentence) == (2 if name == "arm_id" else 1), node.output
+
+
+def test_one_arm_of_several_that_is_another_kind_is_told(master, robot):
+    master.set(ALL + "/panda_2/robot_ip", NOBODY)
+    with simulated("fr3", NOBODY, "realtime", "--no-hand"), combined(master) as node:
+        assert node.says(f"no controller can command 'panda_2' at {NOBODY}"), node.output
+        assert "the robot is an FR3" in node.output
+        assert "'/combined_panda/panda_2/ignore_robot_mismatch' is not true" in node.output
 
 
 def test_joints_that_the_description_does_not_hold_are_named(master, robot, urdf):
@@ -264,14 +337,45 @@ def test_a_node_without_privileges_moves_where_it_need_not_enforce_real_time(mas
         assert robot.ask("state").startswith("Move"), node.output
 
 
-def test_a_node_without_privileges_says_why_it_does_not_move_where_it_must(master):
+def test_a_controller_that_could_not_move_the_robot_is_not_started(master):
+    set_controllers(master, "panda")
     master.set(ONE + "/realtime_config", "enforce")
-    as_a_real_robot = ("env", "FRANKA_REALTIME=enforce")
-    with moving(master, (*as_a_real_robot, *UNPRIVILEGED)) as (node, robot):
-        assert node.says("RealtimeConfig::kIgnore"), node.output
-        assert "realtime" in node.output
+    master.set(ONE + "/robot_ip", OTHER)
+    sentence = "Start with realtime_config:=ignore"
+    through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with a robot that is not simulated
+    with simulated("panda", OTHER, "lockstep", "--no-hand") as robot, one(master, through) as node:
+        assert node.says("is ready"), node.output
+        assert node.says(sentence), node.output
+        for times, order in ((2, "spawn"), (3, "start")):  # each time it is asked
+            assert "Started" not in manager(master, order, TRAJECTORY)
+            assert node.says(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
+            assert node.output.count(sentence) == times
+        assert "running" not in manager(master, "list")
         assert robot.ask("state").startswith("Idle")
         assert node.process.poll() is None
+        assert node.interrupt() < IN_TIME
+
+
+# A kernel with real-time support is made use of, unless this says otherwise.
+HAS_REALTIME = Path("/sys/kernel/realtime").exists()
+ANYHOW = ("env", "FRANKA_REALTIME=ignore") if HAS_REALTIME else ()
+
+
+def test_a_simulated_robot_needs_no_real_time_kernel(master):
+    master.set(ONE + "/realtime_config", "enforce")
+    with moving(master, (*ANYHOW, *UNPRIVILEGED)) as (node, robot):
+        assert robot.ask("state").startswith("Move"), node.output
+        said = node.output.count("The running kernel has no real-time support")
+        assert said == (0 if HAS_REALTIME else 1), node.output
+
+
+def test_a_node_of_several_simulated_arms_needs_no_real_time_kernel(master, robot):
+    master.set(ALL + "/realtime_config", "enforce")
+    with (
+        simulated("panda", OTHER, "realtime", "--no-hand"),
+        combined(master, (*ANYHOW, *UNPRIVILEGED)) as node,
+    ):
+        assert node.says("going on without real-time priority"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -307,7 +411,7 @@ def woken_at_last(robot):
 
 @contextmanager
 def one_with_robot(master, pace="patient", through=()):
-    with simulated("panda", OTHER, pace, "--no-hand") as robot, one(master, *through) as node:
+    with simulated("panda", OTHER, pace, "--no-hand") as robot, one(master, through) as node:
         assert node.says("is ready"), node.output
         yield node, robot
 
@@ -316,10 +420,8 @@ def one_with_robot(master, pace="patient", through=()):
 def moving(master, through=()):
     """A node with a controller that holds the arm."""
     master.set(ONE + "/robot_ip", OTHER)
-    for name, parameters in configured("default_controllers.yaml", arm_id="panda").items():
-        master.set("/" + name, parameters)
+    set_controllers(master, "panda")
     with one_with_robot(master, "lockstep", through) as (node, robot):
-        spawn = ["rosrun", "controller_manager", "controller_manager", "spawn"]
-        spawned = master.run(*spawn, "effort_joint_trajectory_controller")
-        assert "Started" in spawned.stdout, f"{spawned}\n{node.output}"
+        said = manager(master, "spawn", TRAJECTORY)
+        assert "Started" in said, f"{said}\n{node.output}"
         yield node, robot

@@ -26,7 +26,7 @@ def report(tmp_path_factory, long_run):
     with simulated("panda", ADDRESS, "lockstep", "--no-hand") as robot, ros_nodes.master(folder) as master:
         master.set("/robot_description", ros_nodes.robot_description("panda"))
         node_parameters = configured("franka_control_node.yaml", arm_id="panda")
-        master.set("/franka_control", dict(node_parameters, robot_ip=ADDRESS, connect_timeout=0.0))
+        master.set("/franka_control", dict(node_parameters, robot_ip=ADDRESS, realtime_config="ignore"))
         for name, values in configured("default_controllers.yaml", arm_id="panda").items():
             master.set(f"/{name}", values)
         master.set("/franka_state_controller/publish_rate", STATES)

@@ -6,11 +6,13 @@
 #include <franka_hw/franka_combined_hw.h>
 #include <franka_hw/robot_clock.h>
 #include <franka_hw/thrown_report.h>
+#include <franka_hw/usage.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/rate.h>
 #include <ros/spinner.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <memory>
@@ -24,6 +26,14 @@
 #include "robot_health.h"
 
 namespace {
+
+constexpr char kUsage[] =
+    "usage: rosrun franka_control franka_combined_control_node [NAME:=VALUE]...\n\n"
+    "Drives several arms under one controller manager, with torques.\n"
+    "Parameters in its own namespace: robot_hardware, robot_description and a namespace for each\n"
+    "arm; docs/franka_control.md lists them. franka_combined_control.launch sets them all:\n"
+    "  roslaunch franka_control franka_combined_control.launch \\\n"
+    "    robot_ips:=\"{panda_1/robot_ip: ADDRESS, panda_2/robot_ip: ADDRESS}\" (or sim:=true)";
 
 /// What is told of one arm on /diagnostics.
 class ArmHealth {
@@ -48,14 +58,23 @@ class ArmHealth {
   franka_control::RobotHealth health_;
 };
 
-/// Real-time priority for this thread, where realtime_config does not say to do without (the arms'
-/// own parameters say the same for their threads). @returns false after a sentence
-bool raisePriority(const ros::NodeHandle& nh) {
+/// Whether this thread needs real-time priority: where realtime_config does not say to do without,
+/// and some arm's thread may need it.
+bool enforcesRealtime(const ros::NodeHandle& nh, const franka_hw::FrankaCombinedHW& robots) {
+  const std::vector<franka_hw::FrankaCombinableHW*>& arms = robots.arms();
+  return nh.param<std::string>("realtime_config", "enforce") != "ignore" &&
+         (arms.empty() || std::any_of(arms.begin(), arms.end(),
+                                      [](const auto* arm) { return arm->enforcesRealtime(); }));
+}
+
+/// Real-time priority for this thread. @returns false after a sentence where it is needed and
+/// cannot be had
+bool raisePriority(bool enforce) {
   std::string error;
   if (franka::setCurrentThreadToHighestSchedulerPriority(&error)) {
     return true;
   }
-  if (nh.param<std::string>("realtime_config", "enforce") == "ignore") {
+  if (!enforce) {
     ROS_WARN_STREAM("franka_combined_control_node: going on without real-time priority. " << error);
     return true;
   }
@@ -95,6 +114,9 @@ void updateControllers(controller_manager::ControllerManager& controllers,
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (franka_hw::printsUsage(argc, argv, kUsage)) {
+    return 0;
+  }
   ros::init(argc, argv, "franka_combined_control_node");
   const franka_control::EndInTime end_in_time("franka_combined_control_node");
   ros::AsyncSpinner spinner(4);
@@ -108,7 +130,7 @@ int main(int argc, char** argv) {
     ROS_ERROR("franka_combined_control_node: the robots could not be set up (see above).");
     return 1;
   }
-  if (!raisePriority(nh)) {
+  if (!raisePriority(enforcesRealtime(nh, robots))) {
     return 1;
   }
   controller_manager::ControllerManager controllers(&robots, nh);

@@ -8,9 +8,12 @@ catkin_add_gtest(franka_hw_test
   test/model_base_test.cpp
   test/resource_helpers_test.cpp
   test/response_times_test.cpp
+  test/robot_mismatch_test.cpp
   test/trigger_rate_test.cpp
 )
 target_compile_options(franka_hw_test PRIVATE -Wall -Wextra)
+target_compile_definitions(franka_hw_test PRIVATE
+  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
 target_link_libraries(franka_hw_test franka_hw)
 
 # Alone in its executable, because the guard against allocations replaces malloc.
@@ -33,6 +36,7 @@ add_rostest_gtest(franka_hw_robot_test test/franka_hw_robot.test
   test/robot/main.cpp
   test/robot/modes_test.cpp
   test/robot/parameters_test.cpp
+  test/robot/refusals_test.cpp
   test/robot/support.cpp
   test/robot/switching_test.cpp
 )

@@ -25,6 +25,11 @@ constexpr double kLimitCheckPeriod = 0.5;
 constexpr double kConnectPeriod = 0.2;
 // How often a robot that rests is asked for a state before it counts as gone.
 constexpr int kReadAttempts = 3;
+// For somebody whose robot does not answer because there is none.
+constexpr char kNoRobot[] =
+    " Without a robot, start a simulated one: give the launch file sim:=true, or run `rosrun "
+    "franka_sim_mujoco franka_sim --robot panda --ip 127.0.0.1` (or fr3, any loopback address) "
+    "beside it.";
 
 }  // namespace
 
@@ -57,8 +62,10 @@ bool FrankaHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
   try {
     initRobot();
   } catch (const std::runtime_error& error) {
+    const bool unreachable = dynamic_cast<const franka::NetworkException*>(&error) != nullptr;
     ROS_ERROR_STREAM("FrankaHW: the robot '" << arm_id_ << "' at " << robot_ip_
-                                             << " could not be initialised. " << error.what());
+                                             << " could not be initialised. " << error.what()
+                                             << (unreachable ? kNoRobot : ""));
     return false;
   }
   initROSInterfaces(robot_hw_nh);
@@ -104,8 +111,10 @@ void FrankaHW::connect() {
       config.lower_force_thresholds_acceleration, config.upper_force_thresholds_acceleration,
       config.lower_force_thresholds_nominal, config.upper_force_thresholds_nominal);
   // Only a robot that is completely set up counts as connected.
+  protocol_ = robot->serverVersion();
   robot_ = std::move(robot);
   connected_ = true;
+  warnOfRefusals();
 }
 
 bool FrankaHW::disconnect() {

@@ -37,6 +37,14 @@ bool modeOf(const std::string& arm_id, const std::list<hardware_interface::Contr
   return true;
 }
 
+/// Whether one of the controllers commands anything, be it by names of no arm.
+bool commands(const std::list<hardware_interface::ControllerInfo>& list) {
+  return std::any_of(list.begin(), list.end(), [](const auto& info) {
+    return std::any_of(info.claimed_resources.begin(), info.claimed_resources.end(),
+                       [](const auto& claimed) { return !claimed.resources.empty(); });
+  });
+}
+
 std::vector<std::string> namesOf(const std::list<hardware_interface::ControllerInfo>& list) {
   std::vector<std::string> names;
   for (const hardware_interface::ControllerInfo& info : list) {
@@ -81,12 +89,16 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
     return false;
   }
   if (start_mode == ControlMode::None && stop_mode == ControlMode::None) {
-    return true;  // who only looks does not disturb a motion
+    // Who only looks does not disturb a motion.
+    return !commands(start_list) || mayStart(start_list);
   }
   const bool unused = preparation_pending_.exchange(false);
   if (unused && namesOf(start_list) == preparation_.stop &&
       namesOf(stop_list) == preparation_.start) {
     return takePreparationBack();
+  }
+  if (commands(start_list) && !mayStart(start_list)) {
+    return false;
   }
   const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
   const RunSettings settings = requestedSettings(mode);
@@ -123,6 +135,19 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   current_control_mode_ = mode;
   run_settings_ = settings;
   return true;
+}
+
+bool FrankaHW::mayStart(const std::list<hardware_interface::ControllerInfo>& list) const {
+  const std::string refusal = refusalOfMotions();
+  if (refusal.empty()) {
+    return true;
+  }
+  std::string names;
+  for (const std::string& name : namesOf(list)) {
+    names += (names.empty() ? "'" : ", '") + name + "'";
+  }
+  ROS_ERROR_STREAM("FrankaHW: " << names << " cannot command '" << arm_id_ << "': " << refusal);
+  return false;
 }
 
 bool FrankaHW::takePreparationBack() {

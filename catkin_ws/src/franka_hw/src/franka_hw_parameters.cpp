@@ -1,11 +1,14 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // FrankaHW: what it reads from the parameter server.
+#include <franka/control_tools.h>
 #include <franka/rate_limiting.h>
+#include <franka_core/realtime_rule.h>
 #include <franka_hw/franka_hw.h>
 #include <ros/console.h>
 
 #include <limits>
+#include <stdexcept>
 
 namespace franka_hw {
 
@@ -77,7 +80,7 @@ bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
   }
   readCollisionConfig(robot_hw_nh);
   readJointRanges();
-  return readRealtimeConfig(robot_hw_nh);
+  return readRealtimeConfig(robot_hw_nh) && readIgnoreMismatch(robot_hw_nh);
 }
 
 bool FrankaHW::readJointNames(const ros::NodeHandle& nh) {
@@ -111,13 +114,42 @@ bool FrankaHW::readRealtimeConfig(const ros::NodeHandle& nh) {
   std::string name = "realtime_config";
   nh.searchParam("realtime_config", name);
   const std::string config = nh.param<std::string>(name, "enforce");
-  if (config == "enforce") {
-    realtime_config_ = franka::RealtimeConfig::kEnforce;
-  } else if (config == "ignore") {
-    realtime_config_ = franka::RealtimeConfig::kIgnore;
-  } else {
+  if (config != "enforce" && config != "ignore") {
     ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName(name) << "' is '" << config
                                                  << "', but must be enforce or ignore.");
+    return false;
+  }
+  try {
+    const franka_core::RealtimeRule rule = franka_core::realtimeRule(
+        config == "enforce", franka_core::isLoopback(robot_ip_), franka::hasRealtimeKernel());
+    if (!rule.warning.empty()) {
+      ROS_WARN_STREAM("FrankaHW: '" << arm_id_ << "' at " << robot_ip_ << ": " << rule.warning);
+    }
+    realtime_config_ =
+        rule.enforce ? franka::RealtimeConfig::kEnforce : franka::RealtimeConfig::kIgnore;
+  } catch (const std::invalid_argument& error) {
+    ROS_ERROR_STREAM("FrankaHW: " << error.what());
+    return false;
+  }
+  return true;
+}
+
+bool FrankaHW::readIgnoreMismatch(const ros::NodeHandle& nh) {
+  mismatch_parameter_ = nh.resolveName("ignore_robot_mismatch");
+  // One for all arms of a combined node stands in its namespace.
+  const auto find = [nh](std::string& name) {
+    return nh.searchParam("ignore_robot_mismatch", name);
+  };
+  // Read again at every switch: one may be told of it and try again.
+  get_ignore_robot_mismatch_ = [nh, find] {
+    std::string name;
+    bool ignore = false;
+    return find(name) && nh.getParam(name, ignore) && ignore;
+  };
+  std::string name;
+  bool ignore = false;
+  if (find(name) && !nh.getParam(name, ignore)) {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << name << "' is not true or false.");
     return false;
   }
   return true;

@@ -3,6 +3,7 @@
 // Publishes the joint states of a hand, and only looks at it.
 #include <franka/exception.h>
 #include <franka/gripper.h>
+#include <franka_hw/usage.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
@@ -11,12 +12,25 @@
 
 #include "parameters.h"
 
+namespace {
+
+constexpr char kUsage[] =
+    "usage: rosrun franka_visualization gripper_joint_state_publisher [NAME:=VALUE]...\n\n"
+    "Publishes a hand's ~joint_states (sensor_msgs/JointState) and only looks at it. Parameters:\n"
+    "~robot_ip, ~joint_names (two), ~publish_rate [Hz]. franka_visualization.launch sets them.";
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  if (franka_hw::printsUsage(argc, argv, kUsage)) {
+    return 0;
+  }
   ros::init(argc, argv, "gripper_joint_state_publisher");
   ros::NodeHandle nh("~");
   try {
     const auto parameters = franka_visualization::readParameters(nh, 2);
     const franka::Gripper gripper(parameters.robot_ip);
+    franka_visualization::describedBy(nh, parameters);
     ros::Publisher publisher = nh.advertise<sensor_msgs::JointState>("joint_states", 1);
     sensor_msgs::JointState message;
     message.name = parameters.joint_names;
@@ -30,6 +44,10 @@ int main(int argc, char** argv) {
       publisher.publish(message);
       rate.sleep();
     }
+  } catch (const franka::NetworkException& error) {
+    ROS_ERROR_STREAM("gripper_joint_state_publisher: " << error.what()
+                                                       << franka_visualization::kNoRobot);
+    return -1;
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM("gripper_joint_state_publisher: " << error.what());
     return -1;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parameters.h"
 
+#include <ros/console.h>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -19,6 +21,11 @@ void require(const ros::NodeHandle& nh, const std::string& name, const char* wha
 
 }  // namespace
 
+const char* const kNoRobot =
+    " Without a robot, start a simulated one: `rosrun franka_sim_mujoco franka_sim --robot panda "
+    "--ip "
+    "127.0.0.1` (or fr3, any loopback address).";
+
 Parameters readParameters(const ros::NodeHandle& nh, std::size_t joints) {
   Parameters parameters;
   require(nh, "joint_names", "a list of names", parameters.joint_names);
@@ -34,6 +41,23 @@ Parameters readParameters(const ros::NodeHandle& nh, std::size_t joints) {
                                 "' must be above zero.");
   }
   return parameters;
+}
+
+std::optional<urdf::Model> describedBy(const ros::NodeHandle& nh, const Parameters& parameters) {
+  std::string name;
+  urdf::Model description;
+  if (!nh.searchParam("robot_description", name) || !description.initParam(name)) {
+    return std::nullopt;
+  }
+  for (const std::string& joint : parameters.joint_names) {
+    if (!description.getJoint(joint)) {
+      ROS_WARN_STREAM("The parameter '" << nh.resolveName("joint_names") << "' holds '" << joint
+                                        << "', which is no joint of '" << name
+                                        << "': give both the same arm_id.");
+      return std::nullopt;
+    }
+  }
+  return description;
 }
 
 }  // namespace franka_visualization

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <urdf/model.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,5 +22,12 @@ struct Parameters {
 /// Reads them from the node's namespace. @param joints how many names there must be
 /// @throws std::invalid_argument with a sentence that names the parameter
 Parameters readParameters(const ros::NodeHandle& nh, std::size_t joints);
+
+/// Warns in one sentence of joints that robot_description does not hold: what shows the robot would
+/// wait for them for ever. @returns the description; nothing where there is none, or no such joint
+std::optional<urdf::Model> describedBy(const ros::NodeHandle& nh, const Parameters& parameters);
+
+/// What to do where no robot answers, to go after libfranka's sentence.
+extern const char* const kNoRobot;
 
 }  // namespace franka_visualization

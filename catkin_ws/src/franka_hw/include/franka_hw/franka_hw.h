@@ -125,6 +125,8 @@ class FrankaHW : public hardware_interface::RobotHW {
   /// Decides on the control mode after the switch. A motion that has to change is ended here: this
   /// waits for it, and refuses after two seconds. A call with the lists exchanged, before
   /// doSwitch(), takes the preparation back: the motion goes on, its controllers start anew.
+  /// Controllers that could not move the robot (no real-time priority, which realtime_config
+  /// enforces) or must not (it is another one than its parameters say) are refused with a sentence.
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
 
@@ -158,6 +160,12 @@ class FrankaHW : public hardware_interface::RobotHW {
   const ros::Time& stateTime() const noexcept { return clock_.time(); }
   /// How fast the controllers answer the robot. Reports are for one thread.
   ResponseTimes& responseTimes() noexcept { return response_times_; }
+
+  /// Whether controllers need real-time priority to move this robot: realtime_config, which
+  /// franka_core::realtimeRule lifts for simulated robots. After init().
+  bool enforcesRealtime() const noexcept {
+    return realtime_config_ == franka::RealtimeConfig::kEnforce;
+  }
 
   /// Whether a value of the command is not a number.
   static bool commandHasNaN(const franka::Torques& command);
@@ -338,6 +346,7 @@ class FrankaHW : public hardware_interface::RobotHW {
   std::function<franka::ControllerMode()> get_internal_controller_;
   std::function<bool()> get_limit_rate_;
   std::function<double()> get_cutoff_frequency_;
+  std::function<bool()> get_ignore_robot_mismatch_;
   std::function<void(franka::Robot&, Callback)> run_function_;
 
   RobotClock clock_;  ///< what time the controllers are told
@@ -356,6 +365,7 @@ class FrankaHW : public hardware_interface::RobotHW {
   bool readJointNames(const ros::NodeHandle& nh);
   bool readConnectTimeout(const ros::NodeHandle& nh);
   bool readRealtimeConfig(const ros::NodeHandle& nh);
+  bool readIgnoreMismatch(const ros::NodeHandle& nh);
   void readCollisionConfig(const ros::NodeHandle& nh);
   bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
                   joint_limits_interface::SoftJointLimits& soft_limits) const;
@@ -364,6 +374,18 @@ class FrankaHW : public hardware_interface::RobotHW {
   void reportJointLimits(const ros::WallTimerEvent& event);
   RunSettings requestedSettings(ControlMode mode) const;
   bool takePreparationBack();
+  /// Whether these may command the robot. @returns false after a sentence
+  bool mayStart(const std::list<hardware_interface::ControllerInfo>& list) const;
+  /// Why controllers must not command the robot, as one sentence; empty where they may.
+  std::string refusalOfMotions() const;
+  /// How the robot contradicts its parameters (robot_mismatch.h); empty where it does not.
+  std::string mismatch() const;
+  /// Whether the parameter ignore_robot_mismatch, as it is now, says that this does not matter.
+  bool ignoresMismatch() const;
+  /// Why libfranka would not move the robot from this computer; empty where it would.
+  std::string realtimeRefusal() const;
+  /// Warns, after a connection was made, of what will be refused.
+  void warnOfRefusals() const;
   /// Lets a motion that was ended for a switch go on.
   void goOnAsBefore(bool was_active);
 
@@ -379,7 +401,9 @@ class FrankaHW : public hardware_interface::RobotHW {
   std::atomic_bool preparation_pending_{false};
   std::atomic_bool motion_goes_on_{false};
   std::atomic_bool in_control_{false};
-  double connect_timeout_{0.0};  // [s] for a robot that is still starting
+  std::atomic<unsigned> protocol_{0};  // that the robot speaks
+  std::string mismatch_parameter_;     // resolved name of ignore_robot_mismatch
+  double connect_timeout_{0.0};        // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
 
   std::array<std::array<double, 2>, 7> joint_ranges_{};  // [rad], from the URDF

@@ -44,6 +44,7 @@ std::vector<Case> refusals() {
       {"no robot_ip", without("robot_ip"), {"robot_ip' is missing", "address"}},
       {"robot_ip a number", with("robot_ip", 1.5), {"robot_ip", "is not a string"}},
       {"realtime_config", with("realtime_config", std::string("often")), {"'often'", "enforce"}},
+      {"ignore_robot_mismatch", with("ignore_robot_mismatch", 1), {"mismatch' is not true or"}},
       {"no description",
        [](FakeArm& arm) { arm.nh.deleteParam("robot_description"); },
        {"robot_description", "launch file"}},
@@ -52,7 +53,7 @@ std::vector<Case> refusals() {
        {"robot_description"}},
       {"nobody at the address",
        with("robot_ip", std::string("127.0.0.1:9")),
-       {"127.0.0.1:9", "could not be initialised"}},
+       {"127.0.0.1:9", "could not be initialised", "franka_sim --robot", "sim:=true"}},
   };
 }
 

@@ -1,0 +1,102 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/limits.h>
+#include <franka_hw/resource_helpers.h>
+#include <franka_hw/robot_mismatch.h>
+
+#include <optional>
+#include <set>
+#include <sstream>
+
+namespace franka_hw {
+
+namespace {
+
+using franka_core::ArmLimits;
+
+// How far a description may exceed the robot's range. Chosen here: ranges that somebody rounded to
+// degrees pass, and the two robots differ by 0.46 rad at joint 6. [rad]
+constexpr double kTolerance = 0.1;
+
+/// The widest range that this kind of robot has; older FR3s have narrower ones.
+const ArmLimits& limitsOf(bool is_fr3) {
+  return is_fr3 ? franka_core::kFr3Limits : franka_core::kFerLimits;
+}
+
+/// The first joint (0 to 6) that the description lets move where this kind of robot cannot.
+std::optional<std::size_t> tooWide(const urdf::Model& description,
+                                   const std::array<std::string, 7>& joint_names,
+                                   const ArmLimits& limits) {
+  for (std::size_t i = 0; i < joint_names.size(); i++) {
+    const urdf::JointConstSharedPtr joint = description.getJoint(joint_names[i]);
+    if (joint && joint->limits &&
+        (joint->limits->lower < limits.q_min[i] - kTolerance ||
+         joint->limits->upper > limits.q_max[i] + kTolerance)) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The arms whose first joints the description holds, as "'panda', 'left'".
+std::string armsIn(const urdf::Model& description) {
+  const std::string ending = "_joint1";
+  std::set<std::string> arms;
+  for (const auto& [name, joint] : description.joints_) {
+    if (name.size() > ending.size() &&
+        name.compare(name.size() - ending.size(), ending.size(), ending) == 0 &&
+        name.find("_finger") == std::string::npos) {
+      arms.insert("'" + name.substr(0, name.size() - ending.size()) + "'");
+    }
+  }
+  std::string list;
+  for (const std::string& arm : arms) {
+    list += (list.empty() ? "" : ", ") + arm;
+  }
+  return list.empty() ? "no arm" : list;
+}
+
+std::string wrongNames(const urdf::Model& description, const std::string& arm_id,
+                       const std::array<std::string, 7>& joint_names) {
+  for (const std::string& name : joint_names) {
+    std::string arm;
+    if (!findArmIdInResourceId(name, &arm) || arm != arm_id) {
+      return "arm_id is '" + arm_id + "', but joint_names holds '" + name +
+             "': joints of this arm are named " + arm_id + "_joint1 to " + arm_id + "_joint7.";
+    }
+    if (!description.getJoint(name)) {
+      return "the arm is called '" + arm_id + "' (arm_id), but robot_description holds no joint '" +
+             name + "': it describes " + armsIn(description) + ". Give both the same arm_id.";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string robotMismatch(const urdf::Model& description, const std::string& arm_id,
+                          const std::array<std::string, 7>& joint_names, unsigned protocol) {
+  const std::string names = wrongNames(description, arm_id, joint_names);
+  if (!names.empty()) {
+    return names;
+  }
+  const bool is_fr3 = protocol > 5;
+  const ArmLimits& limits = limitsOf(is_fr3);
+  const std::optional<std::size_t> joint = tooWide(description, joint_names, limits);
+  if (!joint) {
+    return "";
+  }
+  const bool describes_other = !tooWide(description, joint_names, limitsOf(!is_fr3));
+  const auto& range = *description.getJoint(joint_names[*joint])->limits;
+  std::ostringstream text;
+  text << "the robot is " << (is_fr3 ? "an FR3" : "a Panda") << " (protocol " << protocol
+       << "), but robot_description is "
+       << (!describes_other ? "another robot's" : (is_fr3 ? "a Panda's" : "an FR3's"))
+       << ": it lets '" << joint_names[*joint] << "' move from " << range.lower << " to "
+       << range.upper << " rad, the robot can from " << limits.q_min[*joint] << " to "
+       << limits.q_max[*joint] << " rad. Load the description of this robot (launch files: robot:="
+       << (is_fr3 ? "fr3" : "panda") << ").";
+  return text.str();
+}
+
+}  // namespace franka_hw
