@@ -11,10 +11,7 @@ from overlay import Overlay
 DEVEL = Path(__file__).resolve().parent.parent / "catkin_ws" / "devel"
 NEW = "rosrun franka_example_controllers new_controller"
 
-PACKAGES = {
-    "my_pose_and_torque": "MyController --interfaces cartesian_pose effort",
-    "my_script": "MyLaw --interfaces joint_velocity --python",
-}
+PACKAGES = {"my_pose_and_torque": "MyController --interfaces cartesian_pose effort"}
 if os.environ.get("FRANKA_TEST_LONG"):
     PACKAGES["my_torques"] = "MyTorques --interfaces effort"
     PACKAGES["my_velocities"] = "MyVelocities --interfaces joint_velocity"
@@ -30,6 +27,23 @@ def test_package_builds_and_its_test_passes(name, tmp_path):
     (test,) = (tmp_path / name / "test").glob("*.test")
     result = overlay.shell(f"rostest --text {name} {test.name}", tmp_path / "devel", 300)
     assert result.returncode == 0, result.stdout[-4000:] + result.stderr[-2000:]
+
+
+def test_the_command_that_it_names_is_green_and_red_as_the_test_is(tmp_path):
+    sources = tmp_path / "src"
+    sources.mkdir()
+    overlay = Overlay(DEVEL, sources / "my_script", tmp_path)
+    create = f"{NEW} my_script MyLaw --interfaces joint_velocity --python --folder {sources}"
+    created = overlay.shell(create, DEVEL, 60)
+    assert created.returncode == 0, created.stderr
+    command = f"cd {tmp_path} && " + created.stdout.strip().splitlines()[-1]
+    green = overlay.shell(command, DEVEL, 300)
+    assert green.returncode == 0, green.stdout[-4000:] + green.stderr[-2000:]
+    (test,) = (sources / "my_script" / "test").glob("*.test")
+    test.write_text('<launch><test test-name="fails" pkg="my_script" type="no_such_test.py"/></launch>')
+    red = overlay.shell(command, DEVEL, 120)
+    assert red.returncode != 0, red.stdout[-4000:] + red.stderr[-2000:]
+    assert "1 failures" in red.stdout + red.stderr or "1 errors" in red.stdout + red.stderr
 
 
 @pytest.mark.parametrize(
