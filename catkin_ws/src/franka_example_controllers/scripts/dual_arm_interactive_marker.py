@@ -107,11 +107,11 @@ def wait_for_frame():
 
 
 def main():
-    rospy_connections.init_node("dual_arm_interactive_marker")
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--left_arm_id", required=True, help="the arm in whose base the frame is given")
     parser.add_argument("--right_arm_id", required=True, help="the other arm")
     options = parser.parse_args(rospy.myargv(sys.argv)[1:])
+    rospy_connections.init_node("dual_arm_interactive_marker")
     rospy.loginfo("Waiting for the controller's frame on %s.", rospy.resolve_name("~centering_frame"))
     first = wait_for_frame()
     if first is None:

@@ -162,6 +162,7 @@ def wait_for_pose():
 
 
 def main():
+    rospy_connections.answer_help("rosrun franka_example_controllers interactive_marker.py", __doc__)
     rospy_connections.init_node("equilibrium_pose_node")
     link_name = rospy.get_param("~link_name", None)
     if not isinstance(link_name, str) or not link_name:

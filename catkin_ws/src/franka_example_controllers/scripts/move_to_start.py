@@ -1,7 +1,12 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Moves the arm to where the example controllers begin, by a joint trajectory controller."""
+"""Moves the arm to where the example controllers begin, by a joint trajectory controller.
+
+Parameters: ~joint_pose, which maps the joints' names to positions [rad], and ~max_dq [rad/s]. Remap
+~follow_joint_trajectory and ~joint_states to the controller's action and the arm's states, as
+move_to_start.launch does.
+"""
 
 import sys
 import threading
@@ -57,6 +62,7 @@ def run(client, goal, timeout):
 
 
 def main():
+    rospy_connections.answer_help("rosrun franka_example_controllers move_to_start.py", __doc__)
     rospy_connections.init_node("move_to_start")
     pose = rospy.get_param("~joint_pose", None)
     max_dq = rospy.get_param("~max_dq", 0.5)

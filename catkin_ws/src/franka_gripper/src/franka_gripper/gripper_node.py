@@ -7,6 +7,7 @@ import math
 import os
 import threading
 import time
+from xml.etree import ElementTree
 
 import actionlib
 import rospy
@@ -31,6 +32,16 @@ ARRIVED = 1e-4  # [m] nearer targets of gripper_action are reached already
 RETRY = 0.2  # [s] between attempts to reach a hand that is starting
 EPSILON = 0.005  # [m] libfranka's default tolerance of a grasp
 SILENCE = 1.0  # [s] older states are no longer published
+
+USAGE = """
+Drives a Franka Hand: the actions ~homing, ~move, ~grasp, ~stop and ~gripper_action, and ~joint_states.
+Parameters: ~robot_ip, ~joint_names (two) and others, which docs/franka_control.md lists.
+franka_gripper.launch sets them.
+"""
+NO_HAND = (
+    " Without a robot, start a simulated one: `rosrun franka_sim_mujoco franka_sim --robot panda --ip "
+    "127.0.0.1` (or fr3, any loopback address)."
+)
 
 
 class Fault(Exception):
@@ -261,19 +272,42 @@ def connect(parameters, pyfranka):
             time.sleep(RETRY)
 
 
+def warn_of_unknown_joints(parameters):
+    """Warns in one sentence of fingers that robot_description, where there is one, does not hold."""
+    name = rospy.search_param("robot_description")
+    try:
+        description = ElementTree.fromstring(rospy.get_param(name)) if name else None
+    except (ElementTree.ParseError, TypeError):
+        return  # whoever needs the description says so
+    known = set() if description is None else {joint.get("name") for joint in description.iter("joint")}
+    unknown = [joint for joint in parameters.joint_names if joint not in known]
+    if known and unknown:
+        rospy.logwarn(
+            "franka_gripper_node: the parameter %s holds '%s', which is no joint of '%s': give both the "
+            "same arm_id.",
+            rospy.resolve_name("~joint_names"),
+            unknown[0],
+            name,
+        )
+
+
 def main():
+    rospy_connections.answer_help("rosrun franka_gripper franka_gripper_node", USAGE)
     rospy_connections.init_node("franka_gripper_node")
     # After the name of the node is known: what this needs is found only where libfranka is built.
     import pyfranka
 
     try:
         parameters = Parameters()
+        warn_of_unknown_joints(parameters)
         hand = connect(parameters, pyfranka)
     except Fault as error:
         rospy.logfatal("franka_gripper_node: %s", error)
         return 255
     except Exception as error:
-        rospy.logfatal("franka_gripper_node: no gripper at %s. %s", rospy.get_param("~robot_ip"), error)
+        hint = NO_HAND if isinstance(error, pyfranka.NetworkException) else ""
+        address = rospy.get_param("~robot_ip")
+        rospy.logfatal("franka_gripper_node: no gripper at %s. %s%s", address, error, hint)
         return 255
     node = GripperNode(parameters, hand)
     rospy.spin()

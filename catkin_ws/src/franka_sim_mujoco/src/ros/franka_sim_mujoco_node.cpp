@@ -6,6 +6,7 @@
 /// findWorldFile), ~gui (a window, where there is a display); services: see SimServices and
 /// PictureService; topics: see ContactPublisher and CameraPublisher. It needs use_sim_time.
 
+#include <franka_hw/usage.h>
 #include <franka_sim_mujoco/ros/camera_publisher.h>
 #include <franka_sim_mujoco/ros/contact_publisher.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
@@ -30,6 +31,12 @@ namespace {
 namespace sim = franka_sim_mujoco;
 
 constexpr char kLog[] = "franka_sim_mujoco";
+constexpr char kUsage[] =
+    "usage: rosrun franka_sim_mujoco franka_sim_mujoco_node [NAME:=VALUE]...\n\n"
+    "The simulation: a world with robots under ros_control, and the clock of ROS. Parameters: "
+    "~world,"
+    "\n~real_time_factor, ~paused, ~gui; /use_sim_time must be true. Launch files set them all:\n"
+    "  roslaunch franka_gazebo panda.launch (or fr3.launch)";
 /// Controllers' and robots' services and topics; a switch of controllers may hold one for long.
 constexpr std::uint32_t kThreads = 4;
 
@@ -96,6 +103,9 @@ void run(ros::NodeHandle& node) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (franka_hw::printsUsage(argc, argv, kUsage)) {
+    return EXIT_SUCCESS;
+  }
   ros::init(argc, argv, "gazebo");
   // Outlives the catch: the log falls silent when the last node handle goes.
   ros::NodeHandle node;

@@ -1,6 +1,8 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""init_node() for Python nodes that start together with what they listen to.
+"""What our Python nodes have in common: answer_help() and init_node().
+
+init_node() is for nodes that start together with what they listen to.
 
 A subscriber learns of its publishers on two ways: from the master's answer when it registers, and from
 the master's later updates. On a busy machine an update can overtake the answer. rospy then keeps only
@@ -9,6 +11,8 @@ is there (seen: an action client whose server started in the same few millisecon
 server"). Connecting to a publisher that has gone meanwhile does no harm, so nothing that waits to be
 connected needs to be forgotten.
 """
+
+import sys
 
 import rospy
 from rospy.impl.registration import RegManager
@@ -20,6 +24,16 @@ def _publisher_update(self, resolved_name, uris):
         waiting = [uri for name, queued in self.updates if name == resolved_name for uri in queued]
         self.updates.append((resolved_name, list(dict.fromkeys([*uris, *waiting]))))
         self.cond.notify_all()
+
+
+def answer_help(command: str, text: str) -> None:
+    """Ends a program that was started with -h or --help, after printing what it is. Needs no master.
+
+    `command` is how to call it, without "usage: ".
+    """
+    if {"-h", "--help"} & set(rospy.myargv(sys.argv)[1:]):
+        print(f"usage: {command} [NAME:=VALUE]...\n\n{text.strip()}")
+        sys.exit(0)
 
 
 def init_node(*arguments, **options) -> None:
