@@ -299,8 +299,12 @@ void FakeRobot::reply(Command command, std::uint32_t id, Status status) {
   }
   std::vector<std::uint8_t> bytes(message.data, message.data + message.size);
   if (script_.garbled.count(command) != 0) {
-    bytes[8]++;  // the header's size
-    bytes.push_back(0);
+    bytes[8]--;  // the header's size
+    bytes.pop_back();
+  }
+  if (command == Command::kConnect) {
+    bytes[8] = static_cast<std::uint8_t>(bytes.size() + script_.connect_excess);
+    bytes.resize(bytes.size() + script_.connect_excess);
   }
   const auto repeated = script_.repeated.find(command);
   for (int i = 0; i < 1 + (repeated == script_.repeated.end() ? 0 : repeated->second); i++) {

@@ -43,7 +43,8 @@ class FakeRobot {
     std::map<Command, Status> replies;  ///< in the place of success (Move: of MotionStarted)
     std::set<Command> unanswered;       ///< requests that get no reply
     std::set<Command> fatal;            ///< requests that make it close the connection
-    std::set<Command> garbled;          ///< requests answered by a reply that is a byte too long
+    std::set<Command> garbled;          ///< requests answered by a reply that is a byte too short
+    std::size_t connect_excess{0};      ///< bytes by which the answer to Connect is too long
     std::map<Command, int> repeated;    ///< how often the (first) reply is sent besides
     std::vector<std::uint8_t> urdf, library;
     std::optional<std::uint16_t> reported_version;  ///< in the reply to Connect

@@ -164,6 +164,15 @@ TEST(ConnectNetwork, DeathAtEveryStep) {
   EXPECT_EQ(10, connect(fake)->serverVersion());
 }
 
+// As some servers answer; genuine clients read what they know and leave the rest.
+TEST(ConnectNetwork, ALongerAnswerIsTaken) {
+  FakeRobot fake(10);
+  fake.script([](FakeRobot::Script& s) { s.connect_excess = 5; });
+  const auto robot = connect(fake);
+  EXPECT_EQ(10, robot->serverVersion());
+  EXPECT_NO_THROW(robot->readOnce());
+}
+
 TEST(ConnectNetwork, AThousandTimes) {
   FakeRobot fake(10);
   for (int i = 0; i < 1000; i++) {

@@ -136,7 +136,10 @@ CodecError writeReply(std::uint16_t command, std::uint32_t command_id, const Rep
 }
 
 CodecError readReply(std::uint16_t command, Bytes message, Header& header, Reply& reply) noexcept {
-  if (!isWhole(message, kMaxReplySize, header) || message.size != sizeOfReply(command)) {
+  // As with the robot, an answer to Connect may be longer.
+  const std::size_t size = sizeOfReply(command);
+  if (!isWhole(message, kMaxReceivedReplySize, header) || message.size < size ||
+      (message.size > size && command != kConnect)) {
     return CodecError::kWrongSize;
   }
   wire::Reader reader(message.data + kHeaderSize);

@@ -152,6 +152,11 @@ TEST(GripperCodec, carriesEachStatus) {
         EXPECT_EQ(gripper::decodeReply(command, view(cut), header, received),
                   CodecError::kWrongSize);
       }
+      std::vector<std::uint8_t> longer(message.data, message.data + message.size);
+      longer.push_back(0);
+      longer[6]++;  // the header's size
+      EXPECT_EQ(gripper::decodeReply(command, view(longer), header, received),
+                command == gripper::Command::kConnect ? CodecError::kNone : CodecError::kWrongSize);
     }
   }
 }

@@ -150,8 +150,8 @@ TEST_P(ReplyOfVersion, isRefusedWhenCutOrLengthened) {
                                                                      : 13;
     ASSERT_EQ(message.size, due);
     ASSERT_EQ(replySize(GetParam(), command), due);
-    const bool open_ended =
-        command == Command::kLoadModelLibrary || command == Command::kGetRobotModel;
+    const bool open_ended = command == Command::kLoadModelLibrary ||
+                            command == Command::kGetRobotModel || command == Command::kConnect;
     for (std::size_t size = 0; size < due + 20; size++) {
       for (const bool honest : {false, true}) {
         std::vector<std::uint8_t> bytes = toVector(message);

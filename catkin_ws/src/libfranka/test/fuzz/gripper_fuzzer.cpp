@@ -26,7 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     gripper::ReplyMessage again;
     franka_fuzz::require(
         gripper::encodeReply(command, header.command_id, reply, again) == CodecError::kNone &&
-            again.size == message.size &&
+            (again.size == message.size ||
+             (command == gripper::Command::kConnect && again.size < message.size)) &&
             franka_fuzz::same(again.data + 10, message.data + 10, again.size - 10),
         "an accepted reply comes back the same");
   }

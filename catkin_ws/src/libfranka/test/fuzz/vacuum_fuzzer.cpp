@@ -26,7 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     vacuum::ReplyMessage again;
     franka_fuzz::require(
         vacuum::encodeReply(command, header.command_id, reply, again) == CodecError::kNone &&
-            again.size == message.size,
+            (again.size == message.size ||
+             (command == vacuum::Command::kConnect && again.size < message.size)),
         "an accepted reply comes back the same");
   }
   vacuum::State state;

@@ -18,6 +18,8 @@ namespace franka_core::fci::gripper {
 constexpr std::size_t kHeaderSize = 10;
 constexpr std::size_t kMaxRequestSize = 50;
 constexpr std::size_t kMaxReplySize = 14;
+/// What a client takes: answers to Connect may be longer than ours (our choice).
+constexpr std::size_t kMaxReceivedReplySize = 256;
 constexpr std::size_t kStateSize = 23;
 
 enum class Command : std::uint16_t { kConnect, kHoming, kGrasp, kMove, kStop };
