@@ -64,7 +64,11 @@ std::string endingOf(Command command, Status status) {
     case Status::kCommandNotPossibleRejected:
       return " command rejected: command not possible in the current mode (\"Idle\")!";
     case Status::kInvalidArgumentRejected:
-      return " command rejected: invalid argument!";
+      return std::string(" command rejected: invalid argument!") +
+             (command == Command::kSetLoad
+                  ? " Give mass [kg], centre from the flange [m] and symmetric inertia [kg m^2] of "
+                    "what the arm can carry; simulated arms take at most 10 kg, 1 m and 10 kg m^2."
+                  : "");
     case Status::kRejectedDueToActivatedSafetyFunctions:
       return std::string(
                  " command rejected due to activated safety function! Please disable all safety "

@@ -4,8 +4,10 @@
 #include <franka_core/fci/texts.h>
 #include <franka_sim_mujoco/fci/served_models.h>
 #include <franka_sim_mujoco/fci/serving.h>
+#include <franka_sim_mujoco/robot/parameter_checks.h>
 
 #include <cstdio>
+#include <stdexcept>
 
 namespace franka_sim_mujoco::fci {
 
@@ -64,6 +66,17 @@ std::string linksOf(const SelfCollision::Pair& pair) {
     return link == kHandLink ? std::string("hand") : "link" + std::to_string(link);
   };
   return name(pair.first) + " and " + name(pair.second);
+}
+
+void setLoad(SimRobot& robot, const franka_core::Payload& load) {
+  switch (robot.unit().setLoad(load)) {
+    case RequestStatus::kSuccess:
+      return;
+    case RequestStatus::kInvalidArgument:
+      throw std::runtime_error("The load was refused. " + payloadFault(load));
+    case RequestStatus::kNotPossible:
+      throw std::runtime_error("The load was refused: a motion runs. End it, then set the load.");
+  }
 }
 
 std::string describe(SimRobot& robot) {

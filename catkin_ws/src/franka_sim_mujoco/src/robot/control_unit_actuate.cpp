@@ -46,8 +46,14 @@ const std::array<double, 7>& ControlUnit::actuate(
   const std::array<double, 7> tau = blend_.apply(law_);
   const std::array<double, 7> friction =
       frictionCompensation(parameters_.coulomb_friction, parameters_.viscous_friction, state_.dq);
+  std::array<double, 7> compensation;
   for (std::size_t i = 0; i < 7; i++) {
-    motor_torque_[i] = tau[i] + dynamics_.gravity[i] + friction[i];
+    compensation[i] = dynamics_.gravity[i] + friction[i];
+  }
+  // What is configured may be heavier than what a motor can hold.
+  compensation = saturate(compensation, parameters_.max_torque);
+  for (std::size_t i = 0; i < 7; i++) {
+    motor_torque_[i] = tau[i] + compensation[i];
   }
   return motor_torque_;
 }

@@ -191,7 +191,7 @@ RequestStatus ControlUnit::setEE(const std::array<double, 16>& NE_T_EE) noexcept
   if (!settersAllowed() || (mode() == RobotMode::kMove && generates())) {
     return RequestStatus::kNotPossible;
   }
-  if (!isTransform(NE_T_EE)) {
+  if (!isFrame(NE_T_EE)) {
     return RequestStatus::kInvalidArgument;
   }
   parameters_.NE_T_EE = NE_T_EE;
@@ -203,7 +203,7 @@ RequestStatus ControlUnit::setK(const std::array<double, 16>& EE_T_K) noexcept {
   if (!settersAllowed()) {
     return RequestStatus::kNotPossible;
   }
-  if (!isTransform(EE_T_K)) {
+  if (!isFrame(EE_T_K)) {
     return RequestStatus::kInvalidArgument;
   }
   parameters_.EE_T_K = EE_T_K;

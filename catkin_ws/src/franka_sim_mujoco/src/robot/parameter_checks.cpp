@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/limits.h>
 #include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/robot/transforms.h>
 
@@ -8,12 +9,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
 namespace franka_sim_mujoco {
 
 namespace {
+
+using franka_core::kMaxPayloadDistance;
+using franka_core::kMaxPayloadInertia;
+using franka_core::kMaxPayloadMass;
 
 template <std::size_t N>
 bool allFinite(const std::array<double, N>& values) noexcept {
@@ -45,6 +51,19 @@ bool isInertia(const std::array<double, 9>& inertia) noexcept {
   return I.determinant() >= -tolerance * scale * scale;
 }
 
+constexpr double kMaxGravity = 100.0;  // [m/s^2], as the world's (physics/sizes.h)
+
+// Not std::hypot of three: it may take a number that is not finite for 0.
+double distance(double x, double y, double z) noexcept { return std::sqrt(x * x + y * y + z * z); }
+
+double distanceOf(const franka_core::Payload& payload) noexcept {
+  return distance(payload.com[0], payload.com[1], payload.com[2]);
+}
+
+double largestOf(const std::array<double, 9>& inertia) noexcept {
+  return Eigen::Map<const Eigen::Matrix3d>(inertia.data()).cwiseAbs().maxCoeff();
+}
+
 void require(bool condition, const std::string& name, const std::string& what) {
   if (!condition) {
     throw std::invalid_argument("The control unit cannot start: parameter " + name + " " + what +
@@ -53,22 +72,54 @@ void require(bool condition, const std::string& name, const std::string& what) {
 }
 
 void requirePayload(const franka_core::Payload& payload, const std::string& suffix) {
-  require(isPayload(payload), "m_" + suffix + ", F_x_C" + suffix + " or I_" + suffix,
-          "is not that of a body (numbers must be finite, the mass not negative, the inertia "
-          "symmetric and without negative principal moments)");
+  if (!isPayload(payload)) {
+    throw std::invalid_argument("The control unit cannot start: parameter m_" + suffix + ", F_x_C" +
+                                suffix + " or I_" + suffix + " is not that of a body. " +
+                                payloadFault(payload));
+  }
 }
 
 void requireTransform(const Transform& transform, const std::string& name) {
-  require(isTransform(transform), name,
-          "is not a rigid transform (4x4 column-major: an orthonormal rotation, a translation and "
-          "the bottom row 0 0 0 1)");
+  require(
+      isFrame(transform), name,
+      "is not a rigid transform (4x4 column-major: an orthonormal rotation, a translation of at "
+      "most 10 m and the bottom row 0 0 0 1)");
 }
 
 }  // namespace
 
 bool isPayload(const franka_core::Payload& payload) noexcept {
-  return std::isfinite(payload.mass) && payload.mass >= 0.0 && allFinite(payload.com) &&
-         allFinite(payload.inertia) && isInertia(payload.inertia);
+  return payload.mass >= 0.0 && payload.mass <= kMaxPayloadMass &&
+         distanceOf(payload) <= kMaxPayloadDistance && allFinite(payload.inertia) &&
+         largestOf(payload.inertia) <= kMaxPayloadInertia && isInertia(payload.inertia);
+}
+
+std::string payloadFault(const franka_core::Payload& payload) {
+  char text[160] = "";
+  if (!std::isfinite(payload.mass) || !allFinite(payload.com) || !allFinite(payload.inertia)) {
+    return "Mass [kg], centre [m] and inertia [kg m^2] must be finite numbers.";
+  }
+  if (payload.mass < 0.0 || payload.mass > kMaxPayloadMass) {
+    std::snprintf(text, sizeof text, "The mass is %g kg; it must lie between 0 and %g kg.",
+                  payload.mass, kMaxPayloadMass);
+  } else if (distanceOf(payload) > kMaxPayloadDistance) {
+    std::snprintf(text, sizeof text,
+                  "The centre of mass is %g m from the flange; it must be within %g m. Give it in "
+                  "metres, in the flange's frame.",
+                  distanceOf(payload), kMaxPayloadDistance);
+  } else if (largestOf(payload.inertia) > kMaxPayloadInertia) {
+    std::snprintf(text, sizeof text,
+                  "The inertia has an entry of %g kg m^2; none may be beyond %g kg m^2.",
+                  largestOf(payload.inertia), kMaxPayloadInertia);
+  } else if (!isInertia(payload.inertia)) {
+    return "The inertia must be a symmetric matrix [kg m^2] without negative principal moments.";
+  }
+  return text;
+}
+
+bool isFrame(const std::array<double, 16>& transform) noexcept {
+  return isTransform(transform) &&
+         distance(transform[12], transform[13], transform[14]) <= kMaxFrameDistance;
 }
 
 bool areThresholds(const CollisionThresholds& thresholds) noexcept {
@@ -100,7 +151,9 @@ void checkParameters(const ControlUnitParameters& parameters) {
           "is " + std::to_string(parameters.protocol_version) + " but must be 3 to 10");
   require(parameters.substeps >= 1, "substeps",
           "is " + std::to_string(parameters.substeps) + " but must be 1 or more");
-  require(allFinite(parameters.gravity), "gravity_vector", "must hold three finite numbers");
+  require(std::all_of(parameters.gravity.begin(), parameters.gravity.end(),
+                      [](double g) { return std::abs(g) <= kMaxGravity; }),
+          "gravity_vector", "must hold three numbers of at most 100 m/s^2");
   requireTransform(parameters.F_T_NE, "F_T_NE");
   requireTransform(parameters.NE_T_EE, "NE_T_EE");
   requireTransform(parameters.EE_T_K, "EE_T_K");

@@ -73,12 +73,13 @@ void readTransform(const ros::NodeHandle& node, const std::string& name,
 void readPayload(const ros::NodeHandle& node, const std::string& mass, const std::string& com,
                  const std::string& inertia, franka_core::Payload& payload) {
   payload.mass = readNumber(node, mass).value_or(payload.mass);
-  if (payload.mass < 0.0) {
-    throw std::invalid_argument("The parameter " + node.resolveName(mass) + " is a mass of " +
-                                std::to_string(payload.mass) + " kg; it must not be negative.");
-  }
   readArray(node, com, payload.com);
   readArray(node, inertia, payload.inertia);
+  const std::string fault = payloadFault(payload);
+  if (!fault.empty()) {
+    throw std::invalid_argument("The parameters " + node.resolveName(mass) + ", " + com + " and " +
+                                inertia + " are not those of a body. " + fault);
+  }
 }
 
 void readThresholds(const ros::NodeHandle& node, const std::string& phase,

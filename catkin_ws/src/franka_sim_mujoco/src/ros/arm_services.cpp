@@ -9,6 +9,7 @@
 #include <franka_msgs/SetJointImpedance.h>
 #include <franka_msgs/SetKFrame.h>
 #include <franka_msgs/SetLoad.h>
+#include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/arm_services.h>
 #include <franka_sim_mujoco/ros/service_answer.h>
@@ -32,8 +33,8 @@ constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
 constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
 constexpr char kNotATransform[] =
     " is not a column-major 4x4 transform: its bottom row (entries 4, 8, 12 and 16) must be 0 0 0 "
-    "1 and its "
-    "first three columns at right angles and of length one.";
+    "1, its first three columns at right angles and of length one, and its translation at most 10 "
+    "m.";
 
 /// The messages hold boost arrays.
 template <std::size_t N, typename Array>
@@ -121,9 +122,7 @@ void ArmServices::offerFrames() {
   offerBetweenTicks<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
     const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
                                     toArray<9>(request.load_inertia)};
-    check(arm_.unit().setLoad(load),
-          "The load must be finite, its mass not negative, and its inertia a symmetric matrix that "
-          "is not negative.");
+    check(arm_.unit().setLoad(load), "The load was refused. " + payloadFault(load));
   });
 }
 

@@ -126,11 +126,7 @@ void ServedRobot::offerStates() {
     franka_core::Payload load{request.mass, {}, {}};
     std::copy(request.F_x_center_load.begin(), request.F_x_center_load.end(), load.com.begin());
     std::copy(request.load_inertia.begin(), request.load_inertia.end(), load.inertia.begin());
-    if (robot_.unit().setLoad(load) != RequestStatus::kSuccess) {
-      throw std::runtime_error(
-          "The load was refused: it must be finite, its mass not negative, its inertia a symmetric "
-          "matrix that is not negative; and the robot must not move.");
-    }
+    fci::setLoad(robot_, load);
   });
   offer<GetServedRobot>("get_state",
                         [this](auto& /*request*/, auto& response) { fill(robot_, response); });

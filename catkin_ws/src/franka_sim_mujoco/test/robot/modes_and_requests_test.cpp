@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Modes, their transitions, and what a ControlUnit answers to requests, good and bad.
 #include <franka_sim_mujoco/robot/control_unit.h>
+#include <franka_sim_mujoco/robot/parameter_checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -273,6 +274,67 @@ TEST_F(ArmTest, BadLoadsAreRefusedAndChangeNothing) {
   }
   EXPECT_EQ(0.0, unit.state().m_load);
   EXPECT_EQ(RequestStatus::kSuccess, unit.setLoad(load(0.1024, {{0, 0, 0.1}}, zero)));
+}
+
+TEST_F(ArmTest, LoadsBeyondAnyArmAreRefusedWithValueLimitAndUnit) {
+  struct Case {
+    double mass;
+    std::array<double, 3> com;
+    double moment;
+    const char* sentence;  // a part of it; empty: taken
+  };
+  const Case cases[] = {
+      {0, {{0, 0, 0}}, 0, ""},
+      {10, {{0, 0, 1}}, 10, ""},
+      {10.01, {{0, 0, 0}}, 0, "The mass is 10.01 kg; it must lie between 0 and 10 kg"},
+      {730, {{0.1, 0, 0}}, 0, "The mass is 730 kg"},
+      {1e300, {{0, 0, 0}}, 0, "The mass is 1e+300 kg"},
+      {1, {{0, 0, 1.01}}, 0, "is 1.01 m from the flange; it must be within 1 m"},
+      {1, {{0.8, 0.8, 0}}, 0, " m from the flange"},
+      {1, {{100, 0, 0}}, 0, "is 100 m from the flange"},  // meant as millimetres
+      {1, {{0, 0, 0}}, 10.01, "an entry of 10.01 kg m^2; none may be beyond 10 kg m^2"},
+      {1, {{0, 0, 0}}, 1e12, "an entry of 1e+12 kg m^2"},
+      {INFINITY, {{0, 0, 0}}, 0, "finite numbers"},
+      {1, {{0, kNan, 0}}, 0, "finite numbers"},
+  };
+  for (const Case& test : cases) {
+    SCOPED_TRACE(test.mass);
+    franka_core::Payload load{test.mass, test.com, {}};
+    load.inertia[0] = load.inertia[4] = load.inertia[8] = test.moment;
+    const bool good = *test.sentence == '\0';
+    EXPECT_EQ(good ? RequestStatus::kSuccess : RequestStatus::kInvalidArgument, unit.setLoad(load));
+    const std::string fault = payloadFault(load);
+    EXPECT_EQ(good, fault.empty()) << fault;
+    EXPECT_NE(std::string::npos, fault.find(test.sentence)) << fault;
+  }
+}
+
+TEST_F(ArmTest, CompensationOfAHeavyLoadStaysWithinTheMotors) {
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad({10, {{1, 0, 0}}, {}}));
+  const std::array<double, 7> limit{{87, 87, 87, 87, 12, 12, 12}};
+  double largest = 0;
+  for (int k = 0; k < 3; k++) {
+    unit.observe(arm.measure());
+    const std::array<double, 7> tau = unit.actuate(nullptr);
+    for (std::size_t i = 0; i < 7; i++) {
+      // The arm stands where it is held: the rest is compensation.
+      EXPECT_LE(std::abs(tau[i]), limit[i] + 1e-6) << i;
+      largest = std::max(largest, std::abs(tau[i]) / limit[i]);
+    }
+  }
+  EXPECT_NEAR(1.0, largest, 1e-6) << "the load is beyond what the motors hold";
+}
+
+TEST_F(ArmTest, FramesFarFromTheArmAreRefused) {
+  std::array<double, 16> frame = franka_core::kIdentityTransform;
+  frame[12] = 10.0;
+  EXPECT_EQ(RequestStatus::kSuccess, unit.setEE(frame));
+  EXPECT_EQ(RequestStatus::kSuccess, unit.setK(frame));
+  for (const double far : {10.1, -1e3, 1e11, 1e308}) {
+    frame[12] = far;
+    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setEE(frame)) << far;
+    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setK(frame)) << far;
+  }
 }
 
 TEST_F(ArmTest, BadThresholdsAreRefusedAndChangeNothing) {

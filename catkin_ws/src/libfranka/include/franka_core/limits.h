@@ -13,6 +13,12 @@
 
 namespace franka_core {
 
+/// What simulated arms take as a load or end effector (chosen here: three times what they lift, and
+/// as far from the flange as they reach).
+constexpr double kMaxPayloadMass = 10.0;     ///< [kg]
+constexpr double kMaxPayloadDistance = 1.0;  ///< of the centre of mass from the flange [m]
+constexpr double kMaxPayloadInertia = 10.0;  ///< each entry [kg m^2]
+
 /// Bounds on the magnitude of one Cartesian quantity and its derivatives.
 struct DerivativeLimits {
   double velocity;      ///< [m/s] or [rad/s]

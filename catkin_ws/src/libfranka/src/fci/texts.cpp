@@ -1,8 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/fci/texts.h>
+#include <franka_core/limits.h>
 
 #include <array>
+#include <cstdio>
 
 namespace franka_core::fci {
 
@@ -37,6 +39,20 @@ std::string notPossible(RobotMode mode) {
          modeName(mode) + "\")!" + (mode == RobotMode::kOther ? " Did you open the brakes?" : "");
 }
 
+// Behind the genuine words: what an argument has to be, where that is asked for often.
+std::string hint(Command command) {
+  if (command != Command::kSetLoad) {
+    return "";
+  }
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      " Give mass [kg], centre from the flange [m] and symmetric inertia [kg m^2] of what "
+      "the arm can carry; simulated arms take at most %g kg, %g m and %g kg m^2.",
+      kMaxPayloadMass, kMaxPayloadDistance, kMaxPayloadInertia);
+  return text;
+}
+
 // What follows the command's name; empty for a status that is no failure of this command.
 std::string ending(Command command, Status status, RobotMode mode) {
   switch (status) {
@@ -44,7 +60,7 @@ std::string ending(Command command, Status status, RobotMode mode) {
       return notPossible(mode);
     case Status::kInvalidArgumentRejected:
       return command == Command::kMove ? " command rejected: maximum path deviation out of range!"
-                                       : " command rejected: invalid argument!";
+                                       : " command rejected: invalid argument!" + hint(command);
     case Status::kStartAtSingularPoseRejected:
       return " command rejected: cannot start at singular pose!";
     case Status::kPreempted:

@@ -32,6 +32,10 @@ SimRobot::Hand servedHand(HandPlant& fingers);
 /// hand".
 std::string linksOf(const SelfCollision::Pair& pair);
 
+/// What a person enters in Desk.
+/// @throws std::runtime_error with a sentence when the robot refuses it
+void setLoad(SimRobot& robot, const franka_core::Payload& load);
+
 /// Mode, client, errors (of a self-collision: its links) and joints in one line for a person.
 std::string describe(SimRobot& robot);
 

@@ -6,12 +6,24 @@
 #include <franka_sim_mujoco/robot/control_unit_parameters.h>
 
 #include <array>
+#include <string>
 
 namespace franka_sim_mujoco {
 
-/// Whether a body can have these: finite, mass not negative, inertia symmetric without a negative
-/// principal moment. A mass without inertia (a point) is fine. Real-time safe.
+/// Whether the arm can be told to carry such a body: finite, mass not negative, inertia symmetric
+/// without a negative principal moment, within the limits of
+/// franka_core/limits.h. A mass without inertia (a point)
+/// is fine. Real-time safe.
 bool isPayload(const franka_core::Payload& payload) noexcept;
+
+/// What is wrong with it: a sentence with value, limit and unit; empty if nothing is.
+std::string payloadFault(const franka_core::Payload& payload);
+
+/// A frame on the arm is no further from the one it is given in [m] (chosen here).
+constexpr double kMaxFrameDistance = 10.0;
+
+/// Whether it is a rigid transform to a frame that can be on the arm. Real-time safe.
+bool isFrame(const std::array<double, 16>& transform) noexcept;
 
 /// Whether all thresholds are finite and not negative. Real-time safe.
 bool areThresholds(const CollisionThresholds& thresholds) noexcept;
