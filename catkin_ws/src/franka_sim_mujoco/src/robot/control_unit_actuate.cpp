@@ -162,8 +162,11 @@ void ControlUnit::advanceRest() noexcept {
 
 void ControlUnit::advanceRecovery() noexcept {
   recovery_ticks_++;
+  // An arm that yields after a reflex but no longer moves need not go on waiting: a client that
+  // does not read states meanwhile finds those of 50 ms at most in its socket, and these should be
+  // over.
   const bool still =
-      rest_ == Rest::kReached && std::all_of(state_.dq.begin(), state_.dq.end(),
+      rest_ != Rest::kBraking && std::all_of(state_.dq.begin(), state_.dq.end(),
                                              [](double dq) { return std::abs(dq) < kStandstill; });
   still_ticks_ = still ? still_ticks_ + 1 : 0;
   if (still_ticks_ >= kStillTicks) {
