@@ -139,5 +139,27 @@ TEST(ConnectionStatistics, CountsWhatIsLostAndHowLateTheRestIs) {
   EXPECT_NEAR(3.0, statistics.lateness(0.99), 1e-6);
 }
 
+TEST(ConnectionStatistics, TellARobotThatFollowsTheClockFromOneThatDoesNot) {
+  const auto begin = franka_info::ConnectionStatistics::Clock::now();
+  const auto paceOf = [begin](double factor) {
+    franka_info::ConnectionStatistics statistics;
+    for (int i = 0; i < 400; i++) {
+      const double jitter = i % 7 == 0 ? 4.0 : 0.0;  // [ms]
+      const std::chrono::duration<double, std::milli> after(i / factor + jitter);
+      statistics.add(
+          franka::Duration(static_cast<std::uint64_t>(i)),
+          begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(after));
+    }
+    EXPECT_NEAR(factor, statistics.pace(), 1e-6 * factor);
+    return statistics.keepsTime();
+  };
+  EXPECT_TRUE(paceOf(1.0));
+  EXPECT_TRUE(paceOf(1.0001));
+  EXPECT_FALSE(paceOf(0.93));
+  EXPECT_FALSE(paceOf(0.5));
+  EXPECT_FALSE(paceOf(20.0));
+  EXPECT_EQ(1.0, franka_info::ConnectionStatistics().pace());
+}
+
 }  // namespace
 }  // namespace franka_test

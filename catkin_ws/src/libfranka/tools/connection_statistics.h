@@ -29,10 +29,18 @@ class ConnectionStatistics {
   double rate() const;
   /// Quantile of the lateness against the earliest state [ms]; 0 without states.
   double lateness(double quantile) const;
+  /// How fast the robot's time runs against this machine's clock: 1 for a real robot, and for a
+  /// simulated one that keeps real time. Compares the earliest states of both halves, so that
+  /// jitter does not count; 1 where there are too few.
+  double pace() const;
+  /// Whether the robot's time is that of the clock, within 1 %. Otherwise it is a simulated one in
+  /// lock-step or at another speed, and lateness says nothing.
+  bool keepsTime() const;
 
  private:
   std::uint64_t received_{0}, lost_{0}, most_lost_{0};
   std::uint64_t last_time_{0};   // [ms] of the robot
+  std::vector<double> times_;    // [ms] of the robot
   std::vector<double> offsets_;  // [ms] arrival minus robot time
 };
 

@@ -138,6 +138,14 @@ void printStatistics(const ConnectionStatistics& statistics) {
               static_cast<unsigned long long>(statistics.received()),
               static_cast<unsigned long long>(statistics.lost()), 100.0 * (1.0 - statistics.rate()),
               static_cast<unsigned long long>(statistics.mostLostInARow()));
+  if (!statistics.keepsTime()) {
+    std::printf(
+        "Pace            %.2f of the clock's: a simulated robot in lock-step or at another speed.\n"
+        "                It waits for its client, or its client has more or less time; lateness "
+        "does not count\n",
+        statistics.pace());
+    return;
+  }
   std::printf("Lateness [ms]   median %.3f, 99 %% %.3f, worst %.3f\n", statistics.lateness(0.5),
               statistics.lateness(0.99), statistics.lateness(1.0));
 }
@@ -151,11 +159,11 @@ int verdict(const franka::RobotState& state, const ConnectionStatistics& statist
     problems.emplace_back(
         "states are lost: connect the robot's control by cable, without a switch");
   }
-  if (statistics.lateness(0.99) > kGoodLateness) {
+  if (statistics.keepsTime() && statistics.lateness(0.99) > kGoodLateness) {
     problems.emplace_back(
         "states come late: raise this program's priority, switch power saving off");
   }
-  if (!franka::hasRealtimeKernel()) {
+  if (statistics.keepsTime() && !franka::hasRealtimeKernel()) {
     std::printf(
         "Note            this kernel is not a real-time one: robots that are not on a loopback "
         "address need RealtimeConfig::kIgnore; expect lost commands under load\n");
