@@ -3,6 +3,7 @@
 #include "physics/step_preparation.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace franka_sim_mujoco::physics {
 namespace {
@@ -16,6 +17,35 @@ void keep(std::vector<T>& values, const T* from) noexcept {
 template <typename T>
 bool same(const std::vector<T>& values, const T* others) noexcept {
   return std::equal(values.begin(), values.end(), others);
+}
+
+std::optional<StepFault> findFault(const mjtNum* values, int count,
+                                   StepFault::Where where) noexcept {
+  for (int i = 0; i < count; ++i) {
+    if (!(std::abs(values[i]) <= mjMAXVAL)) {
+      return StepFault{where, i, values[i]};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<StepFault> findFault(const mjModel& model, const mjData& data) noexcept {
+  const auto position = findFault(data.qpos, model.nq, StepFault::Where::kPosition);
+  return position ? position : findFault(data.qvel, model.nv, StepFault::Where::kVelocity);
+}
+
+// What mj_step2 does, but for its reset of a world with wrong accelerations. Merged models have the
+// Euler integrator.
+std::optional<StepFault> finishStep(const mjModel& model, mjData* data) noexcept {
+  mj_fwdActuation(&model, data);
+  mj_fwdAcceleration(&model, data);
+  mj_fwdConstraint(&model, data);
+  mj_sensorAcc(&model, data);
+  if (const auto fault = findFault(data->qacc, model.nv, StepFault::Where::kAcceleration)) {
+    return fault;
+  }
+  mj_Euler(&model, data);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -37,7 +67,7 @@ bool StepPreparation::isFor(const mjModel& model, const mjData& data) const noex
 }
 
 void StepPreparation::prepare(const mjModel& model, mjData* data) noexcept {
-  if (isFor(model, *data)) {
+  if (isFor(model, *data) || findFault(model, *data)) {
     return;
   }
   keep(qpos_, data->qpos);
@@ -52,14 +82,17 @@ void StepPreparation::prepare(const mjModel& model, mjData* data) noexcept {
   ready_ = true;
 }
 
-void StepPreparation::step(const mjModel& model, mjData* data) noexcept {
+std::optional<StepFault> StepPreparation::step(const mjModel& model, mjData* data) noexcept {
   if (isFor(model, *data)) {
     std::copy(unit_qpos_.begin(), unit_qpos_.end(), data->qpos);
-    mj_step2(&model, data);
   } else {
-    mj_step(&model, data);
+    if (const auto fault = findFault(model, *data)) {
+      return fault;
+    }
+    mj_step1(&model, data);
   }
   ready_ = false;
+  return finishStep(model, data);
 }
 
 }  // namespace franka_sim_mujoco::physics

@@ -4,9 +4,20 @@
 
 #include <mujoco/mujoco.h>
 
+#include <optional>
 #include <vector>
 
 namespace franka_sim_mujoco::physics {
+
+/// A number that is not finite, or beyond what MuJoCo computes with. MuJoCo itself would put the
+/// whole world back to its beginning and go on (2.2 has no option against that), so that it is
+/// looked for before MuJoCo does.
+struct StepFault {
+  enum class Where { kPosition, kVelocity, kAcceleration };
+  Where where;
+  int index;  ///< in qpos or qvel
+  double value;
+};
 
 /// The half of a physics step that depends on positions and velocities alone, done ahead of time:
 /// while a client works on its answer the simulator has nothing else to do.
@@ -22,8 +33,9 @@ class StepPreparation {
   void drop() noexcept { ready_ = false; }
   /// Leaves positions and velocities as they are; contacts become those of the step to come.
   void prepare(const mjModel& model, mjData* data) noexcept;
-  /// One physics step.
-  void step(const mjModel& model, mjData* data) noexcept;
+  /// One physics step, or what stands in its way: then time, positions and velocities are as they
+  /// were.
+  std::optional<StepFault> step(const mjModel& model, mjData* data) noexcept;
 
  private:
   bool isFor(const mjModel& model, const mjData& data) const noexcept;

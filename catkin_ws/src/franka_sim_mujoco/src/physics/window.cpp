@@ -142,12 +142,14 @@ struct Window::Impl {
 Window::Window(const std::string& title) : impl_(std::make_unique<Impl>()) {
   if (glfwInit() == GLFW_FALSE) {
     throw std::runtime_error(
-        "There is no display for the simulation's window: set DISPLAY, or start with "
-        "headless:=true.");
+        "There is no display for the simulation's window: set DISPLAY, or start without the window "
+        "(without --viewer; in ROS headless:=true).");
   }
   impl_->window = glfwCreateWindow(kWidth, kHeight, title.c_str(), nullptr, nullptr);
   if (impl_->window == nullptr) {
-    throw std::runtime_error("The display gives no OpenGL window; start with headless:=true.");
+    throw std::runtime_error(
+        "The display gives no OpenGL window; start without it (without --viewer; in ROS "
+        "headless:=true).");
   }
   glfwMakeContextCurrent(impl_->window);
   glfwSwapInterval(0);

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/physics/sizes.h>
 #include <franka_sim_mujoco/physics/world.h>
 
 #include <algorithm>
@@ -16,12 +17,6 @@ Eigen::Vector3d vector(const std::array<double, 3>& values) {
 }
 
 std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-void checkFinite(const std::array<double, 3>& values, const char* what) {
-  if (!vector(values).allFinite()) {
-    throw std::runtime_error(std::string(what) + " is not finite.");
-  }
-}
 
 template <std::size_t N>
 std::array<std::string, N> jointNames(const physics::RobotModel& robot, const std::string& prefix,
@@ -45,6 +40,12 @@ World::World(const std::string& file, ResourceResolver resolve)
 World::~World() = default;
 
 void World::addRobot(const RobotDescription& robot) {
+  const std::string whose = " of the robot '" + robot.name + "'";
+  sizes::check(robot.base.position, sizes::kFarthest, "m", "The position" + whose);
+  for (const auto& [joint, position] : robot.initial_positions) {
+    sizes::check(position, sizes::kFarthest, "m or rad",
+                 "The initial position of joint '" + joint + "'" + whose);
+  }
   const auto present = robots();
   if (std::find(present.begin(), present.end(), robot.name) != present.end()) {
     throw std::runtime_error("There is already a robot '" + robot.name +
@@ -153,7 +154,8 @@ Pose World::bodyPose(const std::string& body) const {
 
 void World::setBodyPose(const std::string& body, const Pose& pose) {
   const int joint = impl_->freeJoint(body);
-  checkFinite(pose.position, "The position");
+  impl_->requireRuns();
+  sizes::check(pose.position, sizes::kFarthest, "m", "The position for body '" + body + "'");
   const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
                                 pose.orientation[3]);
   if (!(std::abs(turn.norm() - 1) < 1e-3)) {
@@ -186,9 +188,10 @@ JointMeasurement World::joint(const std::string& joint) const {
 void World::setJointPosition(const std::string& joint, double position) {
   const physics::JointSlot slot = impl_->slot(joint);
   const int id = mj_name2id(impl_->model.get(), mjOBJ_JOINT, joint.c_str());
+  impl_->requireRuns();
+  sizes::check(position, sizes::kFarthest, "m or rad", "The position for joint '" + joint + "'");
   const double* range = impl_->model->jnt_range + 2 * id;
-  if (!std::isfinite(position) ||
-      (impl_->model->jnt_limited[id] && (position < range[0] || position > range[1]))) {
+  if (impl_->model->jnt_limited[id] && (position < range[0] || position > range[1])) {
     throw std::runtime_error("Joint '" + joint + "' cannot be put at " + std::to_string(position) +
                              ", its stops are at " + std::to_string(range[0]) + " and " +
                              std::to_string(range[1]) + ".");
@@ -207,8 +210,9 @@ void World::setJointPosition(const std::string& joint, double position) {
 void World::push(const std::string& body, const std::array<double, 3>& force,
                  const std::array<double, 3>& torque, std::uint64_t ticks) {
   const Frame frame = impl_->frame(body);
-  checkFinite(force, "The force");
-  checkFinite(torque, "The torque");
+  impl_->requireRuns();
+  sizes::check(force, sizes::kStrongest, "N", "The force on body '" + body + "'");
+  sizes::check(torque, sizes::kStrongest, "Nm", "The torque on body '" + body + "'");
   if (ticks > 0) {
     impl_->pushes.push_back(
         {body, frame.body, frame.pose.translation(), vector(force), vector(torque), ticks});
@@ -218,8 +222,9 @@ void World::push(const std::string& body, const std::array<double, 3>& force,
 void World::pushAt(const std::string& body, const std::array<double, 3>& point,
                    const std::array<double, 3>& force, std::uint64_t ticks) {
   const Frame frame = impl_->frame(body);
-  checkFinite(point, "The point");
-  checkFinite(force, "The force");
+  impl_->requireRuns();
+  sizes::check(point, sizes::kFarthest, "m", "The point of the push");
+  sizes::check(force, sizes::kStrongest, "N", "The force on body '" + body + "'");
   if (ticks > 0) {
     const Frame origin{frame.body, Eigen::Isometry3d::Identity()};
     impl_->pushes.push_back({body, frame.body, impl_->pose(origin).inverse() * vector(point),

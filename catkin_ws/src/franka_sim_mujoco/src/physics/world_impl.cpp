@@ -61,6 +61,7 @@ std::vector<std::unique_ptr<RobotModel>> World::Impl::copyRobots() const {
 
 void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
                           std::unique_ptr<physics::MjcfWorld> new_world) {
+  faultText();  // while the model that it speaks of is there
   const physics::MjcfWorld& merged = new_world ? *new_world : *world;
   std::vector<const RobotModel*> list;
   for (const auto& robot : *candidates) {
@@ -102,6 +103,7 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
 
 void World::Impl::index() {
   visual_mjcf.clear();
+  warned = {};
   view = {model.get(), data.get(), &motor_side};
   kinematics_fresh = false;
   kept_qpos.assign(model->nq, 0.0);
@@ -268,7 +270,22 @@ void World::Impl::retirePushes() noexcept {
   }
 }
 
+void World::Impl::stop(const physics::StepFault& why) noexcept {
+  fault = why;
+  mju_zero(data->qvel, model->nv);
+  mju_zero(data->qfrc_applied, model->nv);
+  data->ncon = 0;
+  pushes.clear();
+  motor_side.reset(*data);
+  preparation.drop();
+  kinematics_fresh = false;
+  contacts_kept = false;
+}
+
 void World::Impl::step() noexcept {
+  if (fault) {
+    return;
+  }
   motor_side.startTick(*model, *data);
   for (int substep = 0; substep < kSubsteps; ++substep) {
     if (!pushes.empty()) {
@@ -277,7 +294,10 @@ void World::Impl::step() noexcept {
     for (auto& [joint, drive] : drives) {
       drive->prepare(substep + 1, kSubsteps);
     }
-    preparation.step(*model, data.get());
+    if (const auto why = preparation.step(*model, data.get())) {
+      stop(*why);
+      return;
+    }
     motor_side.addSubstep(*model, *data);
   }
   motor_side.finishTick(*model, *data, kSubsteps, kTick);
@@ -290,6 +310,9 @@ void World::Impl::step() noexcept {
 }
 
 void World::Impl::prepareStep() noexcept {
+  if (fault) {
+    return;
+  }
   contacts();
   contacts_kept = true;
   preparation.prepare(*model, data.get());
@@ -328,6 +351,7 @@ void World::Impl::reset() {
     drive->reset();
   }
   pushes.clear();
+  forgetFaults();
   motor_side.reset(*data);
   preparation.drop();
   contacts_kept = false;

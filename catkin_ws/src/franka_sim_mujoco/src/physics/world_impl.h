@@ -65,8 +65,11 @@ struct World::Impl {
   bool contacts_kept{false};
   std::vector<GeomContact> kept_contacts;
   bool kinematics_fresh{false};
-  std::vector<double> kept_qpos;  ///< room for a copy, so that looking allocates nothing
-  std::string visual_mjcf;        ///< for pictures; written when first asked for
+  std::vector<double> kept_qpos;            ///< room for a copy, so that looking allocates nothing
+  std::optional<physics::StepFault> fault;  ///< the world stands still because of it
+  std::string fault_text;                   ///< its sentence; written when first asked for
+  std::array<bool, mjNWARNING> warned{};    ///< MuJoCo's warnings that were taken
+  std::string visual_mjcf;                  ///< for pictures; written when first asked for
 
   /// The model number: snapshots hold for one.
   std::uint64_t generation{0};
@@ -83,6 +86,9 @@ struct World::Impl {
   void step() noexcept;
   void prepareStep() noexcept;
   const std::vector<GeomContact>& contacts() noexcept;  ///< of the last step
+  const std::string& faultText();
+  void requireRuns();  ///< throws the fault's sentence
+  void forgetFaults() noexcept;
   void reset();
   std::uint64_t hash() const noexcept;
 
@@ -99,6 +105,7 @@ struct World::Impl {
                       const std::vector<std::unique_ptr<physics::RobotModel>>& all) const;
   void index();
   void bindPlants();
+  void stop(const physics::StepFault& why) noexcept;
   void applyPushes() noexcept;
   void retirePushes() noexcept;
 };

@@ -4,6 +4,7 @@
 /// @file
 /// World: what comes, goes and is changed from outside while it runs.
 
+#include <franka_sim_mujoco/physics/sizes.h>
 #include <franka_sim_mujoco/physics/world.h>
 
 #include <algorithm>
@@ -14,17 +15,6 @@
 
 namespace franka_sim_mujoco {
 namespace {
-
-constexpr double kFastest = 1e3;  ///< [m/s] [rad/s]: more is a typing error
-
-void checkNumbers(const std::array<double, 3>& values, double largest, const char* what) {
-  for (const double value : values) {
-    if (!(std::abs(value) <= largest)) {
-      throw std::runtime_error(std::string(what) + " must be made of numbers of at most " +
-                               std::to_string(static_cast<int>(largest)) + ".");
-    }
-  }
-}
 
 Eigen::Map<const Eigen::Vector3d> vector(const std::array<double, 3>& values) {
   return Eigen::Map<const Eigen::Vector3d>(values.data());
@@ -46,6 +36,8 @@ void World::addObject(const std::string& name, const std::string& text, const Po
                              "' cannot be put into the simulated world: a robot "
                              "has that name; choose another one.");
   }
+  sizes::check(pose.position, sizes::kFarthest, "m",
+               "The position in the pose of object '" + name + "'");
   auto new_world = impl_->world->with(name, text, pose);
   auto same_robots = impl_->copyRobots();
   impl_->rebuild(&same_robots, std::move(new_world));
@@ -115,7 +107,7 @@ std::vector<WorldCamera> World::cameras() const {
 }
 
 void World::setGravity(const std::array<double, 3>& gravity) {
-  checkNumbers(gravity, kFastest, "Gravity");
+  sizes::check(gravity, sizes::kGravity, "m/s^2", "Gravity");
   impl_->set_gravity = gravity;
   std::copy(gravity.begin(), gravity.end(), impl_->model->opt.gravity);
 }
@@ -136,8 +128,10 @@ Twist World::bodyTwist(const std::string& body) const {
 
 void World::setBodyTwist(const std::string& body, const Twist& twist) {
   const int joint = impl_->freeJoint(body);
-  checkNumbers(twist.linear, kFastest, "The linear velocity");
-  checkNumbers(twist.angular, kFastest, "The angular velocity");
+  impl_->requireRuns();
+  sizes::check(twist.linear, sizes::kFastest, "m/s", "The linear velocity of body '" + body + "'");
+  sizes::check(twist.angular, sizes::kFastest, "rad/s",
+               "The angular velocity of body '" + body + "'");
   const Frame frame = impl_->frame(body);
   const Eigen::Isometry3d pose = impl_->pose(frame);
   const Eigen::Isometry3d body_pose = pose * frame.pose.inverse();
@@ -150,7 +144,8 @@ void World::setBodyTwist(const std::string& body, const Twist& twist) {
 
 void World::setJointVelocity(const std::string& joint, double velocity) {
   const physics::JointSlot slot = impl_->slot(joint);
-  checkNumbers({velocity, 0, 0}, kFastest, "The joint velocity");
+  impl_->requireRuns();
+  sizes::check(velocity, sizes::kFastest, "m/s or rad/s", "The velocity for joint '" + joint + "'");
   impl_->data->qvel[slot.dof] = velocity;
 }
 
@@ -169,6 +164,7 @@ struct Snapshot::Content {
 };
 
 Snapshot World::snapshot() const {
+  impl_->requireRuns();
   const mjModel& model = *impl_->model;
   auto content = std::make_shared<Snapshot::Content>();
   content->generation = impl_->generation;
@@ -201,6 +197,7 @@ void World::restore(const Snapshot& snapshot) {
         "another one.");
   }
   mjModel& model = *impl_->model;
+  impl_->forgetFaults();
   setGravity(content->gravity);
   mj_copyData(impl_->data.get(), &model, content->data.get());
   std::copy(content->eq_data.begin(), content->eq_data.end(), model.eq_data);

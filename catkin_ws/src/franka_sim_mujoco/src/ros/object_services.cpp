@@ -14,6 +14,7 @@
 #include <franka_sim_mujoco/SetJointStates.h>
 #include <franka_sim_mujoco/SpawnObject.h>
 #include <franka_sim_mujoco/TakeSnapshot.h>
+#include <franka_sim_mujoco/physics/sizes.h>
 #include <franka_sim_mujoco/ros/sim_messages.h>
 #include <franka_sim_mujoco/ros/sim_services.h>
 #include <franka_sim_mujoco/ros/simulation.h>
@@ -109,18 +110,18 @@ void SimServices::offerStates() {
           response.twist = toMessage(world.bodyTwist(request.body));
         });
       });
-  desk_.offer<SetBodyState>("set_body_state",
-                            [this](SetBodyState::Request& request, SetBodyState::Response&) {
-                              const Pose pose = fromMessage(request.pose);
-                              const Twist twist = fromMessage(request.twist);
-                              checkFinite({twist.linear[0], twist.linear[1], twist.linear[2],
-                                           twist.angular[0], twist.angular[1], twist.angular[2]},
-                                          "twist");
-                              simulation_.withWorld([&](World& world) {
-                                world.setBodyPose(request.body, pose);
-                                world.setBodyTwist(request.body, twist);
-                              });
-                            });
+  desk_.offer<SetBodyState>(
+      "set_body_state", [this](SetBodyState::Request& request, SetBodyState::Response&) {
+        const Pose pose = fromMessage(request.pose);
+        const Twist twist = fromMessage(request.twist);
+        // Before the pose is set: all or nothing.
+        sizes::check(twist.linear, sizes::kFastest, "m/s", "The linear velocity");
+        sizes::check(twist.angular, sizes::kFastest, "rad/s", "The angular velocity");
+        simulation_.withWorld([&](World& world) {
+          world.setBodyPose(request.body, pose);
+          world.setBodyTwist(request.body, twist);
+        });
+      });
   desk_.offer<GetJointStates>("get_joint_states", [this](GetJointStates::Request& request,
                                                          GetJointStates::Response& response) {
     readJoints(simulation_, request.names, response.state);

@@ -47,6 +47,12 @@ struct Contact {
   std::array<double, 3> force;     ///< on body2, world axes [N]
 };
 
+/// A robot's link and a body that is none of its links, one within the other.
+struct Overlap {
+  std::string link, body;
+  double depth;  ///< [m]
+};
+
 /// How a body moves: linear velocity of its origin [m/s] and angular velocity [rad/s], world axes.
 struct Twist {
   std::array<double, 3> linear{}, angular{};
@@ -120,11 +126,19 @@ class World {
   /// @throws std::runtime_error when there is no such joint or it does not move
   JointDrive& drive(const std::string& robot, const std::string& joint);
 
-  /// One tick of 1 ms.
+  /// One tick of 1 ms. Once the world has stopped, nothing happens.
   void step() noexcept;
   /// Does ahead what of the next tick is certain already, for a moment when there is nothing else
   /// to do. It changes neither what anybody sees nor what comes.
   void prepareStep() noexcept;
+  /// Whether the physics has diverged: a position, velocity or acceleration was not finite or
+  /// beyond 1e10. The world then stands still, as it was, until reset() or restore(); what would
+  /// change its state throws. MuJoCo alone would reset it in silence. Real-time safe.
+  bool stopped() const noexcept;
+  /// Why it has stopped: a sentence; empty while it runs.
+  std::string fault() const;
+  /// Sentences for what MuJoCo has warned of since the last call, each once until a reset.
+  std::vector<std::string> takeWarnings();
   std::uint64_t ticks() const noexcept;  ///< since the start; reset() sets it to 0
   double time() const noexcept;          ///< [s]
 
@@ -136,6 +150,7 @@ class World {
   Snapshot snapshot() const;
   void restore(const Snapshot& snapshot);
 
+  // Numbers from outside are limited: physics/sizes.h.
   std::array<double, 3> gravity() const;
   void setGravity(const std::array<double, 3>& gravity);  ///< [m/s^2]; a reset does not change it
   Pose bodyPose(const std::string& body) const;
@@ -153,6 +168,10 @@ class World {
   void pushAt(const std::string& body, const std::array<double, 3>& point,
               const std::array<double, 3>& force, std::uint64_t ticks);
   std::vector<Contact> contacts() const;
+  /// Where a robot stands within other bodies, by more than 1 mm. Allocates.
+  std::vector<Overlap> overlaps(const std::string& robot) const;
+  /// A sentence about them; empty when there are none.
+  std::string describeOverlaps(const std::string& robot) const;
   /// Bytes that identify the whole dynamic state: equal hash, equal future (decision 22).
   std::uint64_t stateHash() const noexcept;
 
