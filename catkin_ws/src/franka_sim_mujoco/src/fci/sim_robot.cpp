@@ -50,6 +50,10 @@ void SimRobot::restart() noexcept {
 void SimRobot::observe() {
   const bool before = collidesWithItself();
   unit_.observe(arm_.measure());
+  if (hand_) {
+    // Its state goes out also while time stands still.
+    hand_->unit.observe(hand_->plant.measure());
+  }
   if (tell_ && !before && collidesWithItself()) {
     tell_("its " + linksOf(unit_.selfCollisionPair()) +
           " came too close to each other (self_collision_avoidance_violation).");

@@ -160,6 +160,12 @@ void GripperUnit::idle(GripperOutcome outcome) noexcept {
 
 // --- one tick ------------------------------------------------------------------------------------
 
+void GripperUnit::observe(const HandMeasurement& measurement) noexcept {
+  if (isFinite(measurement)) {
+    measured_ = measurement;
+  }
+}
+
 std::array<double, 2> GripperUnit::step(const HandMeasurement& measurement,
                                         double period) noexcept {
   if (!isFinite(measurement) || !isNotNegative(period)) {

@@ -68,13 +68,16 @@ class GripperUnit {
   GripperState state() const noexcept { return state_; }
   double width() const noexcept {
     return measured_.q[0] + measured_.q[1];
-  }                                                                   ///< at the last step [m]
+  }                                                                   ///< as last measured [m]
   double maxWidth() const noexcept { return parameters_.max_width; }  ///< [m]
   bool isGrasped() const noexcept;  ///< holds an object within the epsilons of the last grasp
 
   /// Of the motor [deg C]: follows, first-order, the square of the force, as the loss in a motor's
   /// windings does.
   double temperature() const noexcept { return temperature_; }
+
+  /// Shows a measurement that is finite. Real-time safe.
+  void observe(const HandMeasurement& measurement) noexcept;
 
   /// One tick. @param period [s] @returns force on each finger, positive opens [N]; zero for a
   /// measurement that is not finite.
