@@ -81,6 +81,11 @@ bool wouldBlock(int error) noexcept { return error == EAGAIN || error == EWOULDB
 
 }  // namespace
 
+bool isAddress(const std::string& text) noexcept {
+  in_addr address{};
+  return inet_pton(AF_INET, text.c_str(), &address) == 1;
+}
+
 Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
   if (this != &other) {
     close();

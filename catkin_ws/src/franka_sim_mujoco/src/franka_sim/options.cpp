@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options.h"
 
+#include <franka_core/fci/protocol.h>
+#include <franka_sim_mujoco/fci/sockets.h>
+#include <franka_sim_mujoco/physics/sizes.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -72,6 +77,11 @@ void readBase(const std::string& text, ArmOptions& arm) {
                                 ": give three numbers such as -0.5,0,0, or four with the angle.");
   }
   arm.base = {numbers[0], numbers[1], numbers[2]};
+  for (const double coordinate : arm.base) {
+    if (std::abs(coordinate) > sizes::kFarthest) {
+      throw std::invalid_argument("--base " + text + ": give metres, 1000 at most.");
+    }
+  }
   arm.yaw = numbers.size() == 4 ? numbers[3] : 0.0;
 }
 
@@ -90,6 +100,13 @@ std::uint16_t toPort(const std::string& text) {
   const long number = std::strtol(text.c_str(), &end, 10);
   if (text.empty() || *end != '\0' || number < 0 || number > 65535) {
     throw std::invalid_argument("--control-port " + text + ": give a number from 0 to 65535.");
+  }
+  if (number == franka_core::fci::kRobotPort || number == franka_core::fci::kGripperPort ||
+      number == franka_core::fci::kVacuumGripperPort) {
+    throw std::invalid_argument(
+        "--control-port " + text +
+        ": the ports 1337 to 1339 are those of robot, gripper and vacuum gripper; give another "
+        "one, or 0 for none.");
   }
   return static_cast<std::uint16_t>(number);
 }
@@ -114,6 +131,22 @@ fci::Pace toPace(const std::string& text) {
         "--pace " + text + ": give realtime, patient, lockstep, or a factor from 0.001 to 100.");
   }
   return pace;
+}
+
+std::string toFriction(const std::string& text) {
+  if (text != "none" && text != "fr3") {
+    throw std::invalid_argument("--friction " + text + ": there are none and fr3.");
+  }
+  return text;
+}
+
+std::string toAddress(const std::string& text) {
+  if (!fci::isAddress(text)) {
+    throw std::invalid_argument("--ip " + text +
+                                ": this is not an IPv4 address; give one that this machine has, "
+                                "such as 127.0.0.1 or 127.0.0.2.");
+  }
+  return text;
 }
 
 double toSeconds(const std::string& text) {
@@ -226,12 +259,12 @@ Options readOptions(int argc, const char* const* argv) {
          robot_named = true;
          arm().robot = value;
        }},
-      {"--ip", [&](const std::string& value) { arm().ip = value; }},
+      {"--ip", [&](const std::string& value) { arm().ip = toAddress(value); }},
       {"--protocol", [&](const std::string& value) { arm().protocol = toProtocol(value); }},
       {"--base", [&](const std::string& value) { readBase(value, arm()); }},
       {"--urdf", [&](const std::string& value) { arm().urdf = value; }},
       {"--arm-id", [&](const std::string& value) { arm().arm_id = value; }},
-      {"--friction", [&](const std::string& value) { arm().friction = value; }},
+      {"--friction", [&](const std::string& value) { arm().friction = toFriction(value); }},
       {"--hand", [&](const std::string& value) { arm().tool = toTool(value); }},
       {"--control-port", [&](const std::string& value) { arm().control_port = toPort(value); }},
       {"--pace", [&](const std::string& value) { options.pace = toPace(value); }},
@@ -246,14 +279,25 @@ Options readOptions(int argc, const char* const* argv) {
       {"-h", [&] { options.help = true; }},
   };
   for (int i = 1; i < argc; i++) {
-    const std::string word = argv[i];
+    std::string word = argv[i];
+    std::optional<std::string> value;
     if (word.rfind("__", 0) == 0) {
       continue;  // roslaunch tells every program its name and log file
     }
+    if (const std::size_t equals = word.find('=');
+        word.rfind("--", 0) == 0 && equals != word.npos) {
+      value = word.substr(equals + 1);
+      word.erase(equals);
+    }
     if (const auto flag = flags.find(word); flag != flags.end()) {
+      if (value) {
+        throw std::invalid_argument(word + " takes no value; see --help.");
+      }
       flag->second();
     } else if (const auto option = with_value.find(word); option == with_value.end()) {
       throw std::invalid_argument("'" + word + "' is no option of franka_sim; see --help.");
+    } else if (value) {
+      option->second(*value);
     } else if (i + 1 == argc) {
       throw std::invalid_argument(word + " needs a value; see --help.");
     } else {

@@ -5,6 +5,7 @@
 #include <franka_sim_mujoco/physics/world.h>
 
 #include <atomic>
+#include <future>
 #include <mutex>
 #include <thread>
 
@@ -13,14 +14,16 @@ namespace franka_sim_mujoco {
 /// A window on the world in a thread of its own. Closing it leaves the simulation running.
 class Viewer {
  public:
+  /// Returns when the window is open.
   /// @param mutex is held by whoever steps the world, and by the viewer while it copies a moment.
+  /// @throws std::runtime_error with a sentence where there is no display
   Viewer(World& world, std::mutex& mutex);
   ~Viewer();
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
  private:
-  void loop();
+  void loop(std::promise<void> opened);
 
   World& world_;
   std::mutex& mutex_;

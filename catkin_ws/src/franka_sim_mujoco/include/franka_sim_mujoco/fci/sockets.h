@@ -21,6 +21,9 @@ using franka_core::fci::Bytes;
 /// Bytes that many messages share, such as a model: nobody copies them.
 using Blob = std::shared_ptr<const std::vector<std::uint8_t>>;
 
+/// Whether a text is an IPv4 address such as 127.0.0.1, of this machine or not.
+bool isAddress(const std::string& text) noexcept;
+
 /// Closes a file descriptor when it goes.
 class Descriptor {
  public:
