@@ -167,6 +167,13 @@ class Client:
         data, self.robot = self.udp.recvfrom(65536)
         return State(self.version, data)
 
+    def newest_state(self) -> State:
+        """The last state that has come; waits for one where none has."""
+        state = self.state()
+        while select.select([self.udp], [], [], 0)[0]:
+            state = self.state()
+        return state
+
     def state_until(self, condition, most: int = 100000) -> State:
         for _ in range(most):
             state = self.state()

@@ -3,6 +3,7 @@
 """franka_sim as a person meets it: its command line, and the control interface of one line a command."""
 
 import socket
+import struct
 import subprocess
 import time
 from contextlib import contextmanager
@@ -10,8 +11,9 @@ from pathlib import Path
 
 import pytest
 from fci_session import program, start, stop
-from fci_wire import Client
+from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, REFLEX, Client
 
+USER_STOPPED = 5  # robot_mode
 ROBOTS = Path(__file__).resolve().parents[1] / "robots"
 
 WORLD = """<mujoco><worldbody>
@@ -87,6 +89,16 @@ def test_help_names_every_option():
             "--arm-id a: two robots have it",
         ),
         (["--nonsense"], "no option"),
+        (["--nonsense=3"], "no option"),
+        (["--friction", "x"], "--friction x: there are none and fr3"),
+        (["--friction=x"], "--friction x: there are none and fr3"),
+        (["--control-port", "1337"], "1337 to 1339 are those of robot, gripper and vacuum gripper"),
+        (["--control-port=1339"], "1337 to 1339 are those of robot"),
+        (["--ip=localhost"], "--ip localhost: this is not an IPv4 address"),
+        (["--ip="], "is not an IPv4 address"),
+        (["--viewer=yes"], "--viewer takes no value"),
+        (["--base", "1e11,0,0"], "give metres, 1000 at most"),
+        (["--base=0,-1001,0"], "give metres, 1000 at most"),
         (["--ip"], "needs a value"),
     ],
 )
@@ -99,14 +111,15 @@ def test_a_wrong_command_line_is_refused_with_a_sentence(arguments, sentence):
 @pytest.mark.parametrize(
     "arguments, sentence",
     [
-        (["--ip", "localhost"], "is not an IPv4 address"),
+        (["--viewer", "--ip", "127.0.22.11"], "There is no display"),
         (["--ip", "192.0.2.1"], "does not have that address"),
         (["--world", "nowhere.xml"], "There is no world 'nowhere.xml'"),
         (["--urdf", "/nowhere.urdf"], "Cannot read the file '/nowhere.urdf'"),
         (["--urdf", str(ROBOTS / "panda.urdf"), "--arm-id", "nobody"], "nobody"),
     ],
 )
-def test_what_cannot_be_is_said(arguments, sentence):
+def test_what_cannot_be_is_said(arguments, sentence, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
     result = run(*arguments)
     assert result.returncode == 1
     assert sentence in result.stderr
@@ -119,6 +132,10 @@ def test_two_robots_need_two_addresses():
         assert "Another simulated robot runs there" in result.stderr
         with simulated("127.0.22.2", "--robot", "fr3") as (say, _):
             assert say("state").startswith("ok Idle")
+
+
+def joints(say):
+    return [float(word) for word in say("state").split(", q ")[1].split()]
 
 
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
@@ -159,9 +176,6 @@ def test_what_it_does_not_understand_it_says():
 def test_a_push_moves_the_held_arm_and_lets_it_come_back(tmp_path):
     world = tmp_path / "world.xml"
     world.write_text(WORLD)
-
-    def joints(say):
-        return [float(word) for word in say("state").split(", q ")[1].split()]
 
     with simulated("127.0.22.5", "--pace", "lockstep", "--world", str(world)) as (say, _):
 
@@ -228,6 +242,174 @@ def test_a_vacuum_gripper_takes_the_gripper_s_place():
         assert say("pump blue") == "error: 'blue' is none of green, yellow, orange and red."
     with simulated("127.0.22.10") as (say, _):
         assert say("part on").startswith("error: There is no command 'part'")
+
+
+def test_every_option_takes_its_value_behind_an_equals_sign_too():
+    options = "--robot=fr3 --protocol=10 --base=0,1,0 --arm-id=left --friction=fr3 --hand=none"
+    options += " --control-port=1340 --pace=lockstep --world=stone.xml --linger=0"
+    with simulated("127.0.22.12", *options.split()) as (say, _):
+        assert say("where left_link0") == "ok 0 1 0"
+    process = start("--ip=127.0.22.12")
+    stop(process)
+    assert process.returncode == 0
+
+
+# What no robot meets, at each line that takes a size: words, and the unit that must be named.
+TOO_LARGE = [
+    ("place stone 1e11 0 0", " m"),
+    ("place stone 0 0 -1001", " m"),
+    ("place stone 0 1e308 0", " m"),
+    ("push stone 1e12 0 0 10", " N"),
+    ("push panda_hand 0 0 -10001 10", " N"),
+    ("load 730 0 0 0", "730 kg"),
+    ("load 10.1 0 0 0", "between 0 and 10 kg"),
+    ("load 1 0 0 100", "100 m from the flange"),
+    ("load 1 0.8 0.8 0", "within 1 m"),
+    ("load 1e300 0 0 0", " kg"),
+    ("wall 0 1e11 0 0 1 1 1", " m"),
+    ("wall 0 0 0 0 1 1 1e6", " m"),
+]
+
+
+def test_sizes_no_robot_meets_are_refused_and_change_nothing():
+    with simulated("127.0.22.13", "--world", "stone.xml", "--base=-0.5,0,0", "--pace=lockstep") as (say, _):
+        before = say("state"), say("where stone")
+        for line, part in TOO_LARGE:
+            answer = say(line)
+            assert answer.startswith("error: ") and part in answer, (line, answer)
+        assert (say("state"), say("where stone")) == before
+        for line in ("load 10 0 0 1", "load 0 0 0 0", "place stone 0 0 1", "push stone 0 0 1 1"):
+            assert say(line) == "ok"
+        assert "the world stands still" not in say("state").lower()
+
+
+FEATHER = """<mujoco><worldbody><body name="feather" pos="5 5 5"><freejoint/>
+  <inertial pos="0 0 0" mass="1e-7" diaginertia="1e-7 1e-7 1e-7"/><geom type="sphere" size="0.01"/></body>
+</worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
+def test_a_world_that_diverges_stops_is_told_and_can_be_reset(pace, tmp_path):
+    world = tmp_path / "feather.xml"
+    world.write_text(FEATHER)
+    with simulated("127.0.22.14", "--pace", pace, "--world", str(world)) as (say, process):
+        with Client("127.0.22.14", 5) as client:
+            client.connect()
+            assert say("push feather 1e4 0 0 10") == "ok"
+            deadline = time.monotonic() + 20
+            while "The physics diverged" not in say("state"):
+                assert time.monotonic() < deadline
+            stopped = say("state")
+            assert stopped.startswith("ok Other"), "brakes are closed: nothing can be commanded"
+            assert "of body 'feather'" in stopped and "until it is reset" in stopped
+            assert say("push feather 1 0 0 10").startswith("error: The physics diverged")
+            assert say("place feather 0 0 1").startswith("error: The physics diverged")
+            assert say("where feather").startswith("ok 5 5 "), "it did not begin anew by itself"
+            client.state()
+            assert say("reset") == "ok"
+            assert say("state").startswith("ok Idle, client of protocol 5, errors none")
+            assert say("place feather 0 1 1") == "ok"
+            client.state()
+    assert "franka_sim: The physics diverged: the acceleration of body 'feather'" in process.stdout.read()
+
+
+def test_a_body_that_the_robot_begins_in_is_told_and_the_example_stands_right():
+    page = (ROBOTS.parents[3] / "docs" / "franka_sim.md").read_text()
+    example = next(line.split() for line in page.splitlines() if line.startswith("    franka_sim "))
+    assert "stone.xml" in example
+    for base, within in (([], False), (["--base=0,0,0"], True)):
+        with simulated("127.0.22.15", *example[1:], *base) as (_, process):
+            pass
+        assert ("begins within other bodies" in process.stdout.read()) == within
+
+
+def test_the_hash_waits_for_a_world_at_rest():
+    with simulated("127.0.22.16", "--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0") as (say, _):
+        before = joints(say)
+        # For 3 s of its time the hand is pushed, then it comes back.
+        assert say("push panda_hand 0 8 0 3000") == "ok"
+        assert say("hash") == "ok cbf29ce484222325", "of no commands"
+        settled = say("state")
+        assert joints(say) == pytest.approx(before, abs=1e-4)
+        assert say("state") == settled, "time stands still"
+
+
+def lines_of(connection, text):
+    connection.sendall(text.encode())
+    return connection.makefile("r", newline="\n")
+
+
+def test_one_who_types_slowly_and_one_who_comes_second_get_a_sentence():
+    with simulated("127.0.22.17") as (say, _):
+        assert say("state").startswith("ok Idle")
+        with socket.create_connection(("127.0.22.17", 1340), timeout=20) as second:
+            stream = lines_of(second, "state\nhelp\n")
+            assert stream.readline().startswith("error: Another client holds this control interface")
+            assert stream.readline() == "", "and the connection ends"
+        assert say("state").startswith("ok Idle")
+
+
+def test_a_line_is_answered_also_to_one_who_has_ended_its_side():
+    process = start("--ip=127.0.22.18")
+    try:
+        for _ in range(3):
+            with socket.create_connection(("127.0.22.18", 1340), timeout=20) as connection:
+                connection.sendall(b"user_stop on\nstate\nuser_stop off\n")
+                connection.shutdown(socket.SHUT_WR)
+                answers = connection.makefile("r").read().splitlines()
+            assert answers[0] == answers[2] == "ok"
+            assert answers[1].startswith("ok User stopped")
+    finally:
+        stop(process)
+
+
+def test_lines_are_answered_once_a_state_shows_their_effect():
+    with simulated("127.0.22.19") as (say, _), Client("127.0.22.19", 5) as client:
+        client.connect()
+        for pressed in (True, False) * 10:
+            assert say("user_stop " + ("on" if pressed else "off")) == "ok"
+            # Whatever waits in the socket now was sent before the answer came.
+            assert client.newest_state().mode == (USER_STOPPED if pressed else IDLE)
+
+
+@pytest.mark.parametrize("pace", ["realtime", "lockstep"])
+def test_after_a_recovery_the_next_state_says_idle(pace):
+    with simulated("127.0.22.20", "--pace", pace), Client("127.0.22.20", 5) as client:
+        client.connect()
+        for _ in range(2):
+            client.start(JOINT_IMPEDANCE, JOINT_POSITION)  # and no command follows
+            client.state_until(lambda state: state.mode == REFLEX)
+            assert client.reply()[1][0] == 6, "the motion was aborted"
+            client.request(12)  # automatic error recovery
+            assert client.reply()[1][0] == 0
+            # Whatever waits in the socket now was sent before the answer came.
+            assert client.newest_state().mode == IDLE
+
+
+@pytest.mark.parametrize("pace", ["realtime", "lockstep", "0.5"])
+def test_a_fresh_hand_reads_the_same_width_at_any_pace(pace):
+    with simulated("127.0.22.21", "--pace", pace):
+        # Gripper protocol: Connect [u16 version, u16 port]; states are 23 bytes, the width behind the id.
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as states:
+            states.bind(("", 0))
+            states.settimeout(20)
+            with socket.create_connection(("127.0.22.21", 1338), timeout=20) as hand:
+                hand.sendall(struct.pack("<HIIHH", 0, 1, 14, 3, states.getsockname()[1]))
+                for _ in range(3):
+                    data = states.recv(100)
+                    assert struct.unpack_from("<d", data, 4)[0] == pytest.approx(0.002, abs=1e-5)
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "0.5"])
+def test_franka_info_judges_a_robot_of_another_pace_without_lateness(pace):
+    info = Path(program()).parents[2] / "bin" / "franka_info"
+    with simulated("127.0.22.22", "--pace", pace):
+        result = subprocess.run([str(info), "127.0.22.22", "0.5"], capture_output=True, text=True, timeout=60)
+    assert "of the clock's: a simulated robot" in result.stdout
+    assert "states come late" not in result.stdout
+    lost = "states are lost" in result.stdout  # as happens to a client that a busy machine holds up
+    assert ("Verdict         ready to be controlled" in result.stdout) == (not lost)
+    assert result.returncode == lost
 
 
 def test_quit_ends_it():

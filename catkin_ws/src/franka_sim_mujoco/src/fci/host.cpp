@@ -146,6 +146,9 @@ void Host::publishAll(bool same_moment) {
   for (Guest& guest : guests_) {
     publish(guest, same_moment, published_at_);
   }
+  for (Service* service : services_) {
+    service->published();
+  }
 }
 
 void Host::publish(Guest& guest, bool same_moment, Clock::time_point now) {
@@ -182,6 +185,14 @@ bool Host::holdsRequestsBack() const {
                                      [](const Guest& guest) { return guest.robot->handBusy(); });
   return pace_.lockstep && !pace_.flows && rolling_ > 0 && held_back_ < kLongestDeferral &&
          !hand_busy && !clientsAreDue() && !clientsAreAtLeisure();
+}
+
+bool Host::settled() const {
+  const auto moves = [](const Guest& guest) {
+    return guest.robot->expectsCommand() || guest.robot->settling() || guest.robot->handBusy();
+  };
+  return !pace_.lockstep || pace_.flows || held_back_ >= kLongestDeferral ||
+         (rolling_ == 0 && std::none_of(guests_.begin(), guests_.end(), moves));
 }
 
 bool Host::receiveAll() {

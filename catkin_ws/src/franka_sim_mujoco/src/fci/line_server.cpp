@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/fci/line_server.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <charconv>
@@ -8,6 +9,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace franka_sim_mujoco::fci {
 
@@ -22,10 +24,25 @@ LineServer::Words split(const std::string& line) {
   return words;
 }
 
+bool sendLine(Connection& connection, const std::string& text) {
+  const std::string line = text + "\n";
+  return connection.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
+}
+
+/// A client that has sent nothing for so long makes room for another.
+constexpr std::chrono::seconds kTimeForFirstLine{5};
+
+/// So long a client that was sent away can read why; of more than so many at a time some cannot.
+constexpr std::chrono::seconds kTimeToLeave{1};
+constexpr std::size_t kMostLeaving = 8;
+
+/// Connections accepted in a call; more of them wait for the next one.
+constexpr int kAcceptedAtOnce = 16;
+
 }  // namespace
 
-void LineServer::add(const std::string& usage, Handler handler) {
-  entries_[usage.substr(0, usage.find(' '))] = {usage, std::move(handler)};
+void LineServer::add(const std::string& usage, Handler handler, Ready ready) {
+  entries_[usage.substr(0, usage.find(' '))] = {usage, std::move(handler), std::move(ready)};
 }
 
 std::string LineServer::help() const {
@@ -56,25 +73,116 @@ std::string LineServer::answer(const std::string& line) const {
   }
 }
 
-void LineServer::serve() {
-  slot_.serve([this](Connection& client) { return serveOne(client); }, [] {});
+bool LineServer::isReady(const std::string& line) const {
+  const Words words = split(line);
+  const auto entry = words.empty() ? entries_.end() : entries_.find(words.front());
+  return entry == entries_.end() || entry->second.ready();
 }
 
-Served LineServer::serveOne(Connection& client) {
+LineServer::~LineServer() {
+  if (client_ && answer_) {
+    sendLine(*client_, *answer_);
+  }
+}
+
+void LineServer::serve() {
+  serveClient();
+  accept();
+  serveClient();
+  closeLeaving();
+}
+
+void LineServer::accept() {
+  for (int accepted = 0; accepted < kAcceptedAtOnce; ++accepted) {
+    sockaddr_in peer{};
+    Descriptor socket = listener_.accept(peer);
+    if (!socket) {
+      return;
+    }
+    auto connection = std::make_unique<Connection>(std::move(socket));
+    serveClient();  // who comes back at once finds its old connection not yet taken down
+    if (client_ && has_ended_) {
+      published();
+      client_.reset();
+    }
+    if (client_ && (has_spoken_ || Clock::now() - accepted_at_ < kTimeForFirstLine)) {
+      dismiss(std::move(connection),
+              "error: Another client holds this control interface, which takes one at a time: end "
+              "that one, then connect again.");
+      continue;
+    }
+    if (client_) {
+      dismiss(std::move(client_),
+              "error: No line has come from here within 5 s, and another client waits: connect "
+              "again when you need to.");
+    }
+    client_ = std::move(connection);
+    accepted_at_ = Clock::now();
+    has_spoken_ = has_ended_ = waits_ = false;
+    answer_.reset();
+  }
+}
+
+void LineServer::serveClient() {
   constexpr std::size_t kLongestLine = 4000;
-  const Bytes stream = client.received();
+  if (!client_) {
+    return;
+  }
+  has_ended_ = !client_->receive() || !client_->flush() || has_ended_;
+  if (answer_ || client_->hasUnsent()) {
+    return;  // who does not read answers is sent no more of them
+  }
+  const Bytes stream = client_->received();
   const std::uint8_t* const end = stream.data + stream.size;
   const std::uint8_t* const line_end = std::find(stream.data, end, '\n');
   if (line_end == end) {
-    return stream.size < kLongestLine ? Served::kIncomplete : Served::kBroken;
+    if (has_ended_) {
+      client_.reset();
+    } else if (stream.size >= kLongestLine) {
+      dismiss(std::move(client_), "error: A line is longer than 4000 characters.");
+    }
+    return;
   }
+  has_spoken_ = true;
   const std::string line(stream.data, line_end);
-  client.consume(line.size() + 1);
-  slot_.confirm();
-  const std::string reply = answer(line) + "\n";
-  return client.send({reinterpret_cast<const std::uint8_t*>(reply.data()), reply.size()})
-             ? Served::kDone
-             : Served::kBroken;
+  waits_ = !isReady(line);
+  if (!waits_) {
+    client_->consume(line.size() + 1);
+    answer_ = answer(line);
+  }
+}
+
+void LineServer::published() {
+  if (client_ && answer_ && !sendLine(*client_, *answer_)) {
+    client_.reset();
+  }
+  answer_.reset();
+}
+
+void LineServer::dismiss(std::unique_ptr<Connection> connection, const std::string& sentence) {
+  sendLine(*connection, sentence);
+  // Closed at once, with lines of its peer unread, it would take the sentence along.
+  ::shutdown(connection->descriptor(), SHUT_WR);
+  if (leaving_.size() < kMostLeaving) {
+    leaving_.push_back({std::move(connection), Clock::now() + kTimeToLeave});
+  }
+}
+
+void LineServer::closeLeaving() {
+  const auto gone = [](Leaving& leaving) {
+    const bool open = leaving.connection->receive();
+    leaving.connection->consume(leaving.connection->received().size);
+    return !open || Clock::now() > leaving.until;
+  };
+  leaving_.erase(std::remove_if(leaving_.begin(), leaving_.end(), gone), leaving_.end());
+}
+
+void LineServer::addDescriptors(std::vector<pollfd>& fds) const {
+  fds.push_back({listener_.descriptor(), POLLIN, 0});
+  if (client_ && !answer_ && !has_ended_ && !waits_) {
+    const short events = client_->hasUnsent() ? POLLIN | POLLOUT : POLLIN;
+    fds.push_back({client_->descriptor(), events, 0});
+  }
 }
 
 double toNumber(const std::string& word) {

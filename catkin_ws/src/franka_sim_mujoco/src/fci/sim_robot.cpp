@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace franka_sim_mujoco::fci {
 
@@ -34,8 +35,16 @@ SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServer
   }
 }
 
+void SimRobot::halt() noexcept {
+  halted_ = !unit_.brakesClosed();
+  unit_.closeBrakes();
+}
+
 void SimRobot::restart() noexcept {
   unit_.restart();
+  if (std::exchange(halted_, false)) {
+    unit_.openBrakes();
+  }
   link_.restart();
   if (hand_) {
     hand_->unit.restart();

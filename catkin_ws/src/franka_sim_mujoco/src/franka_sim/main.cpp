@@ -16,6 +16,8 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "farewell.h"
@@ -56,6 +58,36 @@ void preferThisThread() {
   }
 }
 
+// What is wrong with the world is told where the program was started, and stops its robots.
+class WorldWatch {
+ public:
+  WorldWatch(World& world, const std::vector<fci::SimRobot*>& robots)
+      : world_(world), robots_(robots) {}
+
+  void step() {
+    world_.step();
+    for (const std::string& warning : world_.takeWarnings()) {
+      tell(warning);
+    }
+    const bool before = std::exchange(stopped_, world_.stopped());
+    if (stopped_ && !before) {
+      tell(world_.fault() + " Send the line reset to a control port.");
+      for (fci::SimRobot* robot : robots_) {
+        robot->halt();
+      }
+    }
+  }
+
+ private:
+  static void tell(const std::string& what) {
+    std::fprintf(stderr, "franka_sim: %s\n", what.c_str());
+  }
+
+  World& world_;
+  const std::vector<fci::SimRobot*>& robots_;
+  bool stopped_{false};
+};
+
 void serve(const Options& options) {
   World world(worldFile(options.world), resolveUri);
   std::deque<ServedArm> arms;
@@ -69,10 +101,11 @@ void serve(const Options& options) {
   const auto lock = [&mutex, viewed] {
     return viewed ? std::unique_lock<std::mutex>(mutex) : std::unique_lock<std::mutex>();
   };
+  WorldWatch watch(world, robots);
   fci::Host host(
-      [&world, lock] {
+      [&watch, lock] {
         const auto locked = lock();
-        world.step();
+        watch.step();
       },
       options.pace,
       [&world, lock] {
@@ -104,6 +137,12 @@ void serve(const Options& options) {
                 arm.options().robot.c_str(), arm.options().ip.c_str(), arm.protocols().c_str());
   }
   std::fflush(stdout);
+  for (const ServedArm& arm : arms) {
+    const std::string overlaps = world.describeOverlaps(arm.options().arm_id);
+    if (!overlaps.empty()) {
+      std::fprintf(stderr, "franka_sim: %s Put it elsewhere with --base.\n", overlaps.c_str());
+    }
+  }
   host.run(ended);
 }
 

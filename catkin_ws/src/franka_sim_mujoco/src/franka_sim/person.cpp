@@ -3,6 +3,7 @@
 #include "person.h"
 
 #include <franka_sim_mujoco/fci/serving.h>
+#include <franka_sim_mujoco/physics/sizes.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -141,6 +142,8 @@ franka_core::fci::CartesianLimit toWall(const Words& words) {
   Eigen::Map<Eigen::Matrix4d> frame(wall.object_frame.data());
   frame.topRightCorner<3, 1>() = Eigen::Vector3d(toVector(words, 1).data());
   wall.object_world_size = toVector(words, 4);
+  sizes::check(toVector(words, 1), sizes::kFarthest, "m", "The wall's position");
+  sizes::check(wall.object_world_size, sizes::kFarthest, "m", "An edge of the wall");
   if (words.size() > 7) {
     const Eigen::Quaterniond turn(toNumber(words.at(7)), toNumber(words.at(8)),
                                   toNumber(words.at(9)), toNumber(words.at(10)));
@@ -178,19 +181,23 @@ void reset(const Scene& scene) {
   scene.host.beginAnew();
 }
 
-void addRobot(LineServer& lines, fci::SimRobot& robot) {
+void addRobot(LineServer& lines, fci::SimRobot& robot, const fci::Host& host, const World& world) {
   lines.add("load MASS X Y Z", [&robot](const Words& words) {
     const franka_core::Payload load{toNumber(words.at(0)), toVector(words, 1), {}};
-    require(robot.unit().setLoad(load),
-            "The load was refused: it has a negative mass, or the robot moves.");
+    fci::setLoad(robot, load);
     return "";
   });
-  lines.add("state", [&robot](const Words&) { return fci::describe(robot); });
-  lines.add("hash", [&robot](const Words&) {
-    char text[24];
-    std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(robot.hash()));
-    return std::string(text);
+  lines.add("state", [&robot, &world](const Words&) {
+    return fci::describe(robot) + (world.stopped() ? "; " + world.fault() : "");
   });
+  lines.add(
+      "hash",
+      [&robot](const Words&) {
+        char text[24];
+        std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(robot.hash()));
+        return std::string(text);
+      },
+      [&host] { return host.settled(); });
 }
 
 }  // namespace
@@ -199,7 +206,7 @@ void addPersonCommands(fci::LineServer& lines, const Scene& scene) {
   addSwitches(lines, scene.robot, scene.host);
   addLink(lines, scene.robot);
   addWorld(lines, scene.host, scene.world);
-  addRobot(lines, scene.robot);
+  addRobot(lines, scene.robot, scene.host, scene.world);
   addWalls(lines, scene.robot);
   if (VacuumGripperUnit* vacuum = scene.robot.vacuum()) {
     addVacuum(lines, *vacuum);

@@ -80,6 +80,8 @@ class Service {
  public:
   virtual ~Service() = default;
   virtual void serve() = 0;
+  /// States have gone out that show what was done before.
+  virtual void published() {}
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
 
@@ -117,6 +119,10 @@ class Host {
   void letRun(std::uint64_t ticks);
   /// After the world was reset: the same for a single tick, and nothing of what was to run before.
   void beginAnew();
+
+  /// Whether the world has come to rest: in lock-step, that no motion runs and time stands still
+  /// (or that it would not come to rest for 10 s of its time); otherwise always.
+  bool settled() const;
 
   std::uint64_t ticks() const noexcept { return ticks_; }
 

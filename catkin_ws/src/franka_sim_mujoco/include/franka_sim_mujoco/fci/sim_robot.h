@@ -64,6 +64,9 @@ class SimRobot final : public HostedRobot {
   /// After the world was reset: as after the start; the hash begins anew. To be followed by
   /// `observe`, once: the one of the next tick, or within a tick one more.
   void restart() noexcept;
+  /// The world has stopped for good: what runs is aborted, and closed brakes say that nothing can
+  /// be done until `restart`, which opens them.
+  void halt() noexcept;
 
   void observe() override;
   void actuate() override;
@@ -111,6 +114,7 @@ class SimRobot final : public HostedRobot {
   std::unique_ptr<ServedHand> hand_;
   std::unique_ptr<ServedVacuum> vacuum_;
   std::function<void(const std::string&)> tell_;
+  bool halted_{false};
   bool hashing_{false};
   std::uint64_t hash_{0};
 };
