@@ -159,6 +159,12 @@ void RobotInstance::requireRest() const {
   }
 }
 
+void RobotInstance::halt() {
+  if (served_) {
+    served_->robot().halt();
+  }
+}
+
 void RobotInstance::worldWasReset() {
   if (served_) {
     served_->robot().restart();

@@ -87,12 +87,40 @@ void Simulation::advance() {
     robot->tick(now, timing_ ? &times_ : nullptr);
   }
   world_.step();
+  watchWorld();
   ++tick_count_;
   clock_.tick(time());
 }
 
+void Simulation::watchWorld() {
+  for (const std::string& warning : world_.takeWarnings()) {
+    ROS_WARN_NAMED(kLog, "%s", warning.c_str());
+  }
+  if (!world_.stopped() || paused_by_fault_) {
+    return;
+  }
+  ROS_ERROR_NAMED(kLog, "%s The simulation is paused: call the service %s.", world_.fault().c_str(),
+                  ros::names::resolve("~reset").c_str());
+  paused_by_fault_ = !paused_;
+  paused_ = true;
+  for (const auto& robot : robots_) {
+    robot->halt();
+  }
+}
+
+void Simulation::requireRunningWorld() const {
+  if (world_.stopped()) {
+    throw std::runtime_error(world_.fault());
+  }
+}
+
 void Simulation::finishStepping() {
-  if (--steps_left_ == 0) {
+  if (world_.stopped()) {
+    steps_left_ = 0;
+    clock_.standStill(time());
+    stepped_->set_exception(std::make_exception_ptr(std::runtime_error(world_.fault())));
+    stepped_.reset();
+  } else if (--steps_left_ == 0) {
     clock_.standStill(time());
     stepped_->set_value(stateNow());
     stepped_.reset();
@@ -109,7 +137,12 @@ SimulationState Simulation::stateNow() const {
 }
 
 void Simulation::setPaused(bool paused) {
-  requests_.run([&] { paused_ = paused; });
+  requests_.run([&] {
+    if (!paused) {
+      requireRunningWorld();
+    }
+    paused_ = paused;
+  });
 }
 
 void Simulation::setRealTimeFactor(double factor) {
@@ -132,6 +165,7 @@ SimulationState Simulation::step(std::uint32_t ticks) {
       throw std::runtime_error(
           "An earlier request is still stepping the simulation: wait for its end.");
     }
+    requireRunningWorld();
     stepped_.emplace();
     done = stepped_->get_future();
     steps_left_ = ticks;
@@ -150,6 +184,9 @@ SimulationState Simulation::state() {
 }
 
 void Simulation::requireRest() const {
+  if (world_.stopped()) {
+    return;  // nothing moves
+  }
   for (const auto& robot : robots_) {
     robot->requireRest();
   }
@@ -159,10 +196,17 @@ void Simulation::reset() {
   requests_.run([&] {
     requireRest();
     world_.reset();
-    for (const auto& robot : robots_) {
-      robot->worldWasReset();
-    }
+    worldWasReset();
   });
+}
+
+void Simulation::worldWasReset() {
+  for (const auto& robot : robots_) {
+    robot->worldWasReset();
+  }
+  if (std::exchange(paused_by_fault_, false)) {
+    paused_ = false;
+  }
 }
 
 RobotInstance* Simulation::find(const std::string& name) {
@@ -190,6 +234,11 @@ void Simulation::spawn(const SpawnOrder& order) {
           host_.add(*robot->served());
         }
         robots_.push_back(std::move(robot));
+        const std::string overlaps = world_.describeOverlaps(order.name);
+        if (!overlaps.empty()) {
+          ROS_WARN_NAMED(kLog, "%s Give it another place (x, y, z) or other joint positions.",
+                         overlaps.c_str());
+        }
         host_.restartClock();
       },
       kSpawnTimeout);
@@ -221,8 +270,17 @@ std::string Simulation::spawnObject(const std::string& name, const std::string& 
   std::string unsupported;
   requests_.run(
       [&] {
+        const std::vector<std::string> before = world_.bodies();
         world_.addObject(name, text, pose);
         unsupported = world_.unsupported(name);
+        for (const std::string& robot : world_.robots()) {
+          for (const Overlap& overlap : world_.overlaps(robot)) {
+            if (std::find(before.begin(), before.end(), overlap.body) == before.end()) {
+              unsupported += (unsupported.empty() ? "" : " ") + overlap.body + " begins within " +
+                             overlap.link + ", which it will push.";
+            }
+          }
+        }
         host_.restartClock();
       },
       kSpawnTimeout);
@@ -303,9 +361,7 @@ std::uint64_t Simulation::restoreSnapshot(const std::string& name) {
     }
     requireRest();
     world_.restore(found->second);
-    for (const auto& robot : robots_) {
-      robot->worldWasReset();
-    }
+    worldWasReset();
     hash = world_.stateHash();
   });
   return hash;

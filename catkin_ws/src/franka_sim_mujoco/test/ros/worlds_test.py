@@ -21,7 +21,9 @@ from franka_sim_mujoco.srv import (
     GetBodyState,
     GetJointStates,
     GetWorld,
+    PushBody,
     RestoreSnapshot,
+    SetBodyPose,
     SetBodyState,
     SetGravity,
     SetJointStates,
@@ -36,6 +38,9 @@ from tf2_msgs.msg import TFMessage
 
 WAIT = 30  # wall seconds
 BALL = "<body name='{0}'><freejoint/><geom type='sphere' size='0.05' mass='0.3'/></body>"
+FEATHER = """<body name='feather'><freejoint/><inertial pos='0 0 0' mass='1e-7' diaginertia='1e-7 1e-7 1e-7'/>
+  <geom type='sphere' size='0.01'/></body>"""
+NONE = Vector3()
 # A camera looks down on the floor from 2 m; a plate of 1 m in the middle of its view stands 0.5 m high.
 CAMERA = """<sdf version='1.6'><model name='eye'><static>true</static><link name='link'>
   <sensor name='cam' type='depth'><update_rate>20</update_rate><camera><horizontal_fov>1.0</horizontal_fov>
@@ -284,6 +289,47 @@ class WorldsTest(unittest.TestCase):
         failed = spawn("<html/>", "-model", "page")
         self.assertEqual(failed.returncode, 1)
         self.assertIn("<html>", failed.stdout + failed.stderr)
+
+    def test_divergence_pauses_is_told_and_ends_with_a_reset(self):
+        call("spawn_object", SpawnObject, "feather", FEATHER, at(3, 3, 3))
+        for size, push in ((1e12, (1e12, 0, 0)), (-10001, (0, 0, -10001))):
+            order = ("feather", Vector3(*push), NONE, False, Point(), 5)
+            refused = call("push_body", PushBody, *order, fails=True)
+            self.assertIn(f"is {size:g} N; at most 10000 N", refused.error)
+        twist = Twist(Vector3(1001, 0, 0), NONE)
+        refused = call("set_body_state", SetBodyState, "feather", at(0, 0, 9), twist, fails=True)
+        self.assertIn("is 1001 m/s; at most 1000 m/s", refused.error)
+        refused = call("set_body_pose", SetBodyPose, "feather", at(1e11, 0, 0), fails=True)
+        self.assertIn("is 1e+11 m; at most 1000 m", refused.error)
+        refused = call("set_gravity", SetGravity, Vector3(0, 0, -981), fails=True)
+        self.assertIn("is -981 m/s^2; at most 100 m/s^2", refused.error)
+        refused = call("spawn_object", SpawnObject, "ball", BALL.format("ball"), at(0, 1e9, 0), fails=True)
+        self.assertIn("is 1e+09 m; at most 1000 m", refused.error)
+        place = call("get_body_state", GetBodyState, "feather").pose.position
+        self.assertEqual((place.x, place.y, place.z), (3, 3, 3), "nothing was half done")
+        # Light as it is, even 10 000 N are too much for it.
+        for runs in (False, True):
+            if runs:
+                call("unpause_physics", Empty)
+            call("push_body", PushBody, "feather", Vector3(1e4, 0, 0), NONE, False, Point(), 5)
+            if runs:
+                until(lambda: call("get_world", GetWorld).paused, "the pause of a world that diverged")
+            told = call("step", Step, 5, fails=True).error
+            self.assertIn("The physics diverged: the acceleration of body 'feather", told)
+            with self.assertRaises(rospy.ServiceException):
+                call("unpause_physics", Empty)
+            told = call("set_body_pose", SetBodyPose, "feather", at(0, 0, 1), fails=True).error
+            self.assertIn("until it is reset", told)
+            call("reset", Trigger)
+            self.assertEqual(call("get_world", GetWorld).paused, not runs)
+        call("delete_object", DeleteObject, "feather")
+
+    def test_an_object_within_a_robot_is_told(self):
+        hand = call("get_body_state", GetBodyState, "panda_1_hand").pose.position
+        ball = BALL.format("inside")
+        answer = call("spawn_object", SpawnObject, "inside", ball, at(hand.x, hand.y, hand.z))
+        self.assertIn("inside begins within panda_1_", answer.warning)
+        call("delete_object", DeleteObject, "inside")
 
     def test_states_are_those_of_both_robots(self):
         call("unpause_physics", Empty)

@@ -85,6 +85,8 @@ class RobotInstance {
   /// @throws std::runtime_error with a sentence while a client of the FCI moves the robot: its
   /// motion would jump.
   void requireRest() const;
+  /// The world has stopped: what clients of a served robot run is aborted.
+  void halt();
   /// The world was put back; controllers are restarted in the next tick.
   void worldWasReset();
 

@@ -68,12 +68,14 @@ class Simulation {
   /// Advances a paused simulation without waiting for the pace and returns when that is done.
   SimulationState step(std::uint32_t ticks);
   SimulationState state();
-  /// Everything to where it was first put; controllers are restarted.
+  /// Everything to where it was first put; controllers are restarted. A world that has stopped
+  /// (World::stopped) runs again.
   void reset();
 
   void spawn(const SpawnOrder& order);
   void remove(const std::string& robot);
-  /// @returns what the text asks for and nobody simulates, as World::unsupported
+  /// @returns what the text asks for and nobody simulates, as World::unsupported, and which robots
+  /// the object begins in
   std::string spawnObject(const std::string& name, const std::string& text, const Pose& pose);
   void removeObject(const std::string& name);
   SimulationInventory inventory();
@@ -104,6 +106,12 @@ class Simulation {
   void advance();
   void standStill();
   void finishStepping();
+  /// Reports what is wrong with the world; one that has stopped pauses the simulation.
+  void watchWorld();
+  /// @throws std::runtime_error with a sentence where the world has stopped
+  void requireRunningWorld() const;
+  /// After the world was put back as a whole.
+  void worldWasReset();
   SimulationState stateNow() const;
   ros::Time time() const;
   /// @throws std::runtime_error with a sentence while a client moves a robot
@@ -121,6 +129,7 @@ class Simulation {
   bool timing_{false};
   double real_time_factor_;
   bool paused_;
+  bool paused_by_fault_{false};  ///< the world has stopped
   std::uint64_t tick_count_{0};
   std::uint32_t steps_left_{0};
   std::optional<std::promise<SimulationState>> stepped_;
