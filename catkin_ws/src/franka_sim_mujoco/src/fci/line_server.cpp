@@ -29,9 +29,6 @@ bool sendLine(Connection& connection, const std::string& text) {
   return connection.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
 }
 
-/// A client that has sent nothing for so long makes room for another.
-constexpr std::chrono::seconds kTimeForFirstLine{5};
-
 /// So long a client that was sent away can read why; of more than so many at a time some cannot.
 constexpr std::chrono::seconds kTimeToLeave{1};
 constexpr std::size_t kMostLeaving = 8;
@@ -105,7 +102,7 @@ void LineServer::accept() {
       published();
       client_.reset();
     }
-    if (client_ && (has_spoken_ || Clock::now() - accepted_at_ < kTimeForFirstLine)) {
+    if (client_ && (has_spoken_ || Clock::now() - accepted_at_ < first_line_)) {
       dismiss(std::move(connection),
               "error: Another client holds this control interface, which takes one at a time: end "
               "that one, then connect again.");
@@ -113,8 +110,10 @@ void LineServer::accept() {
     }
     if (client_) {
       dismiss(std::move(client_),
-              "error: No line has come from here within 5 s, and another client waits: connect "
-              "again when you need to.");
+              "error: No line has come from here within " +
+                  std::to_string(
+                      std::chrono::duration_cast<std::chrono::seconds>(first_line_).count()) +
+                  " s, and another client waits: connect again when you need to.");
     }
     client_ = std::move(connection);
     accepted_at_ = Clock::now();

@@ -202,6 +202,16 @@ TEST_P(OwnClient, TakesEverySetterAndRefusesNonsense) {
   frame[0] = 2.0;
   EXPECT_THROW(robot.setK(frame), franka::CommandException);
   EXPECT_THROW(robot.setLoad(-1.0, {}, {}), franka::CommandException);
+  const double beyond[][3] = {{730, 0, 0}, {10.1, 0, 0}, {1, 1.1, 0}, {1, 0, 1e6}};
+  for (const auto& [mass, distance, moment] : beyond) {
+    try {
+      robot.setLoad(mass, {0, 0, distance}, {moment, 0, 0, 0, moment, 0, 0, 0, moment});
+      ADD_FAILURE() << mass << " kg were taken";
+    } catch (const franka::CommandException& error) {
+      EXPECT_NE(std::string::npos, std::string(error.what()).find("at most 10 kg, 1 m and"))
+          << error.what();
+    }
+  }
 }
 
 TEST_P(OwnClient, MovesJointsByPositionAndByVelocity) {

@@ -32,8 +32,11 @@ class LineServer final : public Service {
   /// Whether a command's time has come.
   using Ready = std::function<bool()>;
 
+  /// @param first_line a client that has sent no line for so long makes room for another
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
-  LineServer(const std::string& address, std::uint16_t port) : listener_(address, port) {}
+  LineServer(const std::string& address, std::uint16_t port,
+             std::chrono::seconds first_line = std::chrono::seconds(5))
+      : listener_(address, port), first_line_(first_line) {}
   /// Sends the answer that is left: to the line that ended the host.
   ~LineServer() override;
 
@@ -71,6 +74,7 @@ class LineServer final : public Service {
   std::string help() const;
 
   Listener listener_;
+  Clock::duration first_line_;
   std::unique_ptr<Connection> client_;
   Clock::time_point accepted_at_{};
   bool has_spoken_{false};             ///< the client has sent a line
