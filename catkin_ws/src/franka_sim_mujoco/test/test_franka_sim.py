@@ -372,9 +372,8 @@ def test_lines_are_answered_once_a_state_shows_their_effect():
             assert client.newest_state().mode == (USER_STOPPED if pressed else IDLE)
 
 
-@pytest.mark.parametrize("pace", ["realtime", "lockstep"])
-def test_after_a_recovery_the_next_state_says_idle(pace):
-    with simulated("127.0.22.20", "--pace", pace), Client("127.0.22.20", 5) as client:
+def test_after_a_recovery_the_next_state_says_idle():
+    with simulated("127.0.22.20"), Client("127.0.22.20", 5) as client:
         client.connect()
         for _ in range(2):
             client.start(JOINT_IMPEDANCE, JOINT_POSITION)  # and no command follows
