@@ -61,6 +61,20 @@ std::string urdfOf(const std::string& arm_id) {
   return urdf;
 }
 
+namespace {
+
+/// A description that holds another arm, too, beside its own in the same world.
+std::string withArm(std::string urdf, const std::string& arm_id) {
+  const std::string world = "<link name=\"world\" />", end = "</robot>";
+  std::string more = urdfOf(arm_id);
+  more.erase(0, more.find("<link name="));
+  more.erase(more.find(world), world.size());
+  more.insert(more.find("world_joint"), arm_id + "_");
+  return urdf.replace(urdf.find(end), end.size(), more);
+}
+
+}  // namespace
+
 // --- the robot -----------------------------------------------------------------------------------
 
 ros::NodeHandle FakeArm::freshNamespace() {
@@ -80,7 +94,9 @@ FakeArm::FakeArm(const std::string& id, const ros::NodeHandle& namespace_nh)
     : arm_id(id), nh(namespace_nh), robot_nh(namespace_nh, id) {
   const std::string served = urdfOf("fr3");
   robot.script([&](auto& script) { script.urdf.assign(served.begin(), served.end()); });
-  nh.setParam("robot_description", urdfOf(arm_id));
+  std::string others;  // arms in the same namespace
+  nh.setParam("robot_description",
+              nh.getParam("robot_description", others) ? withArm(others, arm_id) : urdfOf(arm_id));
   robot_nh.setParam("joint_names", joints(arm_id));
   robot_nh.setParam("arm_id", arm_id);
   robot_nh.setParam("robot_ip", robot.address());
