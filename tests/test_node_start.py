@@ -246,6 +246,27 @@ def test_one_arm_of_several_that_is_another_kind_is_told(master, robot):
         assert "'/combined_panda/panda_2/ignore_robot_mismatch' is not true" in node.output
 
 
+def test_nodes_that_only_look_warn_of_another_robot(bare, master):
+    joints = [f"panda_joint{i}" for i in range(1, 8)]
+    fingers = [f"left_finger_joint{i}" for i in (1, 2)]
+    looks = {"robot_ip": OTHER, "publish_rate": 30.0}
+    bare.set("/arm_looks", dict(looks, joint_names=joints))
+    bare.set("/hand_looks", dict(looks, joint_names=fingers))
+    bare.set("/hand", dict(looks, joint_names=fingers))
+    with simulated("fr3", OTHER, "realtime"):
+        with bare.node("franka_visualization", "robot_joint_state_publisher", "arm_looks") as node:
+            assert node.says("the robot is an FR3"), node.output
+            assert "robot_description is a Panda's" in node.output
+        for package, kind, name in (
+            ("franka_visualization", "gripper_joint_state_publisher", "hand_looks"),
+            ("franka_gripper", "franka_gripper_node", "hand"),
+        ):
+            with bare.node(package, kind, name) as node:
+                assert node.says("'left_finger_joint1', which is no joint of '/robot_description'"), (
+                    node.output
+                )
+
+
 def test_joints_that_the_description_does_not_hold_are_named(master, robot, urdf):
     master.set("/robot_description", urdf.replace("panda_", "somebody_"))
     with one(master) as node:
