@@ -71,7 +71,7 @@ def test_another_system_is_refused_with_a_sentence(tmp_path, system):
 def test_help_names_every_command():
     result = franka("--help")
     assert result.returncode == 0
-    for command in ("install", "build", "demo", "test", "bench", "shell"):
+    for command in ("install", "build", "demo", "test", "bench", "shell", "completion"):
         assert f"\n  {command} " in result.stdout
 
 
@@ -80,6 +80,56 @@ def test_unknown_command_is_refused_with_help():
     assert result.returncode == 2
     assert 'no command "dance"' in result.stderr
     assert "usage:" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["install", "build", "demo", "test", "bench", "shell", "completion"])
+def test_each_command_explains_itself_without_doing_anything(command):
+    result = franka(command, "--help")
+    assert result.returncode == 0
+    assert result.stdout.startswith(f"  {command} ")
+    assert "== " not in result.stdout  # what it does is announced
+    others = {"install", "build", "demo", "test", "bench", "shell"} - {command}
+    assert not [other for other in others if f"\n  {other} " in result.stdout]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["install", "--now"],
+        ["build", "franka_hw"],
+        ["demo", "--gui", "robot:=ur5"],
+        ["demo", "panda"],
+        ["demo", "--seed", "-3", "--fast"],
+        ["test", "franka_hv"],
+        ["test", "--long", "--quick"],
+        ["bench", "fci", "jitter"],
+    ],
+)
+def test_what_a_command_does_not_take_is_refused_before_anything_is_built(arguments):
+    result = franka(*arguments)
+    assert result.returncode == 2
+    assert result.stdout == ""
+    assert f'"{arguments[-1]}" is nothing that ./franka {arguments[0]} takes.' in result.stderr
+    assert f"\n  {arguments[0]} " in result.stderr
+
+
+def test_an_option_without_its_value_is_refused_before_anything_is_built():
+    result = franka("demo", "--speed")
+    assert result.returncode == 1 and result.stdout == ""
+    assert "--speed needs a value" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        "install",
+        "demo robot:=fr3 --gui --seed -3 --speed=0.5",
+        "test --long franka_hw tests",
+        "bench fci tick",
+    ],
+)
+def test_what_a_command_takes_passes(arguments):
+    assert in_script(f"check_arguments {arguments} && echo taken") == "taken\n"
 
 
 def test_no_command_shows_usage_and_fails():
@@ -119,6 +169,60 @@ def test_shell_works_whatever_python_stands_first(command, foreign_python):
     result = franka("shell", *command, PATH=foreign_python)
     assert result.returncode == 0, result.stdout + result.stderr
     assert "wrong python3" not in result.stderr
+
+
+def test_programs_are_found_by_their_names():
+    result = franka("shell", "franka_sim", "--help")
+    assert result.returncode == 0 and "--pace" in result.stdout
+    for program in ("franka_info", "pick_and_place", "new_controller", "franka_control_node"):
+        assert franka("shell", "bash", "-c", f"command -v {program}").returncode == 0, program
+
+
+def interactive(commands: str, home: Path) -> str:
+    """What commands print in an interactive `./franka shell`."""
+    result = subprocess.run(
+        [FRANKA, "shell"],
+        env={**os.environ, "HOME": str(home), "TERM": "dumb"},
+        input=commands + "\nexit\n",
+        text=True,
+        capture_output=True,
+        timeout=120,
+    )
+    return result.stdout
+
+
+def test_a_shell_has_roscd_and_completion(tmp_path):
+    (tmp_path / ".bashrc").write_text("export PATH=/usr/bin:/bin\n")  # as one that sets it anew
+    said = interactive(
+        "roscd franka_description && pwd; complete -p roslaunch rosrun franka; command -v franka_sim",
+        tmp_path,
+    )
+    assert "/franka_description\n" in said
+    for line in (r"-F _roscomplete_launch roslaunch", r"_roscomplete_exe rosrun", r"-F _franka franka"):
+        assert line in said, said
+    assert "/franka_sim_mujoco/franka_sim\n" in said
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("./franka ", {"install", "build", "demo", "test", "bench", "shell", "completion", "--help"}),
+        ("./franka be", {"bench"}),
+        ("./franka bench ti", {"tick"}),
+        ("./franka test --long franka_gaz", {"franka_gazebo"}),
+        ("./franka demo --no-p", {"--no-pictures"}),
+        ("./franka demo robot:=f", {"fr3"}),  # bash begins a word behind := anew
+    ],
+)
+def test_its_own_words_are_completed(line, expected):
+    code = f"""
+        source <(./franka completion)
+        COMP_LINE='{line}' COMP_POINT={len(line)}
+        _franka
+        printf '%s\\n' "${{COMPREPLY[@]#=}}"
+    """
+    result = subprocess.run(["bash", "-c", code], cwd=TOP, text=True, capture_output=True, timeout=60)
+    assert set(result.stdout.split()) == expected, result.stderr
 
 
 def test_shell_keeps_the_status_of_its_command():
@@ -171,3 +275,35 @@ def test_a_compiler_that_was_killed_is_given_all_memory(tmp_path):
 def test_an_error_of_the_sources_is_not_tried_again(tmp_path):
     said = build_that_ends_with("a.cpp:3: error: expected a sentence", tmp_path)
     assert said.endswith("given up\n") and "expected a sentence" in said
+
+
+BUILD = """
+    echo "-- +++ processing catkin package: 'one'"
+    for i in 3 9 10 57 100 2 99; do echo "[ $i%] Building $i.o"; done"""
+
+
+def test_a_build_says_how_far_it_is(tmp_path):
+    (tmp_path / "out").mkdir()
+    said = in_script(f"top={tmp_path}; once() {{ {BUILD}; }}; quietly build once")
+    assert said.split("\n") == [f"   {percent} %" for percent in (3, 10, 57, 100, 2, 99)] + [""]
+    assert "Building 9.o" in (tmp_path / "out" / "build.log").read_text()
+
+
+def test_a_build_shows_one_line_on_a_terminal(tmp_path):
+    (tmp_path / "out").mkdir()
+    ours, terminal = os.openpty()
+    code = f"source {FRANKA}; COLUMNS=80; top={tmp_path}; once() {{ {BUILD}; false; }}; quietly build once"
+    result = subprocess.run(["bash", "-c", code], stdout=terminal, stderr=subprocess.PIPE, timeout=60)
+    os.close(terminal)
+    said = os.read(ours, 65536).decode()
+    os.close(ours)
+    assert result.returncode == 1
+    assert "\r\x1b[K   reading one" in said and "\r\x1b[K   57 % Building 57.o" in said
+    assert "\n" not in said and said.endswith("\r\x1b[K")
+
+
+def test_a_verbose_build_shows_everything(tmp_path):
+    (tmp_path / "out").mkdir()
+    said = in_script(f"top={tmp_path}; once() {{ {BUILD}; }}; quietly build once", FRANKA_VERBOSE="1")
+    assert "[ 57%] Building 57.o" in said
+    assert "FRANKA_VERBOSE" in franka("--help").stdout
