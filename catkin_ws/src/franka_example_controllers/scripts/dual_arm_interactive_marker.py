@@ -5,10 +5,10 @@
 
 dual_arm_interactive_marker.py --left_arm_id ARM --right_arm_id ARM
 
-Shows a marker in the base of the left arm where ~centering_frame says the frame is, and publishes on
-~centering_frame_target_pose where it has been dragged, ten times a second of ROS time. While one of
-the arms does not move under a controller (stopped by a reflex, say), the marker goes with the frame,
-so that nothing jumps when the controller starts again.
+Shows a marker in the base of the left arm where the controller's topic centering_frame says the frame is,
+and publishes on its centering_frame_target_pose where it has been dragged, ten times a second of ROS time.
+While one of the arms does not move under a controller (stopped by a reflex, say), the marker goes with the
+frame, so that nothing jumps when the controller starts again.
 """
 
 import argparse
@@ -27,6 +27,9 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from interactive_marker import axis_controls  # noqa: E402
 
 NAME = "target_pose"
+CONTROLLER = "dual_arm_cartesian_impedance_example_controller"
+FRAME_TOPIC = CONTROLLER + "/centering_frame"
+TARGET_TOPIC = CONTROLLER + "/centering_frame_target_pose"
 PUBLISH_PERIOD = 0.1  # [s]
 MARKER_SCALE = 0.3  # [m]
 
@@ -39,7 +42,7 @@ class CenteringFrameMarker:
         self._pose = pose  # where the marker is
         self._lock = threading.Lock()
         self._moving = {}  # arm -> is it under a controller?
-        self._publisher = rospy.Publisher("~centering_frame_target_pose", PoseStamped, queue_size=1)
+        self._publisher = rospy.Publisher(TARGET_TOPIC, PoseStamped, queue_size=1)
         self._server = InteractiveMarkerServer("target_pose_marker")
         marker = InteractiveMarker()
         marker.header.frame_id = frame_id
@@ -50,7 +53,7 @@ class CenteringFrameMarker:
         marker.controls = axis_controls()
         self._server.insert(marker, self._feedback)
         self._server.applyChanges()
-        self._frames = rospy.Subscriber("~centering_frame", PoseStamped, self._frame, queue_size=1)
+        self._frames = rospy.Subscriber(FRAME_TOPIC, PoseStamped, self._frame, queue_size=1)
         self._timer = rospy.Timer(rospy.Duration(PUBLISH_PERIOD), self._publish, reset=True)
 
     def watch(self, arm):
@@ -98,7 +101,7 @@ def wait_for_frame():
     """Where the controller's frame is at first; None when the node is shut down before it says so."""
     while not rospy.is_shutdown():
         try:
-            return rospy.wait_for_message("~centering_frame", PoseStamped)
+            return rospy.wait_for_message(FRAME_TOPIC, PoseStamped)
         except rospy.ROSInterruptException:
             return None
         except rospy.ROSException:
@@ -111,8 +114,8 @@ def main():
     parser.add_argument("--left_arm_id", required=True, help="the arm in whose base the frame is given")
     parser.add_argument("--right_arm_id", required=True, help="the other arm")
     options = parser.parse_args(rospy.myargv(sys.argv)[1:])
-    rospy_connections.init_node("dual_arm_interactive_marker")
-    rospy.loginfo("Waiting for the controller's frame on %s.", rospy.resolve_name("~centering_frame"))
+    rospy_connections.init_node("target_pose_node")
+    rospy.loginfo("Waiting for the controller's frame on %s.", rospy.resolve_name(FRAME_TOPIC))
     first = wait_for_frame()
     if first is None:
         return 0

@@ -135,6 +135,32 @@ class InteractiveMarkerTest(unittest.TestCase):
         self.assertTrue(again(), "publishing ended when time went back")
 
 
+class DualArmMarkerTest(unittest.TestCase):
+    def test_speaks_on_the_topics_of_the_controller(self):
+        controller = "/dual_arm_cartesian_impedance_example_controller/"
+        clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        frames = rospy.Publisher(controller + "centering_frame", PoseStamped, queue_size=1, latch=True)
+        targets = []
+        rospy.Subscriber(controller + "centering_frame_target_pose", PoseStamped, targets.append)
+        frame = PoseStamped()
+        frame.pose.position.x, frame.pose.orientation.w = 0.4, 1.0
+        frames.publish(frame)
+        moving = FrankaState(robot_mode=FrankaState.ROBOT_MODE_MOVE)
+        arms = []
+        for arm in ("left", "right"):
+            topic = f"/{arm}_state_controller/franka_states"
+            arms.append(rospy.Publisher(topic, FrankaState, queue_size=1, latch=True))
+            arms[-1].publish(moving)
+        now, end = 1000.0, time.monotonic() + DEADLINE
+        while not targets and time.monotonic() < end:
+            now += 0.1
+            clock.publish(Clock(clock=rospy.Time.from_sec(now)))
+            time.sleep(0.01)
+        self.assertTrue(targets, "no target came")
+        self.assertEqual(targets[0].header.frame_id, "left_link0")
+        self.assertEqual(targets[0].pose, frame.pose)
+
+
 class QuaternionTest(unittest.TestCase):
     def test_all_four_ways_to_compute_it(self):
         import interactive_marker
@@ -161,12 +187,12 @@ class QuaternionTest(unittest.TestCase):
 
 
 class Suite(unittest.TestSuite):
-    """Both, in one run: rostest.rosrun() takes one suite."""
+    """All, in one run: rostest.rosrun() takes one suite."""
 
     def __init__(self):
         super().__init__()
         loader = unittest.TestLoader()
-        for case in (QuaternionTest, InteractiveMarkerTest):
+        for case in (QuaternionTest, InteractiveMarkerTest, DualArmMarkerTest):
             self.addTest(loader.loadTestsFromTestCase(case))
 
 
