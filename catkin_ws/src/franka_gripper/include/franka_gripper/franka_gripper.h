@@ -5,6 +5,7 @@
 #include <actionlib/server/simple_action_server.h>
 #include <boost_bind_compat/global_placeholders.h>
 #include <control_msgs/GripperCommandAction.h>
+#include <franka/exception.h>
 #include <franka/gripper.h>
 #include <franka/gripper_state.h>
 #include <franka_gripper/GraspAction.h>
