@@ -1,0 +1,52 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <hardware_interface/controller_info.h>
+
+#include <boost/optional.hpp>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace franka_gazebo {
+
+struct Joint;
+
+/// By what a joint is commanded.
+enum ControlMethod { EFFORT, POSITION, VELOCITY };
+
+constexpr const char* kRobotJointSuffixes[] = {"_joint1", "_joint2",        "_joint3",
+                                               "_joint4", "_joint5",        "_joint6",
+                                               "_joint7", "_finger_joint1", "_finger_joint2"};
+
+/// Says what a controller's claims mean for an arm with a hand, by the original's rules. The
+/// simulation itself allows more (franka_sim_mujoco/ros/controller_check.h). No function changes
+/// anything.
+class ControllerVerifier {
+ public:
+  /// @param joints of the robot, by name
+  ControllerVerifier(const std::map<std::string, std::shared_ptr<Joint>>& joints,
+                     const std::string& arm_id);
+
+  /// Whether all are joints of the robot and none is a finger's.
+  bool areArmJoints(const std::set<std::string>& resources) const;
+  /// Whether all are the fingers' joints.
+  bool areFingerJoints(const std::set<std::string>& resources) const;
+  /// Whether a controller claims the hand, the arm, or nothing that moves a joint.
+  bool isValidController(const hardware_interface::ControllerInfo& controller) const;
+  /// Both fingers' efforts.
+  bool isClaimingGripperController(const hardware_interface::ControllerInfo& controller) const;
+  /// All seven joints of the arm by the first joint interface that it claims.
+  bool isClaimingArmController(const hardware_interface::ControllerInfo& controller) const;
+  /// What a hardware interface commands; none for one that commands no joints.
+  static boost::optional<ControlMethod> determineControlMethod(
+      const std::string& hardware_interface);
+
+ private:
+  std::set<std::string> joint_names_;
+  std::string arm_id_;
+};
+
+}  // namespace franka_gazebo

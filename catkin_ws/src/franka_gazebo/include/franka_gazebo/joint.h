@@ -1,0 +1,73 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <control_toolbox/pid.h>
+#include <franka/robot_state.h>
+#include <franka_gazebo/controller_verifier.h>
+#include <franka_sim_mujoco/physics/joint_drive.h>
+#include <joint_limits_interface/joint_limits.h>
+#include <ros/duration.h>
+
+#include <Eigen/Core>
+#include <boost/optional.hpp>
+#include <limits>
+#include <mutex>
+#include <string>
+
+namespace franka_gazebo {
+
+/// A joint and what is wanted of it, for programs that were written against the original. The
+/// simulation itself does not need it. Positions [rad] or [m], efforts [Nm] or [N]. One thread,
+/// except setJointPosition.
+struct Joint {
+  Joint() = default;
+  Joint(Joint&& other) noexcept;
+  Joint(const Joint&) = delete;
+  Joint& operator=(const Joint&) = delete;
+
+  /// Reads the drive; acceleration and jerk are differences, 0 at first and for a period of 0.
+  /// Without a drive nothing happens.
+  void update(const ros::Duration& period);
+
+  std::string name;
+  franka_sim_mujoco::JointDrive* handle{nullptr};  ///< in the place of Gazebo's joint
+  int type{0};                                     ///< of urdf::Joint
+  joint_limits_interface::JointLimits limits;
+  Eigen::Vector3d axis{Eigen::Vector3d::Zero()};
+
+  double command{0};  ///< what an effort controller wants, without gravity
+  double desired_position{0}, desired_velocity{0};
+  double gravity{0};  ///< what compensation adds to the command
+  double position{0}, velocity{0}, effort{0}, jerk{0}, acceleration{0};
+  double stop_position{0};  ///< where it is held while nobody commands it
+  double contact_threshold{std::numeric_limits<double>::infinity()};
+  double collision_threshold{std::numeric_limits<double>::infinity()};
+  boost::optional<ControlMethod> control_method;  ///< none: not controlled
+  control_toolbox::Pid position_controller, velocity_controller;
+
+  /// @name What robot states say is wanted, by mode and control method
+  /// @{
+  double getDesiredPosition(const franka::RobotMode& mode) const;
+  double getDesiredVelocity(const franka::RobotMode& mode) const;
+  double getDesiredAcceleration(const franka::RobotMode& mode) const;
+  double getDesiredTorque(const franka::RobotMode& mode) const;
+  /// @}
+
+  /// Not known to a drive: always NaN.
+  double getLinkMass() const;
+  bool isInContact() const;
+  bool isInCollision() const;
+  /// The next update takes this for the position, the wanted one and that where it is held.
+  /// Thread-safe.
+  void setJointPosition(double position);
+
+ private:
+  bool controlledBy(const franka::RobotMode& mode, ControlMethod method) const;
+
+  boost::optional<double> last_velocity_, last_acceleration_;
+  std::mutex requested_mutex_;
+  boost::optional<double> requested_position_;
+};
+
+}  // namespace franka_gazebo

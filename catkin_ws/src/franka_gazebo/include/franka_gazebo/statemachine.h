@@ -1,0 +1,71 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/robot_state.h>
+#include <franka_gazebo/joint.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace franka_gazebo {
+
+using JointMap = std::map<std::string, std::shared_ptr<Joint>>;
+
+/// Whether a text contains another.
+bool contains(const std::string& haystack, const std::string& needle);
+
+/// @name States
+/// @{
+struct Idle {};
+struct Move {};
+struct UserStopped {};
+/// @}
+
+/// @name Events
+/// @{
+struct ErrorRecovery {};
+struct SwitchControl {};
+struct UserStop {
+  bool pressed;
+};
+/// @}
+
+/// @name Guards and actions
+/// @{
+bool isPressed(const UserStop& event);
+bool isReleased(const UserStop& event);
+bool isStarting(const SwitchControl& event, const JointMap& joints);  ///< a joint of the arm moves
+bool isStopping(const SwitchControl& event, const JointMap& joints);
+void start(franka::RobotState& state);
+void idle(franka::RobotState& state);
+void stop(franka::RobotState& state, JointMap& joints);  ///< holds the arm where it is
+/// @}
+
+/// Idle, Move and UserStopped by the original's transitions; every other event is ignored. The
+/// original's is a table for boost::sml, which Debian does not have: here it runs by itself, with
+/// the functions that sml::sm has. The simulation has a mode machine of its own.
+class StateMachine {
+ public:
+  /// Both must outlive it.
+  StateMachine(franka::RobotState& state, JointMap& joints) : state_(state), joints_(joints) {}
+
+  /// @returns whether the event had an effect
+  bool process_event(const ErrorRecovery& event);
+  bool process_event(const SwitchControl& event);
+  bool process_event(const UserStop& event);
+
+  bool is(Idle /*state*/) const noexcept { return now_ == Now::kIdle; }
+  bool is(Move /*state*/) const noexcept { return now_ == Now::kMove; }
+  bool is(UserStopped /*state*/) const noexcept { return now_ == Now::kUserStopped; }
+
+ private:
+  enum class Now { kIdle, kMove, kUserStopped };
+
+  franka::RobotState& state_;
+  JointMap& joints_;
+  Now now_{Now::kIdle};
+};
+
+}  // namespace franka_gazebo
