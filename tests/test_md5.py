@@ -37,7 +37,8 @@ def test_types_are_the_originals(package):
 
 
 @pytest.mark.parametrize(
-    "package", ["control_msgs", "controller_manager_msgs", "franka_gripper", "franka_msgs"]
+    "package",
+    ["control_msgs", "controller_manager_msgs", "franka_gripper", "franka_msgs", "gazebo_msgs"],
 )
 def test_the_table_is_whole(package):
     assert {name for name in generated(package) if f"{package}/{name}" not in TABLE} == set()

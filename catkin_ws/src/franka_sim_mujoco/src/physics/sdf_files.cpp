@@ -92,9 +92,14 @@ std::string SdfFiles::find(const std::string& uri, const std::string& folder) co
       return found;
     }
   }
-  // Packages offer their meshes as model://<package>/...
-  const std::string found = resolve_ ? resolve_("package://" + name) : std::string();
-  return found.empty() ? found : ifThere(found);
+  // Packages export folders of models, and offer their meshes as model://<package>/...
+  for (const char* scheme : {"model://", "package://"}) {
+    const std::string found = resolve_ ? resolve_(scheme + name) : std::string();
+    if (!found.empty() && !ifThere(found).empty()) {
+      return found;
+    }
+  }
+  return "";
 }
 
 void takeOver(const XMLElement& include, XMLElement* model) {

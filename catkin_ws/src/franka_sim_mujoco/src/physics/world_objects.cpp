@@ -20,8 +20,6 @@ Eigen::Map<const Eigen::Vector3d> vector(const std::array<double, 3>& values) {
   return Eigen::Map<const Eigen::Vector3d>(values.data());
 }
 
-std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 bool hasOneDegree(const mjModel& model, int joint) {
   return model.jnt_type[joint] == mjJNT_HINGE || model.jnt_type[joint] == mjJNT_SLIDE;
 }
@@ -112,19 +110,7 @@ void World::setGravity(const std::array<double, 3>& gravity) {
   std::copy(gravity.begin(), gravity.end(), impl_->model->opt.gravity);
 }
 
-Twist World::bodyTwist(const std::string& body) const {
-  const Frame frame = impl_->frame(body);
-  const Eigen::Vector3d origin = impl_->pose(frame).translation();
-  // Velocities of the present positions; mj_comVel writes what the next step computes anyway.
-  mj_comPos(impl_->model.get(), impl_->data.get());
-  mj_comVel(impl_->model.get(), impl_->data.get());
-  double velocity[6];  // angular, linear at the body's origin
-  mj_objectVelocity(impl_->model.get(), impl_->data.get(), mjOBJ_XBODY, frame.body, velocity, 0);
-  const Eigen::Vector3d angular(velocity[0], velocity[1], velocity[2]);
-  const Eigen::Vector3d linear(velocity[3], velocity[4], velocity[5]);
-  const Eigen::Map<const Eigen::Vector3d> at(impl_->data->xpos + 3 * frame.body);
-  return {array(linear + angular.cross(origin - at)), array(angular)};
-}
+Twist World::bodyTwist(const std::string& body) const { return bodyStates({body}).front().twist; }
 
 void World::setBodyTwist(const std::string& body, const Twist& twist) {
   const int joint = impl_->freeJoint(body);

@@ -4,13 +4,16 @@
 /// @file
 /// The simulation as a ROS node. Parameters: ~world, ~real_time_factor, ~paused (see Simulation and
 /// findWorldFile), ~gui (a window, where there is a display); services: see SimServices and
-/// PictureService; topics: see ContactPublisher and CameraPublisher. It needs use_sim_time.
+/// PictureService; topics: see ContactPublisher, CameraPublisher and GazeboTopics. It needs
+/// use_sim_time.
 
 #include <franka_hw/usage.h>
 #include <franka_sim_mujoco/ros/camera_publisher.h>
 #include <franka_sim_mujoco/ros/contact_publisher.h>
+#include <franka_sim_mujoco/ros/gazebo_topics.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
 #include <franka_sim_mujoco/ros/picture_service.h>
+#include <franka_sim_mujoco/ros/resources.h>
 #include <franka_sim_mujoco/ros/sim_services.h>
 #include <franka_sim_mujoco/ros/simulation.h>
 #include <franka_sim_mujoco/ros/window_view.h>
@@ -25,6 +28,8 @@
 #include <cstdlib>
 #include <exception>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -43,8 +48,11 @@ constexpr std::uint32_t kThreads = 4;
 sim::SimulationOptions readOptions(const ros::NodeHandle& node) {
   sim::SimulationOptions options;
   const std::string world = sim::readString(node, "world").value_or("");
-  options.world_file =
-      sim::findWorldFile(world, {ros::package::getPath("franka_sim_mujoco") + "/worlds"});
+  std::vector<std::string> folders{ros::package::getPath("franka_sim_mujoco") + "/worlds"};
+  for (const std::string& folder : sim::gazeboResourceFolders()) {
+    folders.push_back(folder);
+  }
+  options.world_file = sim::findWorldFile(world, folders);
   if (!options.world_file.empty() && options.world_file != world) {
     ROS_INFO_NAMED(kLog, "World '%s': taking %s", world.c_str(), options.world_file.c_str());
   }
@@ -65,14 +73,24 @@ void checkSimTime() {
   }
 }
 
+void reportPlugins() {
+  for (const std::string& folder : sim::gazeboPluginFolders()) {
+    ROS_INFO_NAMED(kLog,
+                   "A package exports %s as plugin_path for Gazebo: such plugins are not loaded.",
+                   folder.c_str());
+  }
+}
+
 void run(ros::NodeHandle& node) {
   ros::NodeHandle private_node("~");
   checkSimTime();
+  reportPlugins();
   sim::Simulation simulation(readOptions(private_node), node);
   std::optional<sim::SimServices> services(std::in_place, private_node, simulation);
   std::optional<sim::PictureService> pictures(std::in_place, private_node, simulation);
   std::optional<sim::ContactPublisher> contacts(std::in_place, private_node, simulation);
   std::optional<sim::CameraPublisher> cameras(std::in_place, private_node, simulation);
+  std::optional<sim::GazeboTopics> gazebo(std::in_place, private_node, simulation);
   ros::AsyncSpinner spinner(kThreads);
   spinner.start();
   simulation.start();
@@ -90,6 +108,7 @@ void run(ros::NodeHandle& node) {
   window.reset();
   // From the outside in: no new requests, then no more ticks, then no more callbacks.
   simulation.stop();
+  gazebo.reset();
   cameras.reset();
   contacts.reset();
   pictures.reset();

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/physics/resource_uri.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
 #include <franka_sim_mujoco/ros/physics_config.h>
+#include <franka_sim_mujoco/ros/resources.h>
 #include <franka_sim_mujoco/ros/robot_instance.h>
 #include <franka_sim_mujoco/ros/robot_type.h>
 #include <ros/console.h>
@@ -101,13 +101,6 @@ JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& robot
 }
 
 }  // namespace
-
-std::string resolveUri(const std::string& uri) {
-  return fileOfUri(uri, [](const std::string& package, const std::string& file) {
-    const std::string folder = ros::package::getPath(package);
-    return folder.empty() ? folder : folder + "/" + file;
-  });
-}
 
 RobotPlan planRobot(const SpawnOrder& order) {
   RobotPlan plan;

@@ -100,6 +100,7 @@ SimServices::SimServices(ros::NodeHandle node, Simulation& simulation)
   offerBodies();
   offerStates();
   offerWorld();
+  offerGazebo();
 }
 
 void SimServices::offerTime() {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/physics/bare_steps.h>
+#include <franka_sim_mujoco/ros/resources.h>
 #include <franka_sim_mujoco/ros/simulation.h>
 #include <ros/console.h>
 #include <ros/init.h>

@@ -33,14 +33,16 @@ std::string findWorldFile(const std::string& name, const std::vector<std::string
   }
   std::string searched;
   for (const std::string& folder : folders) {
-    const fs::path candidate = fs::path(folder) / mjcf.filename();
-    if (isFile(candidate)) {
-      return candidate.string();
+    for (const fs::path& name_there : {given, mjcf.filename()}) {
+      const fs::path candidate = fs::path(folder) / name_there;
+      if (isFile(candidate)) {
+        return candidate.string();
+      }
     }
     searched += (searched.empty() ? "" : ", ") + folder;
   }
   throw std::runtime_error(
-      "The world '" + name + "' was not found: there is no such file, and no " +
+      "The world '" + name + "' was not found: there is no such file, and neither it nor a " +
       mjcf.filename().string() + " in " + searched +
       ". Give the path of an MJCF or SDF file or the name of a world that is there.");
 }

@@ -5,6 +5,7 @@
 /// The parts of the ROS room that need no master: queue, pace, world names, physics file, robot
 /// types, mailbox, claims.
 
+#include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/robot/motion/joint_motion.h>
 #include <franka_sim_mujoco/ros/command_shaper.h>
 #include <franka_sim_mujoco/ros/controller_check.h>
@@ -12,15 +13,18 @@
 #include <franka_sim_mujoco/ros/pace.h>
 #include <franka_sim_mujoco/ros/physics_config.h>
 #include <franka_sim_mujoco/ros/request_queue.h>
+#include <franka_sim_mujoco/ros/resources.h>
 #include <franka_sim_mujoco/ros/robot_type.h>
 #include <franka_sim_mujoco/ros/world_file.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -141,11 +145,56 @@ TEST(WorldFile, FindsWorldsByTheirNames) {
   EXPECT_EQ(stone, findWorldFile("/nowhere/world/stone.sdf", folders));
   const std::string sdf = (folder / "elsewhere/beside.sdf").string();
   EXPECT_EQ(sdf, findWorldFile(sdf, folders));
+  EXPECT_EQ(sdf, findWorldFile("elsewhere/beside.sdf", folders));
   EXPECT_EQ((folder / "elsewhere/beside.xml").string(),
             findWorldFile((folder / "elsewhere/beside.world").string(), folders));
   const std::string text = sentence([&] { findWorldFile("/nowhere/moon.sdf", folders); });
   EXPECT_TRUE(contains(text, "/nowhere/moon.sdf") && contains(text, folder.string())) << text;
   fs::remove_all(folder);
+}
+
+/// The one test in this program that looks for packages: they are searched once.
+TEST(Resources, AreFoundWherePackagesExportThem) {
+  namespace fs = std::filesystem;
+  const fs::path package = fs::path(testing::TempDir()) / "franka_resources_test" / "pebbles";
+  fs::create_directories(package / "my_models" / "pebble");
+  fs::create_directories(package / "my_worlds");
+  std::ofstream(package / "package.xml")
+      << "<package "
+         "format='2'><name>pebbles</name><version>1.0.0</version><description>d</description>"
+         "<maintainer email='a@b.org'>a</maintainer><license>none</license>"
+         "<exec_depend>gazebo_ros</exec_depend><export>"
+         "<gazebo_ros gazebo_model_path='${prefix}/my_models'/>"
+         "<gazebo_ros gazebo_media_path='${prefix}/my_worlds'/>"
+         "<gazebo_ros plugin_path='${prefix}/lib'/></export></package>";
+  const fs::path model = package / "my_models" / "pebble" / "model.sdf";
+  std::ofstream(model)
+      << "<sdf version='1.6'><model name='pebble'><link name='link'><collision name='c'><geometry>"
+         "<sphere><radius>0.02</radius></sphere></geometry></collision></link></model></sdf>";
+  std::ofstream(package / "my_models" / "pebble" / "model.config")
+      << "<model><name>pebble</name><version>1.0</version><sdf "
+         "version='1.6'>model.sdf</sdf></model>";
+  const fs::path world = package / "my_worlds" / "beach.sdf";
+  std::ofstream(world) << "<sdf version='1.6'><world name='beach'>"
+                          "<include><uri>model://pebble</uri><pose>0 0 1 0 0 0</pose></include>"
+                          "<include><uri>model://stone</uri><pose>1 0 1 0 0 0</pose></include>"
+                          "</world></sdf>";
+  const char* before = std::getenv("ROS_PACKAGE_PATH");
+  ASSERT_NE(before, nullptr);
+  setenv("ROS_PACKAGE_PATH", (package.string() + ":" + before).c_str(), 1);
+
+  EXPECT_EQ(resolveUri("model://pebble/model.sdf"), model.string());
+  EXPECT_TRUE(fs::is_regular_file(resolveUri("model://stone/model.sdf")));
+  EXPECT_EQ(resolveUri("model://no_such_thing/model.sdf"), "");
+  EXPECT_EQ(resolveUri("package://pebbles/package.xml"), (package / "package.xml").string());
+  const auto plugins = gazeboPluginFolders();
+  EXPECT_EQ(std::count(plugins.begin(), plugins.end(), (package / "lib").string()), 1);
+  EXPECT_EQ(findWorldFile("beach.sdf", gazeboResourceFolders()), world.string());
+
+  World beach(world.string(), resolveUri);
+  EXPECT_EQ(beach.bodyPose("pebble").position[2], 1.0);
+  EXPECT_EQ(beach.bodyPose("stone").position[0], 1.0);
+  fs::remove_all(package.parent_path());
 }
 
 class PhysicsFile : public testing::Test {

@@ -31,6 +31,21 @@ from franka_sim_mujoco.srv import (
     Step,
     TakeSnapshot,
 )
+from gazebo_msgs.msg import LinkState, LinkStates, ModelState, ModelStates
+from gazebo_msgs.srv import (
+    DeleteModel,
+    GetJointProperties,
+    GetJointPropertiesResponse,
+    GetLinkState,
+    GetModelProperties,
+    GetModelState,
+    GetPhysicsProperties,
+    GetWorldProperties,
+    SetLinkState,
+    SetModelConfiguration,
+    SetModelState,
+    SpawnModel,
+)
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3
 from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Empty, Trigger
@@ -330,6 +345,103 @@ class WorldsTest(unittest.TestCase):
         answer = call("spawn_object", SpawnObject, "inside", ball, at(hand.x, hand.y, hand.z))
         self.assertIn("inside begins within panda_1_", answer.warning)
         call("delete_object", DeleteObject, "inside")
+
+    def near(self, point, x, y, z):
+        for axis, value in zip("xyz", (x, y, z)):
+            self.assertAlmostEqual(getattr(point, axis), value, delta=1e-6)
+
+    def test_gazebo_services_read_what_is_there(self):
+        names = set(call("get_world_properties", GetWorldProperties).model_names)
+        scenery = {"stone", "table", "pick_tray", "place_tray", "ground_plane"}
+        self.assertEqual(names, scenery | {"panda_1", "panda_2"})
+        stone = call("get_body_state", GetBodyState, "stone").pose.position
+        self.near(
+            call("get_model_state", GetModelState, "stone", "").pose.position, stone.x, stone.y, stone.z
+        )
+        seen = call("get_model_state", GetModelState, "stone", "panda_2::panda_2_link0")
+        self.near(seen.pose.position, 0.9 - stone.x, -stone.y, stone.z)  # its base is turned by half a turn
+        self.assertEqual(seen.header.frame_id, "panda_2::panda_2_link0")
+        link = call("get_link_state", GetLinkState, "stone::link", "table").link_state
+        self.near(link.pose.position, stone.x - 0.016428, stone.y - 0.000584, stone.z)
+        joint = call("get_joint_properties", GetJointProperties, "panda_1_joint4")
+        measured = call("get_joint_states", GetJointStates, ["panda_1_joint4"]).state
+        self.assertEqual((joint.position[0], joint.rate[0]), (measured.position[0], measured.velocity[0]))
+        self.assertEqual(joint.type, GetJointPropertiesResponse.REVOLUTE)
+        finger = call("get_joint_properties", GetJointProperties, "panda_2::panda_2_finger_joint1")
+        self.assertEqual(finger.type, GetJointPropertiesResponse.PRISMATIC)
+        arm = call("get_model_properties", GetModelProperties, "panda_2")
+        self.assertIn("panda_2_link7", arm.body_names)
+        self.assertEqual(len(arm.joint_names), 9)
+        self.assertFalse(arm.is_static)
+        self.assertTrue(call("get_model_properties", GetModelProperties, "table").is_static)
+        physics = call("get_physics_properties", GetPhysicsProperties)
+        self.assertTrue(physics.pause)
+        self.assertAlmostEqual(physics.gravity.z, -9.81, delta=0.02)
+        for name, kind, arguments in (
+            ("get_model_state", GetModelState, ("moon", "")),
+            ("get_model_state", GetModelState, ("stone", "moon")),
+            ("get_link_state", GetLinkState, ("moon", "")),
+            ("get_joint_properties", GetJointProperties, ("moon",)),
+            ("get_model_properties", GetModelProperties, ("moon",)),
+            ("delete_model", DeleteModel, ("moon",)),
+        ):
+            self.assertIn("'moon'", call(name, kind, *arguments, fails=True).status_message)
+
+    def test_gazebo_services_and_topics_place_things(self):
+        spun = Twist(Vector3(0, 0, 1), Vector3(0, 0, 2))
+        unset = at(2, 2, 1, (0, 0, 0, 0))  # what a message begins with
+        call("set_model_state", SetModelState, ModelState("stone", unset, spun, ""))
+        state = call("get_model_state", GetModelState, "stone", "world")
+        self.near(state.pose.position, 2, 2, 1)
+        self.near(state.twist.linear, 0, 0, 1)
+        self.near(state.twist.angular, 0, 0, 2)
+        frame = "panda_2_link0"
+        call("set_link_state", SetLinkState, LinkState("stone::link", at(1, 0, 1), Twist(), frame))
+        self.near(call("get_model_state", GetModelState, "stone", "").pose.position, -0.1, 0, 1)
+        self.near(call("get_model_state", GetModelState, "stone", frame).pose.position, 1, 0, 1)
+        for state, word in (
+            (ModelState("panda_1", at(0, 0, 1), Twist(), ""), "not free to move"),
+            (ModelState("table", at(0, 0, 1), Twist(), ""), "not free to move"),
+            (ModelState("stone", at(0, 0, math.nan), Twist(), ""), "finite"),
+            (ModelState("stone", at(0, 0, 1), Twist(), "moon"), "'moon'"),
+        ):
+            answer = call("set_model_state", SetModelState, state, fails=True)
+            self.assertIn(word, answer.status_message)
+        with_topic = rospy.Publisher("/gazebo/set_model_state", ModelState, queue_size=1, latch=True)
+        with_topic.publish(ModelState("stone", at(-2, 1, 1), Twist(), ""))
+
+        def stone():
+            states = rospy.wait_for_message("/gazebo/model_states", ModelStates, WAIT)
+            return states.pose[states.name.index("stone")].position
+
+        until(lambda: stone() == Point(-2, 1, 1), "the stone where the topic put it")
+        with_topic.unregister()
+        links = rospy.wait_for_message("/gazebo/link_states", LinkStates, WAIT)
+        self.near(links.pose[links.name.index("stone::link")].position, -2, 1, 1)
+        hand = call("get_body_state", GetBodyState, "panda_1_hand").pose.position
+        self.near(links.pose[links.name.index("panda_1::panda_1_hand")].position, hand.x, hand.y, hand.z)
+        self.assertEqual(len(links.name), len(links.twist))
+
+    def test_gazebo_models_come_are_configured_and_go(self):
+        ball = BALL.format("marble")
+        spawned = call(
+            "spawn_sdf_model", SpawnModel, "marble", ball, "", at(0, 0, 1, (0, 0, 0, 0)), "panda_2_link0"
+        )
+        self.assertTrue(spawned.success)
+        self.near(call("get_model_state", GetModelState, "marble", "").pose.position, 0.9, 0, 1)
+        call("delete_model", DeleteModel, "marble")
+        self.assertNotIn("marble", call("get_world_properties", GetWorldProperties).model_names)
+        answer = call("delete_model", DeleteModel, "table", fails=True)
+        self.assertIn("belongs to the world file", answer.status_message)
+        configure = ("panda_2", "robot_description", ["panda_2_joint1"])
+        before = call("get_joint_properties", GetJointProperties, "panda_2_joint1").position[0]
+        call("set_model_configuration", SetModelConfiguration, *configure, [before + 0.2])
+        self.assertEqual(
+            call("get_joint_properties", GetJointProperties, "panda_2_joint1").position[0], before + 0.2
+        )
+        call("set_model_configuration", SetModelConfiguration, *configure, [before])
+        answer = call("set_model_configuration", SetModelConfiguration, *configure, [9.0], fails=True)
+        self.assertIn("panda_2_joint1", answer.status_message)
 
     def test_states_are_those_of_both_robots(self):
         call("unpause_physics", Empty)

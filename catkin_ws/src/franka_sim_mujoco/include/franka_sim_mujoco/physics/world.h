@@ -21,8 +21,8 @@ struct Pose {
   std::array<double, 4> orientation{{1, 0, 0, 0}};
 };
 
-/// Turns `package://name/path` (or `file://`, or a plain path) into a file name; empty when
-/// unknown.
+/// Turns `package://name/path` (or `model://`, `file://`, or a plain path) into a file name; empty
+/// when unknown.
 using ResourceResolver = std::function<std::string(const std::string& uri)>;
 
 /// A robot to put into the world: its simulatable URDF (xacro argument gazebo:=true).
@@ -56,6 +56,30 @@ struct Overlap {
 /// How a body moves: linear velocity of its origin [m/s] and angular velocity [rad/s], world axes.
 struct Twist {
   std::array<double, 3> linear{}, angular{};
+};
+
+/// Where a body is and how it moves.
+struct BodyState {
+  Pose pose;
+  Twist twist;
+};
+
+/// A joint with one degree of freedom.
+struct WorldJoint {
+  std::string name;
+  bool slides{false};   ///< or turns
+  bool limited{false};  ///< has stops
+  double damping{0};    ///< [Nm s/rad] or [N s/m]
+};
+
+/// What Gazebo calls a model: a robot, an object, or a body of the world file that hangs on nothing
+/// else, with all that hangs on it.
+struct WorldModel {
+  std::string name;
+  std::string body;                ///< whose pose is the model's
+  std::vector<std::string> links;  ///< names of bodies; those of SDF models begin with `model::`
+  std::vector<WorldJoint> joints;
+  bool is_static{false};
 };
 
 /// A camera that stands in the world or on a body: MJCF's <camera> or SDF's camera sensor.
@@ -114,6 +138,8 @@ class World {
   std::vector<std::string> bodies() const;
   std::vector<std::string> joints() const;
   std::vector<WorldCamera> cameras() const;
+  /// Robots first.
+  std::vector<WorldModel> models() const;
 
   /// Plants stay valid until their robot is removed, over additions of other robots too.
   /// @throws std::runtime_error when the robot has no joints `<arm_id>_joint1..7` (arm) or no
@@ -157,6 +183,8 @@ class World {
   void setBodyPose(const std::string& body,
                    const Pose& pose);  ///< free bodies only; velocity becomes 0
   Twist bodyTwist(const std::string& body) const;
+  /// Of many bodies at once, which costs less. @throws std::runtime_error for an unknown one
+  std::vector<BodyState> bodyStates(const std::vector<std::string>& names) const;
   void setBodyTwist(const std::string& body, const Twist& twist);  ///< free bodies only
   JointMeasurement joint(const std::string& joint) const;
   void setJointPosition(const std::string& joint,

@@ -47,9 +47,6 @@ struct RobotPlan {
 /// Any thread. @throws std::runtime_error with a sentence
 RobotPlan planRobot(const SpawnOrder& order);
 
-/// The file that a package:// or file:// URI (or a plain path) names; empty when unknown.
-std::string resolveUri(const std::string& uri);
-
 using HardwareLoader = pluginlib::ClassLoader<RobotHWSim>;
 
 /// Durations of the parts of a tick, summed up while a benchmark runs [ns].

@@ -13,8 +13,13 @@ namespace franka_sim_mujoco {
 
 /// What a service says where it could not do what was asked; some types have another field for it.
 template <typename Response>
-void explain(Response& response, const std::string& text) {
+auto explain(Response& response, const std::string& text) -> decltype((void)response.error) {
   response.error = text;
+}
+template <typename Response>
+auto explain(Response& response, const std::string& text)
+    -> decltype((void)response.status_message) {
+  response.status_message = text;
 }
 inline void explain(std_srvs::SetBool::Response& response, const std::string& text) {
   response.message = text;

@@ -10,7 +10,8 @@ namespace franka_sim_mujoco {
 class Simulation;
 
 /// The simulation's services: time (pause, step, factor, reset), robots and objects (spawn,
-/// delete), things (poses, velocities, joints, pushes, contacts), gravity, snapshots, benchmark.
+/// delete), things (poses, velocities, joints, pushes, contacts), gravity, snapshots, benchmark;
+/// and those of Gazebo, with its types.
 class SimServices {
  public:
   /// @param node in whose namespace they are offered; pause_physics and unpause_physics too
@@ -24,6 +25,9 @@ class SimServices {
   void offerBodies();
   void offerStates();
   void offerWorld();
+  void offerGazebo();
+  void offerGazeboStates();
+  void offerGazeboModels();
 
   Simulation& simulation_;
   ServiceDesk desk_;
