@@ -138,11 +138,35 @@ class SpawnerTest(unittest.TestCase):
         with contextlib.closing(listener):
             wait_until(listener.heard, "never heard")
 
-    def test_gives_up_on_a_topic(self):
-        with Running("spawner", "--timeout", "0.5", "--wait-for", "silence", "a") as spawner:
-            status, output = spawner.finish()
-        self.assertEqual(1, status)
-        self.assertIn("/silence did not say true within 0.5 s", output)
+    def test_waits_for_a_topic_without_limit_and_says_so(self):
+        publisher = rospy.Publisher("late", Bool, queue_size=1, latch=True)
+        with Running("spawner", "--timeout", "0.5", "--wait-for", "late", "a") as running:
+            wait_until(lambda: publisher.get_num_connections() > 0, "nobody listens")
+            time.sleep(1.0)  # twice its timeout, which is for the controller manager
+            self.assertTrue(running.is_running())
+            publisher.publish(True)
+            self.expect({"a": "running"})
+            running.interrupt()
+        self.expect({})
+
+    def test_reports_what_it_waits_for(self):
+        publisher = rospy.Publisher("reported", Bool, queue_size=1, latch=True)
+        reports = []
+
+        class Impatient:  # in place of Ending
+            def sleep(self, duration):
+                rospy.rostime.wallsleep(0.01)
+
+        def take(text, *values):
+            reports.append(text % values)
+            # The next thing to be told of; in the end what is waited for.
+            publisher.publish("only said false" in reports[-1])
+
+        impatient = mock.patch.multiple(spawner, FIRST_REPORT=0.0, REPORT_PERIOD=0.5)
+        with impatient, mock.patch.object(spawner.rospy, "logwarn", take):
+            spawner.wait_for_true("reported", Impatient())
+        self.assertIn("/reported", reports[0])
+        self.assertIn("has only said false so far", reports[-1])
 
     def test_gives_up_without_a_manager(self):
         with Running("spawner", "--timeout", "0.5", "--namespace", "/nowhere", "a") as spawner:

@@ -29,6 +29,9 @@ DEFAULT_TIMEOUT = 30.0  # [s]
 STOP_TIMEOUT = 5.0  # [s]
 # The manager's own account of a failed load should stand above ours in the log.
 PAUSE_AFTER_FAILED_LOAD = 1.0  # [s]
+# After which a wait for a topic is reported, and how often then.
+FIRST_REPORT = 10.0  # [s]
+REPORT_PERIOD = 60.0  # [s]
 LONELY_TIME = 3.0  # [s] after which a subscriber without a publisher is replaced
 # roslaunch ends all its nodes at once: so long a manager that breaks a call off may take to be gone.
 END_OF_MANAGER = 2.0  # [s]
@@ -54,7 +57,8 @@ def parse_arguments(arguments):
     parser.add_argument(
         "--wait-for",
         metavar="TOPIC",
-        help="wait until this topic (std_msgs/Bool) says true before anything is loaded",
+        help="wait until this topic (std_msgs/Bool) says true before anything is loaded; without "
+        "limit, as a paused simulation may stay so for long",
     )
     parser.add_argument("--namespace", metavar="NS", default="", help="namespace of the controller manager")
     timeouts = parser.add_mutually_exclusive_group()
@@ -62,8 +66,8 @@ def parse_arguments(arguments):
         "--timeout",
         type=float,
         default=DEFAULT_TIMEOUT,
-        help="[s] how long to wait for the controller manager and for --wait-for, each; zero or "
-        "less waits for ever (default: %(default)s)",
+        help="[s] how long to wait for the controller manager; zero or less waits for ever "
+        "(default: %(default)s)",
     )
     timeouts.add_argument(
         "--no-timeout",
@@ -135,7 +139,7 @@ class Listener:
 
     def __init__(self, topic):
         self._topic = topic
-        self._said_true = False
+        self._said = set()
         self._subscribe()
 
     def _subscribe(self):
@@ -143,23 +147,44 @@ class Listener:
         self._doubt = time.monotonic() + LONELY_TIME
 
     def _take(self, message):
-        self._said_true = self._said_true or message.data
+        self._said.add(message.data)
 
     def heard(self):
         """Whether a true has come."""
         if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._doubt:
             self.close()
             self._subscribe()
-        return self._said_true
+        return True in self._said
+
+    def account(self):
+        """What has come instead of a true, as the end of a sentence."""
+        if self._said:
+            return "has only said false so far (a simulation says true once it is no longer paused)"
+        if self._subscriber.get_num_connections() > 0:
+            return "has a publisher, which has said nothing so far"
+        return "has no publisher"
 
     def close(self):
         self._subscriber.unregister()
 
 
-def wait_for_true(topic, timeout, ending):
-    rospy.loginfo("Controller Spawner: Waiting for %s to say true", rospy.resolve_name(topic))
+def wait_for_true(topic, ending):
+    """Without limit. Raises Ended if told to end meanwhile."""
+    name = rospy.resolve_name(topic)
+    rospy.loginfo("Controller Spawner: Waiting for %s to say true", name)
+    begin = time.monotonic()
+    report = begin + FIRST_REPORT
     with contextlib.closing(Listener(topic)) as listener:
-        return wait_until(listener.heard, Deadline(timeout), ending)
+        while not listener.heard():
+            if time.monotonic() > report:
+                rospy.logwarn(
+                    "Controller Spawner: after %.0f s, %s %s. Waiting on.",
+                    time.monotonic() - begin,
+                    name,
+                    listener.account(),
+                )
+                report += REPORT_PERIOD
+            ending.sleep(POLL_PERIOD)
 
 
 def upload(path):
@@ -293,10 +318,8 @@ def spawn(options, spawner, ending):
     """Loads and starts. Raises Ended or SpawnerError."""
     if not spawner.wait_for_manager(options.timeout):
         raise SpawnerError("Controller Spawner couldn't find the expected controller_manager ROS interface.")
-    if options.wait_for and not wait_for_true(options.wait_for, options.timeout, ending):
-        raise SpawnerError(
-            f"{rospy.resolve_name(options.wait_for)} did not say true within {options.timeout:g} s"
-        )
+    if options.wait_for:
+        wait_for_true(options.wait_for, ending)
     spawner.load(controller_names(options.controllers))
     if not spawner.loaded:
         raise SpawnerError("no controller could be loaded; the controller manager's log says why")
