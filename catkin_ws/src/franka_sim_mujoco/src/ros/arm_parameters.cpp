@@ -148,6 +148,28 @@ std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std:
   return stiffness;
 }
 
+std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& arm_id) {
+  std::string found;
+  const auto note = [&](const std::string& name) {
+    found += (found.empty() ? "" : ", ") + node.resolveName("motion_generators") + "/" + name;
+  };
+  if (node.hasParam("motion_generators/velocity/gains")) {
+    note("velocity/gains");
+  }
+  for (const std::string gain : {"i", "d"}) {
+    bool present = false;
+    for (int joint = 1; joint <= 7 && !present; ++joint) {
+      present = readNumber(node, "motion_generators/position/gains/" + arm_id + "_joint" +
+                                     std::to_string(joint) + "/" + gain)
+                    .value_or(0.0) != 0.0;
+    }
+    if (present) {
+      note("position/gains/*/" + gain);
+    }
+  }
+  return found;
+}
+
 std::array<double, 3> gravityInBase(World& world, const std::string& base) {
   const std::array<double, 3> g = world.gravity();
   const std::array<double, 4> q = world.bodyPose(base).orientation;

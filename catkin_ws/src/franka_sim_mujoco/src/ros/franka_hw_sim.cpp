@@ -71,6 +71,17 @@ SimArmOptions readOptions(const ros::NodeHandle& node, bool reflexes) {
   return options;
 }
 
+void warnOfGains(const ros::NodeHandle& node, const std::string& arm_id) {
+  const std::string gains = gainsWithoutEffect(node, arm_id);
+  if (!gains.empty()) {
+    ROS_WARN_NAMED(kLog,
+                   "%s: these parameters have no effect: %s. The robot's own controller follows "
+                   "positions and velocities; only position/gains/*/p counts, as its stiffness "
+                   "[Nm/rad], and its damping follows from that.",
+                   arm_id.c_str(), gains.c_str());
+  }
+}
+
 std::string namesOfErrors(std::uint64_t errors) {
   std::string names;
   for (std::size_t i = 0; i < franka_core::kErrorNames.size(); ++i) {
@@ -122,6 +133,7 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_),
                                   readOptions(node, parameters.reflexes));
   arm_->unit().setJointImpedance(readJointStiffness(node, arm_id_, parameters.joint_stiffness));
+  warnOfGains(node, arm_id_);
   hand_ = has_hand ? &world.hand(robot.name, arm_id_) : nullptr;
 
   singularity_threshold_ = readNumber(node, "singularity_warning_threshold").value_or(-1.0);

@@ -100,6 +100,48 @@ JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& robot
   return readJointPhysics(folder + "/config/physics.yaml", robot_type, friction);
 }
 
+/// As Gazebo's spawner: the description's own robotNamespace counts, the order's where it has none.
+std::string chooseNamespace(const SpawnOrder& order, const PluginElement& plugin) {
+  const std::string& own = plugin.robot_namespace;
+  if (own.empty()) {
+    return order.robot_namespace.empty() ? "/" : order.robot_namespace;
+  }
+  std::string why;
+  if (!order.robot_namespace.empty() && ros::names::validate(own, why) &&
+      ros::names::resolve(own) != ros::names::resolve(order.robot_namespace)) {
+    ROS_WARN_NAMED(kLog,
+                   "'%s' lives in the namespace %s, as the robotNamespace of its description says, "
+                   "not in %s: its parameters and controllers are looked for there.",
+                   order.name.c_str(), ros::names::resolve(own).c_str(),
+                   order.robot_namespace.c_str());
+  }
+  return own;
+}
+
+/// Positions of joints that the robot does not have are left out, with a warning: the original's
+/// launch files name the fingers also where there is no hand.
+std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf::Model& model) {
+  std::map<std::string, double> known;
+  std::string unknown;
+  for (const auto& [joint, position] : order.initial_positions) {
+    if (!model.getJoint(joint)) {
+      unknown += (unknown.empty() ? "" : ", ") + joint;
+      continue;
+    }
+    if (!std::isfinite(position)) {
+      throw std::runtime_error("The initial position of '" + joint + "' is not a finite number.");
+    }
+    known[joint] = position;
+  }
+  if (!unknown.empty()) {
+    ROS_WARN_NAMED(kLog,
+                   "The robot '%s' does not have these joints, for which initial positions were "
+                   "given: %s. They are ignored.",
+                   order.name.c_str(), unknown.c_str());
+  }
+  return known;
+}
+
 }  // namespace
 
 RobotPlan planRobot(const SpawnOrder& order) {
@@ -115,11 +157,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
   const PluginElement plugin = readPluginElement(order.urdf);
   plan.control_ticks =
       std::max(1, static_cast<int>(std::lround(plugin.control_period / World::kTick)));
-  plan.robot_namespace =
-      order.robot_namespace.empty() ? plugin.robot_namespace : order.robot_namespace;
-  if (plan.robot_namespace.empty()) {
-    plan.robot_namespace = "/";
-  }
+  plan.robot_namespace = chooseNamespace(order, plugin);
   std::string why;
   if (!ros::names::validate(plan.robot_namespace, why)) {
     throw std::runtime_error("'" + plan.robot_namespace + "' is no valid namespace: " + why);
@@ -137,17 +175,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
   plan.description.urdf = order.urdf;
   plan.description.resolve = resolveUri;
   plan.description.base = order.pose;
-  plan.description.initial_positions = order.initial_positions;
-  for (const auto& joint : order.initial_positions) {
-    if (!plan.urdf.getJoint(joint.first)) {
-      throw std::runtime_error("The robot '" + order.name + "' has no joint '" + joint.first +
-                               "' for which an initial position was given.");
-    }
-    if (!std::isfinite(joint.second)) {
-      throw std::runtime_error("The initial position of '" + joint.first +
-                               "' is not a finite number.");
-    }
-  }
+  plan.description.initial_positions = knownPositions(order, plan.urdf);
   if (plan.urdf.getJoint(plan.arm_id + "_joint1")) {
     plan.robot_type = chooseRobotType(node, plan);
     plan.arm_physics = choosePhysics(node, plan.robot_type);

@@ -11,7 +11,7 @@ import unittest
 import rospy
 import rospy_connections
 import rostest
-from controller_manager_msgs.srv import LoadController, SwitchController
+from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController
 from franka_sim_mujoco.srv import (
     DeleteRobot,
     GetBodyPose,
@@ -194,12 +194,64 @@ class ParametersTest(unittest.TestCase):
         answer = self.spawn_bent(rospy.get_param("/fr3_description"), "/believed")
         self.assertFalse(answer.success)
         self.assertIn("its stops are at -0.0375 and 3.7725", answer.error)
-        told = "'machine' is simulated as panda, as the parameter /believed/robot_type says, although it"
+        self.expect_warning(
+            heard, "'machine' is simulated as panda, as the parameter /believed/robot_type says, although it"
+        )
+        log.unregister()
+
+    def expect_warning(self, heard, text):
+        """The first warning of the log that contains the text. @param heard what came on /rosout"""
         end = time.monotonic() + WAIT
-        while not any(told in said.msg and said.level == Log.WARN for said in heard):
+        while True:
+            found = [said.msg for said in heard if text in said.msg and said.level == Log.WARN]
+            if found:
+                return found[0]
             self.assertLess(time.monotonic(), end, [said.msg for said in heard])
             time.sleep(0.05)
+
+    def test_positions_of_joints_that_are_not_there_are_ignored_with_a_warning(self):
+        heard = []
+        log = rospy.Subscriber("/rosout", Log, heard.append)
+        rospy.set_param("/handless/arm_id", "right")
+        fingers = [(f"right_finger_joint{i}", 0.001) for i in (1, 2)]
+        joints = [("right_joint1", 0.25), ("right_joint4", -1.5), ("right_joint6", 1.5), *fingers]
+        answer = self.spawn("right", "/handless", rospy.get_param("/fr3_description"), joints)
+        self.assertTrue(answer.success, answer.error)
+        self.assertAlmostEqual(self.joints(["right_joint1"]).state.position[0], 0.25)
+        self.expect_warning(heard, "right_finger_joint1, right_finger_joint2. They are ignored")
         log.unregister()
+        self.assertTrue(self.delete("right").success)
+
+    def test_the_namespace_of_the_description_counts(self):
+        # The manual's own snippet of the plugin.
+        heard = []
+        log = rospy.Subscriber("/rosout", Log, heard.append)
+        end = "</robotSimType>"
+        urdf = self.panda.replace(end, end + "<robotNamespace>own_name</robotNamespace>")
+        self.assertNotEqual(urdf, self.panda)
+        rospy.set_param("/own_name/arm_id", "panda")
+        answer = self.spawn("panda", "/ordered", urdf)
+        self.assertTrue(answer.success, answer.error)
+        service("/own_name/controller_manager/list_controllers", ListControllers)
+        self.assertFalse([topic for topic, _ in rospy.get_published_topics() if topic.startswith("/ordered")])
+        self.expect_warning(heard, "lives in the namespace /own_name")
+        log.unregister()
+        self.assertTrue(self.delete("panda").success)
+
+    def test_gains_without_effect_are_named_in_one_warning(self):
+        heard = []
+        log = rospy.Subscriber("/rosout", Log, heard.append)
+        gains = {f"panda_joint{i}": {"p": 600, "i": 0, "d": 30} for i in range(1, 8)}
+        rospy.set_param("/gains/arm_id", "panda")
+        rospy.set_param("/gains/motion_generators/position/gains", gains)
+        rospy.set_param("/gains/motion_generators/velocity/gains", gains)
+        self.assertTrue(self.spawn("panda", "/gains").success)
+        warning = self.expect_warning(heard, "have no effect")
+        log.unregister()
+        self.assertIn("/gains/motion_generators/velocity/gains, ", warning)
+        self.assertIn("/gains/motion_generators/position/gains/*/d.", warning)
+        self.assertNotIn("/i", warning)
+        self.assertTrue(self.delete("panda").success)
 
     def test_a_position_gain_is_the_stiffness_of_its_joint(self):
         stiffness, force = 500.0, 5.0
@@ -233,7 +285,6 @@ class ParametersTest(unittest.TestCase):
         for expected, answer in (
             ("name", self.spawn("", "/order")),
             ("not a URDF", self.spawn("panda", "/order", "not a URDF")),
-            ("no_joint", self.spawn("panda", "/order", joints=[("no_joint", 0.0)])),
             (
                 "panda_joint1",
                 self.spawn("panda", "/order", joints=[("panda_joint1", float("nan"))]),

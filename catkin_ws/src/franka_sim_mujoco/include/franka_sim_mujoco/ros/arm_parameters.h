@@ -31,6 +31,11 @@ std::array<double, 3> gravityInBase(World& world, const std::string& base);
 std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std::string& arm_id,
                                          const std::array<double, 7>& fallback);
 
+/// The gains of `motion_generators` that are set but have no effect here, separated by commas:
+/// those of velocities, and the integral and derivative ones of positions; empty if none.
+/// @throws std::invalid_argument with a sentence for one that is no number
+std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& arm_id);
+
 /// The prefix of an arm's joint names: the parameter arm_id, else the namespace without slashes,
 /// else the robot's name. @throws std::invalid_argument with a sentence when it is empty or no text
 std::string readArmId(const ros::NodeHandle& node, const std::string& robot_namespace,
