@@ -170,5 +170,13 @@ def test_the_simulation_is_told_which_robot_an_arm_is(robot):
     assert config.params["/robot_type"].value == robot
 
 
+@pytest.mark.parametrize("reflexes", [True, False])
+@pytest.mark.parametrize("name", ["panda", "fr3", "robot"])
+def test_reflexes_are_an_argument_of_the_simulation(name, reflexes):
+    given = [f"reflexes:={str(reflexes).lower()}", *(["robot:=fr3"] if name == "robot" else [])]
+    config = read(FILES[f"franka_gazebo/{name}.launch"], given, Reader(with_descriptions=False))
+    assert config.params["/reflexes"].value is reflexes
+
+
 def test_all_launch_files_are_known_here():
     assert len(FILES) >= 27 and "franka_control/franka_control.launch" in FILES
