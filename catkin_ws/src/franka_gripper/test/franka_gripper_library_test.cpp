@@ -4,7 +4,6 @@
 // The library as a program with a franka::Gripper of its own uses it, against a gripper that
 // answers as it is told: the real wire, without a simulated hand.
 #include <arpa/inet.h>
-#include <franka/exception.h>
 #include <franka_gripper/franka_gripper.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
