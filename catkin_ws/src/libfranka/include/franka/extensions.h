@@ -41,7 +41,7 @@ struct Timeouts {
   /// For the next state, while one is waited for. Not counted: time in which this process does not
   /// run, and time in which a simulated robot in lock-step shows that it waits for another client.
   /// In a motion of a robot whose clock is not this machine's (a simulated one that waits for its
-  /// client), `long_command` holds instead: a busy machine may hold it up. A connection that closes
+  /// client), `silence` holds instead: a busy machine may hold it up. A connection that closes
   /// ends every wait.
   std::chrono::milliseconds state{1000};
   /// For the answer to a command.

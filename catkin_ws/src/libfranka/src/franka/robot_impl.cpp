@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds kSlice{50};
 
 // A robot's clock and this machine's differ by less; so far may the time at which a starved client
 // reads a state lie behind that at which it came (our choice).
-constexpr std::chrono::milliseconds kSameTime{200};
+constexpr std::chrono::milliseconds kSameTime{50};
 
 // More datagrams than this in one go are left for the next look; nobody sends so many in earnest.
 constexpr int kDatagramsAtOnce = 4096;
@@ -325,7 +325,7 @@ const franka_core::RobotState& Robot::Impl::receiveState() {
 }
 
 std::chrono::milliseconds Robot::Impl::stateBound() const noexcept {
-  return keepsOtherTime() ? std::max(timeouts_.state, timeouts_.long_command) : timeouts_.state;
+  return keepsOtherTime() ? std::max(timeouts_.state, timeouts_.silence) : timeouts_.state;
 }
 
 void Robot::Impl::beginMotion() noexcept {

@@ -97,7 +97,7 @@ class Robot::Impl {
   /// Waits for a newer state. Older and repeated ones are dropped; but a robot that repeats its
   /// last state waits for another client (a simulated one in lock-step), and is waited for in turn.
   /// Time in which this process itself does not run does not count.
-  /// @throws NetworkException after Timeouts::state, or Timeouts::long_command where
+  /// @throws NetworkException after Timeouts::state, or Timeouts::silence where
   /// keepsOtherTime; at once if the connection is closed.
   /// @throws ProtocolException for a datagram that is no state.
   const franka_core::RobotState& receiveState();
