@@ -134,6 +134,23 @@ inline double lowerVelocityLimit(const PositionVelocityLimits& limits, std::size
   return std::max(-limits.velocity[joint], std::min(0.0, limits.offset[joint] - std::sqrt(room)));
 }
 
+/// A range of joint positions [rad].
+struct JointRange {
+  double lowest;
+  double highest;
+};
+
+/// Velocity that the limit must leave at a position for a motion to end there [rad/s] (chosen here:
+/// a thousandth of a microradian a millisecond, well above what rounding makes of a limit of 0).
+constexpr double kLeastVelocityOfReach = 1e-6;
+
+/// Where a joint (0 to 6) can go to: beyond, towards an end, the velocity limit is 0.
+inline JointRange reachOf(const PositionVelocityLimits& limits, std::size_t joint) noexcept {
+  const double offset = limits.offset[joint] + kLeastVelocityOfReach;
+  const double dead_zone = offset * offset / limits.deceleration[joint];
+  return {limits.q_min[joint] + dead_zone, limits.q_max[joint] - dead_zone};
+}
+
 /// Position of joint 4 at which the elbow flips: elbow[1] is +1 above it, -1 below [rad].
 constexpr double kElbowFlip = -0.467002423653011;
 

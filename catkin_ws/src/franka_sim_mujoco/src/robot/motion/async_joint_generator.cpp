@@ -33,6 +33,7 @@ void AsyncJointGenerator::start(const std::array<double, 7>& q,
   newest_ = 0;
   sample_ = JointSample{};
   sample_.q = q;
+  stopping_ = false;
 }
 
 void AsyncJointGenerator::step(const MotionLimits& limits) noexcept {
@@ -44,12 +45,13 @@ void AsyncJointGenerator::step(const MotionLimits& limits) noexcept {
     const double landing = std::copysign(landingVelocity(std::abs(distance), step), distance);
     const double up = kShare * std::min(maximum_velocity_[i], limits.highestVelocity(i, q_[i]));
     const double down = kShare * std::max(-maximum_velocity_[i], limits.lowestVelocity(i, q_[i]));
-    const double wanted = std::min(std::max(landing, down), up);
+    const double wanted = stopping_ ? 0.0 : std::min(std::max(landing, down), up);
     const double before = dq_[i];
     dq_[i] = std::min(std::max(wanted, before - step), before + step);
     // The last step lands on the target itself, free of rounding.
-    const bool landed = dq_[i] == landing && std::abs(landing) <= step;
+    const bool landed = !stopping_ && dq_[i] == landing && std::abs(landing) <= step;
     q_[i] = landed ? target_[i] : q_[i] + dq_[i] * kTick;
+    target_[i] = stopping_ && dq_[i] == 0.0 ? q_[i] : target_[i];
     history_[newest_][i] = q_[i];
     // Differences to the first keep the mean of equal values exact.
     double mean = 0.0;

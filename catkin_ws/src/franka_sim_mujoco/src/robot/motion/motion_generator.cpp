@@ -20,6 +20,7 @@ using Joints = std::array<double, 7>;
 using Twist = std::array<double, 6>;
 
 constexpr double kAcceleratingShare = 0.1;  // of an acceleration limit (decision 15)
+constexpr double kEcho = 1e-6;  // [rad] that a position may lose on its way to the client and back
 
 bool allFinite(const Joints& values) noexcept {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -95,9 +96,12 @@ MotionStep MotionGenerator::step(const franka_core::RobotCommand* command,
   MotionStep result;
   const bool asked = command != nullptr && command->motion_generation_finished;
   if (start_.asynchronous) {
+    if (asked) {
+      async_.stop();
+      finishing_ = true;
+    }
     // What ends the motion is no target: genuine clients leave its numbers zero.
-    result.fault = advanceAsync(asked ? nullptr : command);
-    finishing_ = finishing_ || asked;
+    result.fault = advanceAsync(finishing_ ? nullptr : command);
     result.finished = finishing_ && async_.atRest();
   } else {
     result.fault = isCartesian() ? advanceCartesian(command, model) : advanceJoints(command);
@@ -117,12 +121,19 @@ MotionFault MotionGenerator::advanceAsync(const franka_core::RobotCommand* comma
     if (!allFinite(command->q_c)) {
       return MotionFlag::kJointVelocity;  // no velocity leads there
     }
+    Joints target;
     for (std::size_t i = 0; i < 7; i++) {
-      if (command->q_c[i] > limits_.arm.q_max[i] || command->q_c[i] < limits_.arm.q_min[i]) {
+      // Where the arm is it may stay, and from beyond its reach it may come back.
+      const double here = async_.position()[i];
+      const franka_core::JointRange reach = limits_.reach(i);
+      const double highest = std::max(reach.highest, here);
+      const double lowest = std::min(reach.lowest, here);
+      if (command->q_c[i] > highest + kEcho || command->q_c[i] < lowest - kEcho) {
         return limits_.positionFlag(false);
       }
+      target[i] = std::min(std::max(command->q_c[i], lowest), highest);
     }
-    async_.setTarget(command->q_c);
+    async_.setTarget(target);
   }
   async_.step(limits_);
   joints_.follow(async_.sample());

@@ -26,6 +26,16 @@ double MotionLimits::lowestVelocity(std::size_t joint, double q) const noexcept 
              : limit;
 }
 
+franka_core::JointRange MotionLimits::reach(std::size_t joint) const noexcept {
+  franka_core::JointRange range{arm.q_min[joint], arm.q_max[joint]};
+  if (position_velocity) {
+    const franka_core::JointRange alive = franka_core::reachOf(velocity_near_ends, joint);
+    range.lowest = std::max(range.lowest, alive.lowest);
+    range.highest = std::min(range.highest, alive.highest);
+  }
+  return range;
+}
+
 franka_core::DerivativeLimits MotionLimits::elbow() const noexcept {
   franka_core::DerivativeLimits limits = arm.elbow;
   limits.velocity = std::max(limits.velocity, arm.documented_elbow_velocity);

@@ -339,6 +339,94 @@ TEST(AsyncJointGenerator, TakesNewTargetsAtAnyTime) {
   }
 }
 
+/// Where an FR3's joint can still go to in one direction, and a place beyond that within its
+/// limits.
+struct End {
+  std::size_t joint;
+  double last, dead;
+};
+
+std::vector<End> endsOf(const MotionLimits& limits) {
+  std::vector<End> ends;
+  for (std::size_t i = 0; i < 7; i++) {
+    const franka_core::JointRange reach = limits.reach(i);
+    ends.push_back({i, reach.highest, 0.5 * (reach.highest + limits.arm.q_max[i])});
+    ends.push_back({i, reach.lowest, 0.5 * (reach.lowest + limits.arm.q_min[i])});
+  }
+  return ends;
+}
+
+TEST(AsyncJointGenerator, ReachesTheLastTargetItAcceptsAndRefusesTheNext) {
+  for (const End& end : endsOf(motionLimitsOfProtocol(10))) {
+    Async motion(10, 2.0);
+    Joints target = kReady;
+    target[end.joint] = end.dead;
+    RobotCommand command = jointPositions(target);
+    EXPECT_EQ(MotionFlag::kJointPositionLimits, motion.step(&command).fault) << end.joint;
+    Async allowed(10, 2.0);
+    target[end.joint] = end.last;
+    command = jointPositions(target);
+    ASSERT_FALSE(allowed.step(&command).fault) << end.joint;
+    int ticks = 0;
+    while (allowed.generator.desired().q_d != target) {
+      ASSERT_LT(ticks++, 10000) << end.joint;
+      allowed.generator.step(nullptr, model());
+    }
+    const RobotCommand last = finished(command);
+    bool over = false;
+    for (int i = 0; i < 10 && !over; i++) {
+      over = allowed.step(&last).finished;
+    }
+    EXPECT_TRUE(over) << end.joint;
+  }
+}
+
+TEST(AsyncJointGenerator, AnArmInADeadZoneMayStayThereAndComeBack) {
+  for (const End& end : endsOf(motionLimitsOfProtocol(10))) {
+    MotionGenerator generator(motionLimitsOfProtocol(10));
+    MotionStart start;
+    start.q_d = kReady;
+    start.q_d[end.joint] = end.dead;
+    start.asynchronous = true;
+    start.maximum_velocity.fill(1.0);
+    ASSERT_EQ(MotionStartResult::kStarted, generator.start(start, model()));
+    // As the client reads it in a state of protocol 10.
+    Joints target = start.q_d;
+    target[end.joint] = static_cast<double>(static_cast<float>(end.dead));
+    RobotCommand command = jointPositions(target);
+    EXPECT_FALSE(generator.step(&command, model()).fault) << end.joint;
+    target[end.joint] = kReady[end.joint];
+    command = jointPositions(target);
+    ASSERT_FALSE(generator.step(&command, model()).fault) << end.joint;
+    for (int i = 0; i < 8000 && generator.desired().q_d != target; i++) {
+      generator.step(nullptr, model());
+    }
+    EXPECT_EQ(target, generator.desired().q_d) << end.joint;
+  }
+}
+
+TEST(AsyncJointGenerator, AFinishBrakesAndEndsWhateverTheTarget) {
+  for (const double maximum_velocity : {1e-9, 1.5}) {
+    Async motion(10, maximum_velocity);
+    Joints target = kReady;
+    target[0] = -2.0;
+    target[3] = -1.0;
+    const RobotCommand command = jointPositions(target);
+    for (int i = 0; i < 400; i++) {
+      motion.step(i == 0 ? &command : nullptr);
+    }
+    const RobotCommand last = finished(RobotCommand());
+    MotionStep step;
+    int ticks = 0;
+    while (!step.finished) {
+      ASSERT_LT(ticks++, 200);
+      step = motion.step(ticks % 2 == 1 ? &last : nullptr);
+      ASSERT_FALSE(step.fault);
+    }
+    EXPECT_EQ(Joints{}, motion.generator.desired().dq_d);
+  }
+}
+
 TEST(AsyncJointGenerator, RefusesTargetsItMustNotReach) {
   for (const auto& [protocol, flag] : {std::pair{8U, MotionFlag::kCommandedJointPosition},
                                        std::pair{10U, MotionFlag::kJointPositionLimits}}) {

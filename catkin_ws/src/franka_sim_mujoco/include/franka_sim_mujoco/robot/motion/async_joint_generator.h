@@ -22,14 +22,18 @@ class AsyncJointGenerator {
   /// At rest at q [rad]. @param maximum_velocity positive [rad/s]; cut to the arm's limits.
   void start(const std::array<double, 7>& q,
              const std::array<double, 7>& maximum_velocity) noexcept;
-  /// Where to go [rad]; finite and within the position limits, see MotionGenerator.
+  /// Where to go [rad]; finite, and reachable from position() within the limits (MotionGenerator).
   void setTarget(const std::array<double, 7>& target) noexcept { target_ = target; }
+  /// Brakes instead of going on to the target, and stays there.
+  void stop() noexcept { stopping_ = true; }
   /// One tick (1 ms) on.
   void step(const MotionLimits& limits) noexcept;
 
   /// Neither the motion nor its mean moves any more.
   bool atRest() const noexcept;
   const JointSample& sample() const noexcept { return sample_; }
+  /// Where the motion is [rad], before the mean over the last ticks.
+  const std::array<double, 7>& position() const noexcept { return q_; }
 
  private:
   static constexpr std::size_t kWindow = 4;
@@ -39,6 +43,7 @@ class AsyncJointGenerator {
   std::array<std::array<double, 7>, kWindow> history_{};  // of q_, a ring
   std::size_t newest_{0};
   JointSample sample_;
+  bool stopping_{false};
 };
 
 }  // namespace franka_sim_mujoco

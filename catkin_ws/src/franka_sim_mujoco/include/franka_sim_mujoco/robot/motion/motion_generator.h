@@ -58,7 +58,7 @@ struct MotionStep {
 /// acceleration, and what follows from that is judged like a command (fci.md 5.3). After a fault
 /// the motion is over: brake from desired() with BrakeTrajectory and start anew. A finish is
 /// judged as a stop within one tick: a client that is too fast for that raises the flag of the
-/// acceleration or jerk it would take; an asynchronous motion finishes when it has come to rest.
+/// acceleration or jerk it would take; an asynchronous motion brakes and finishes at rest.
 ///
 /// One thread owns it. It neither allocates, locks nor throws, and may run in the 1 kHz loop.
 class MotionGenerator {

@@ -21,6 +21,8 @@ struct MotionLimits {
   /// Highest and lowest velocity of a joint (0 to 6) that stands at q [rad, rad/s].
   double highestVelocity(std::size_t joint, double q) const noexcept;
   double lowestVelocity(std::size_t joint, double q) const noexcept;
+  /// Where a joint can be told to go [rad]: within its limits, and where a velocity is allowed.
+  franka_core::JointRange reach(std::size_t joint) const noexcept;
   /// Bounds of the elbow's motion; of its two velocities the larger one.
   franka_core::DerivativeLimits elbow() const noexcept;
   /// The flag of a joint position out of range, of a joint command or after inverse kinematics.
