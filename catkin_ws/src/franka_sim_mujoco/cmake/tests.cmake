@@ -26,6 +26,7 @@ sim_test(robot_unit_test
   SOURCES
     test/robot/error_flags_test.cpp
     test/robot/laws_test.cpp
+    test/robot/transform_entrances_test.cpp
     test/robot/unit_limits_test.cpp
     test/robot/unit_motion_test.cpp
   LIBRARIES franka_sim_robot)

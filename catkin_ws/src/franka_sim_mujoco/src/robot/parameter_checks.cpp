@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/limits.h>
+#include <franka_core/transform.h>
 #include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/robot/transforms.h>
 
@@ -80,10 +81,7 @@ void requirePayload(const franka_core::Payload& payload, const std::string& suff
 }
 
 void requireTransform(const Transform& transform, const std::string& name) {
-  require(
-      isFrame(transform), name,
-      "is not a rigid transform (4x4 column-major: an orthonormal rotation, a translation of at "
-      "most 10 m and the bottom row 0 0 0 1)");
+  require(isFrame(transform), name, "is no frame on the arm: " + frameFault(transform));
 }
 
 }  // namespace
@@ -120,6 +118,19 @@ std::string payloadFault(const franka_core::Payload& payload) {
 bool isFrame(const std::array<double, 16>& transform) noexcept {
   return isTransform(transform) &&
          distance(transform[12], transform[13], transform[14]) <= kMaxFrameDistance;
+}
+
+std::string frameFault(const std::array<double, 16>& transform) {
+  if (!isTransform(transform)) {
+    return franka_core::transformFault(transform);
+  }
+  const double away = distance(transform[12], transform[13], transform[14]);
+  char text[80] = "";
+  if (away > kMaxFrameDistance) {
+    std::snprintf(text, sizeof text, "it is %g m away and must be within %g m", away,
+                  kMaxFrameDistance);
+  }
+  return text;
 }
 
 bool areThresholds(const CollisionThresholds& thresholds) noexcept {

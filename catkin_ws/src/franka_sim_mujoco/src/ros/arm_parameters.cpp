@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/transform.h>
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
@@ -18,9 +19,8 @@ namespace {
 constexpr std::array<double, 16> kHandF_T_NE{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0,      0,
                                              0,      0,       1, 0, 0,      0,      0.1034, 1};
 
-/// The four printed digits of the hand's rotation are not a rotation within the unit's tolerance:
-/// the columns are brought to length one, which gives back cos(45 deg) and leaves exact matrices as
-/// they are.
+/// A rotation that was typed with three or four digits: the columns are brought to length one,
+/// which gives back cos(45 deg) and leaves exact matrices as they are.
 std::array<double, 16> withUnitColumns(std::array<double, 16> transform) {
   for (std::size_t column = 0; column < 3; ++column) {
     double* entry = transform.data() + 4 * column;
@@ -36,34 +36,11 @@ std::array<double, 16> withUnitColumns(std::array<double, 16> transform) {
   return transform;
 }
 
-std::string transformFault(const std::array<double, 16>& transform) {
-  constexpr double kTolerance = 1e-5;
-  if (transform[3] != 0.0 || transform[7] != 0.0 || transform[11] != 0.0 || transform[15] != 1.0) {
-    return "its bottom row (entries 4, 8, 12 and 16) is not 0 0 0 1";
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = i; j < 3; ++j) {
-      double product = 0.0;
-      for (std::size_t row = 0; row < 3; ++row) {
-        product += transform[4 * i + row] * transform[4 * j + row];
-      }
-      if (std::abs(product - (i == j ? 1.0 : 0.0)) > kTolerance) {
-        return "its first three columns are not at right angles and of length one";
-      }
-    }
-  }
-  const auto at = [&](std::size_t row, std::size_t column) { return transform[4 * column + row]; };
-  const double determinant = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) -
-                             at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
-                             at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
-  return determinant > 0.0 ? "" : "it mirrors (its determinant is -1)";
-}
-
 void readTransform(const ros::NodeHandle& node, const std::string& name,
                    std::array<double, 16>& transform) {
   readArray(node, name, transform);
   transform = withUnitColumns(transform);
-  const std::string fault = transformFault(transform);
+  const std::string fault = franka_core::transformFault(transform);
   if (!fault.empty()) {
     throw std::invalid_argument("The parameter " + node.resolveName(name) +
                                 " is not a column-major 4x4 transform: " + fault + ".");

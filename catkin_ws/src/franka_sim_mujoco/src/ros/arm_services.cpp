@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <controller_manager_msgs/ListControllers.h>
 #include <controller_manager_msgs/SwitchController.h>
+#include <franka_core/transform.h>
 #include <franka_msgs/SetCartesianImpedance.h>
 #include <franka_msgs/SetEEFrame.h>
 #include <franka_msgs/SetForceTorqueCollisionBehavior.h>
@@ -31,10 +32,6 @@ constexpr double kSwitchTimeout = 3.0;     ///< [s]
 constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit gives up after 5 s of its own
 constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
 constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
-constexpr char kNotATransform[] =
-    " is not a column-major 4x4 transform: its bottom row (entries 4, 8, 12 and 16) must be 0 0 0 "
-    "1, its first three columns at right angles and of length one, and its translation at most 10 "
-    "m.";
 
 /// The messages hold boost arrays.
 template <std::size_t N, typename Array>
@@ -44,7 +41,13 @@ std::array<double, N> toArray(const Array& values) {
   return result;
 }
 
-/// @throws std::runtime_error with a sentence for the first threshold that makes no sense
+std::string notATransform(const std::string& name, const std::array<double, 16>& matrix) {
+  return name + " is no column-major 4x4 transform to a frame on the arm: " + frameFault(matrix) +
+         ".";
+}
+
+/// Logs what is odd. @throws std::runtime_error with a sentence for the first threshold that makes
+/// no sense
 CollisionThresholds checked(const CollisionThresholds& thresholds, const std::string& phase) {
   const std::string fault = checkThresholds(thresholds);
   if (!fault.empty()) {
@@ -114,10 +117,12 @@ void ArmServices::offerBetweenTicks(const std::string& name,
 
 void ArmServices::offerFrames() {
   offerBetweenTicks<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
-    check(arm_.unit().setEE(toArray<16>(request.NE_T_EE)), std::string("NE_T_EE") + kNotATransform);
+    const std::array<double, 16> NE_T_EE = toArray<16>(request.NE_T_EE);
+    check(arm_.unit().setEE(NE_T_EE), notATransform("NE_T_EE", NE_T_EE));
   });
   offerBetweenTicks<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
-    check(arm_.unit().setK(toArray<16>(request.EE_T_K)), std::string("EE_T_K") + kNotATransform);
+    const std::array<double, 16> EE_T_K = toArray<16>(request.EE_T_K);
+    check(arm_.unit().setK(EE_T_K), notATransform("EE_T_K", EE_T_K));
   });
   offerBetweenTicks<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
     const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),

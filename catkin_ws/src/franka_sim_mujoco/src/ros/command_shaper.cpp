@@ -3,6 +3,7 @@
 #include <franka/lowpass_filter.h>
 #include <franka/rate_limiting.h>
 #include <franka_core/joint_limiter.h>
+#include <franka_core/transform.h>
 #include <franka_sim_mujoco/robot/tick.h>
 #include <franka_sim_mujoco/robot/transforms.h>
 #include <franka_sim_mujoco/ros/command_shaper.h>
@@ -44,7 +45,7 @@ bool isFiltered(const ShapingOptions& options) noexcept {
 
 template <std::size_t N>
 void filter(const ShapingOptions& options, const std::array<double, N>& last,
-            std::array<double, N>& values) noexcept {
+            std::array<double, N>& values) {
   if (!isFiltered(options)) {
     return;
   }
@@ -74,7 +75,7 @@ void limitVelocities(const franka_core::RobotState& state, const MotionLimits& l
 }
 
 Joints shapePositions(const ShapingOptions& options, Joints q, const franka_core::RobotState& state,
-                      const MotionLimits& limits) noexcept {
+                      const MotionLimits& limits) {
   filter(options, state.q_d, q);
   if (options.rate_limiting) {
     Joints dq;
@@ -103,7 +104,8 @@ Transform shapePose(const ShapingOptions& options, Transform pose,
   if (isFiltered(options)) {
     pose = franka::cartesianLowpassFilter(kTick, pose, state.O_T_EE_c, options.cutoff_frequency);
   }
-  if (options.rate_limiting) {
+  // As in the client's loop: what is no transform after the filter goes to the robot, which judges.
+  if (options.rate_limiting && franka_core::isHomogeneousTransformation(pose)) {
     const auto& [v, a, j] = limits.arm.translation;
     const auto& [w, dw, ddw] = limits.arm.rotation;
     pose =
@@ -125,11 +127,14 @@ std::array<double, 6> shapeTwist(const ShapingOptions& options, std::array<doubl
   return twist;
 }
 
-void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbow,
-                const franka_core::RobotState& state, const MotionLimits& limits,
-                franka_core::RobotCommand& command) noexcept {
+void setElbow(const std::array<double, 2>& elbow, franka_core::RobotCommand& command) noexcept {
   command.valid_elbow = elbow[0] != 0.0 || elbow[1] != 0.0;
   command.elbow_c = elbow;
+}
+
+void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbow,
+                const franka_core::RobotState& state, const MotionLimits& limits,
+                franka_core::RobotCommand& command) {
   if (!command.valid_elbow || !allFinite(elbow)) {
     return;
   }
@@ -145,11 +150,61 @@ void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbo
 }
 
 Joints shapeTorques(const ShapingOptions& options, Joints torque,
-                    const franka_core::RobotState& state, const MotionLimits& limits) noexcept {
+                    const franka_core::RobotState& state, const MotionLimits& limits) {
   filter(options, state.tau_J_d, torque);
   return options.rate_limiting
              ? franka::limitRate(withMargin(limits.arm.dtau), torque, state.tau_J_d)
              : torque;
+}
+
+// The command as the controllers want it, each kind shaped by a function of its own. What is not
+// finite is handed on.
+void shapeAll(const ShapingOptions& options, ControlMode mode, const ArmCommands& wanted,
+              const franka_core::RobotState& state, const MotionLimits& limits,
+              franka_core::RobotCommand& command) {
+  if (contains(mode, ControlMode::JointTorque) && options.torques && allFinite(wanted.torque)) {
+    command.tau_J_d = shapeTorques(options, wanted.torque, state, limits);
+  }
+  if (contains(mode, ControlMode::JointPosition) && allFinite(wanted.position)) {
+    command.q_c = shapePositions(options, wanted.position, state, limits);
+  }
+  if (contains(mode, ControlMode::JointVelocity) && allFinite(wanted.velocity)) {
+    command.dq_c = shapeVelocities(options, wanted.velocity, state, limits);
+  }
+  if (contains(mode, ControlMode::CartesianPose)) {
+    if (allFinite(wanted.pose)) {
+      command.O_T_EE_c = shapePose(options, wanted.pose, state, limits);
+    }
+    shapeElbow(options, wanted.pose_elbow, state, limits, command);
+  }
+  if (contains(mode, ControlMode::CartesianVelocity)) {
+    if (allFinite(wanted.twist)) {
+      command.O_dP_EE_c = shapeTwist(options, wanted.twist, state, limits);
+    }
+    shapeElbow(options, wanted.twist_elbow, state, limits, command);
+  }
+}
+
+franka_core::RobotCommand unshaped(ControlMode mode, const ArmCommands& wanted) noexcept {
+  franka_core::RobotCommand command;
+  if (contains(mode, ControlMode::JointTorque)) {
+    command.tau_J_d = wanted.torque;
+  }
+  if (contains(mode, ControlMode::JointPosition)) {
+    command.q_c = wanted.position;
+  }
+  if (contains(mode, ControlMode::JointVelocity)) {
+    command.dq_c = wanted.velocity;
+  }
+  if (contains(mode, ControlMode::CartesianPose)) {
+    command.O_T_EE_c = wanted.pose;
+    setElbow(wanted.pose_elbow, command);
+  }
+  if (contains(mode, ControlMode::CartesianVelocity)) {
+    command.O_dP_EE_c = wanted.twist;
+    setElbow(wanted.twist_elbow, command);
+  }
+  return command;
 }
 
 }  // namespace
@@ -158,33 +213,15 @@ franka_core::RobotCommand shapeCommand(const ShapingOptions& options, ControlMod
                                        const ArmCommands& wanted,
                                        const franka_core::RobotState& state,
                                        const MotionLimits& limits) noexcept {
-  franka_core::RobotCommand command;
+  franka_core::RobotCommand command = unshaped(mode, wanted);
   command.message_id = state.message_id;
-  if (contains(mode, ControlMode::JointTorque)) {
-    const bool shaped = options.torques && allFinite(wanted.torque);
-    command.tau_J_d = shaped ? shapeTorques(options, wanted.torque, state, limits) : wanted.torque;
-  }
-  if (contains(mode, ControlMode::JointPosition)) {
-    command.q_c = allFinite(wanted.position)
-                      ? shapePositions(options, wanted.position, state, limits)
-                      : wanted.position;
-  }
-  if (contains(mode, ControlMode::JointVelocity)) {
-    command.dq_c = allFinite(wanted.velocity)
-                       ? shapeVelocities(options, wanted.velocity, state, limits)
-                       : wanted.velocity;
-  }
-  // The functions of libfranka throw for what is checked here before.
-  if (contains(mode, ControlMode::CartesianPose)) {
-    command.O_T_EE_c = isTransform(wanted.pose) && isTransform(state.O_T_EE_c)
-                           ? shapePose(options, wanted.pose, state, limits)
-                           : wanted.pose;
-    shapeElbow(options, wanted.pose_elbow, state, limits, command);
-  }
-  if (contains(mode, ControlMode::CartesianVelocity)) {
-    command.O_dP_EE_c =
-        allFinite(wanted.twist) ? shapeTwist(options, wanted.twist, state, limits) : wanted.twist;
-    shapeElbow(options, wanted.twist_elbow, state, limits, command);
+  try {
+    shapeAll(options, mode, wanted, state, limits, command);
+  } catch (...) {
+    // libfranka's functions throw for what is checked here before; another libfranka may check
+    // more.
+    command = unshaped(mode, wanted);
+    command.message_id = state.message_id;
   }
   return command;
 }

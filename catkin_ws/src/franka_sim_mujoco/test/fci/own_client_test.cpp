@@ -21,9 +21,12 @@
 #include <future>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "../robot/transform_sweep.h"
 
 namespace franka_sim_mujoco::fci {
 namespace {
@@ -250,6 +253,47 @@ TEST_P(OwnClient, MovesTheHandByPoseAndByVelocity) {
   EXPECT_NEAR(robot.readOnce().O_T_EE[14], begin, 3e-3);
 }
 
+/// Whether a motion that commands this pose and ends is refused by the client or the robot.
+bool takes(franka::Robot& robot, const std::array<double, 16>& pose, bool limited, double cutoff) {
+  try {
+    robot.control(
+        [&](const franka::RobotState&, franka::Duration) {
+          return franka::MotionFinished(franka::CartesianPose(pose));
+        },
+        franka::ControllerMode::kJointImpedance, limited, cutoff);
+    return true;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("exactly 0 0 0 1")) << error.what();
+    return false;
+  }
+}
+
+class OwnClientWithDust : public OwnClient {};
+
+TEST_P(OwnClientWithDust, IsTakenOrRefusedAsTheRobotDoes) {
+  const std::array<double, 16> pose = robot.readOnce().O_T_EE_c;
+  int count = 0;
+  for (const test::DustyMatrix& dusty : test::dustOn(pose)) {
+    count++;
+    EXPECT_EQ(dusty.accepted,
+              takes(robot, dusty.matrix, count % 2 == 0, count % 3 == 0 ? 100.0 : 1000.0))
+        << dusty;
+    if (dusty.dust == 1e-6 || dusty.dust == 1e-12) {
+      for (const auto& set : {&franka::Robot::setEE, &franka::Robot::setK}) {
+        std::array<double, 16> frame = kIdentity;
+        frame[dusty.entry] += dusty.dust;
+        if (dusty.entry % 4 != 3) {
+          EXPECT_NO_THROW((robot.*set)(frame)) << dusty;
+        } else {
+          EXPECT_THROW((robot.*set)(frame), franka::CommandException) << dusty;
+        }
+        (robot.*set)(kIdentity);
+      }
+    }
+  }
+  EXPECT_EQ(franka::RobotMode::kIdle, robot.readOnce().robot_mode);
+}
+
 TEST_P(OwnClient, HoldsByTorques) {
   const std::array<double, 7> begin = robot.readOnce().q;
   double time = 0.0;
@@ -393,6 +437,7 @@ TEST(TwoArmsInOneWorld, CanRunIntoEachOther) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Version, OwnClient, ::testing::Range(3, 11));
+INSTANTIATE_TEST_SUITE_P(NewestOfEachRobot, OwnClientWithDust, ::testing::Values(5, 10));
 
 }  // namespace
 }  // namespace franka_sim_mujoco::fci

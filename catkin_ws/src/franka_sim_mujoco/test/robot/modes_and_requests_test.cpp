@@ -398,8 +398,9 @@ TEST(ControlUnitParameters, ThatMakeNoSenseAreRefusedWithTheirName) {
     return whyNot(parameters);
   };
   EXPECT_EQ("", changed([](ControlUnitParameters&) {}));
-  EXPECT_NE(std::string::npos,
-            changed([](auto& p) { p.NE_T_EE[0] = 2; }).find("parameter NE_T_EE is not a rigid"));
+  EXPECT_NE(std::string::npos, changed([](auto& p) {
+                                 p.NE_T_EE[0] = 2;
+                               }).find("parameter NE_T_EE is no rigid transform: column 1"));
   EXPECT_NE(std::string::npos, changed([](auto& p) { p.F_T_NE[15] = 0; }).find("F_T_NE"));
   EXPECT_NE(std::string::npos, changed([](auto& p) { p.EE_T_K[12] = kNan; }).find("EE_T_K"));
   EXPECT_NE(std::string::npos, changed([](auto& p) { p.end_effector.mass = -1; }).find("m_ee"));

@@ -3,6 +3,7 @@
 #include <franka_core/abort_diagnosis.h>
 #include <franka_core/error_names.h>
 #include <franka_core/limits.h>
+#include <franka_core/transform.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -90,7 +91,7 @@ std::string rangeOf(const Position& position, const char* verb, const ArmLimits&
 class Diagnosis {
  public:
   Diagnosis(const std::vector<AbortRecord>& log, unsigned version)
-      : log_(log), measures_(log, version), limits_(limitsOfProtocol(version)) {}
+      : log_(log), version_(version), measures_(log, version), limits_(limitsOfProtocol(version)) {}
 
   std::string sentence(std::size_t flag) const {
     return std::string(kErrorNames[flag]) + ": " + explain(flag);
@@ -102,6 +103,7 @@ class Diagnosis {
   Position commandedPosition() const;
   Position solvedPosition() const;
   std::string positionViolation() const;
+  std::string unreachable() const;
   std::string solved(int order) const;
   std::string measuredVelocity() const;
   std::string collision() const;
@@ -114,8 +116,10 @@ class Diagnosis {
   std::string elbowLimit() const;
   std::string elbowSign(bool first) const;
   std::string sensorTorque() const;
+  std::string invalidFrame() const;
 
   const std::vector<AbortRecord>& log_;
+  unsigned version_;
   AbortMeasures measures_;
   const ArmLimits& limits_;
 };
@@ -163,7 +167,30 @@ std::string Diagnosis::positionViolation() const {
   if (measured.beyond <= 0.0 && wanted.beyond > 0.0) {
     return rangeOf(wanted, cartesian ? kWouldHaveFollowed : kWasToGo, limits_);
   }
+  if (measured.beyond <= 0.0 && !cartesian && version_ >= 10) {
+    const std::string text = unreachable();
+    if (!text.empty()) {
+      return text;
+    }
+  }
   return rangeOf(measured, "stood at", limits_);
+}
+
+/// Of a target of the asynchronous generator (protocol 10) where no velocity leads.
+std::string Diagnosis::unreachable() const {
+  for (auto record = log_.rbegin(); record != log_.rend(); ++record) {
+    const std::array<double, 7>& q_c = record->command.q_c;
+    for (std::size_t i = 0; isUsed(q_c) && i < 7; i++) {
+      const JointRange reach = reachOf(kFr3PositionVelocityLimitsFrom59, i);
+      if (q_c[i] < reach.lowest || q_c[i] > reach.highest) {
+        return jointName(i) + " " + kWasToGo + " " + number(q_c[i]) +
+               " rad, and its velocity limit, which shrinks towards the ends of its range, is 0 "
+               "outside of " +
+               number(reach.lowest) + " to " + number(reach.highest) + " rad.";
+      }
+    }
+  }
+  return "";
 }
 
 std::string Diagnosis::collision() const {
@@ -295,6 +322,19 @@ std::string Diagnosis::sensorTorque() const {
          number(limits_.tau[largest]) + " Nm is its rated torque.";
 }
 
+std::string Diagnosis::invalidFrame() const {
+  const std::string what = "a commanded pose was no homogeneous transformation: ";
+  for (auto record = log_.rbegin(); record != log_.rend(); ++record) {
+    const std::string fault =
+        isUsed(record->command.O_T_EE_c) ? transformFault(record->command.O_T_EE_c) : "";
+    if (!fault.empty()) {
+      return what + fault + ".";
+    }
+  }
+  return what +
+         "its rotation must be orthonormal, its last row 0 0 0 1, and it must be column-major.";
+}
+
 /// The numbers of the flags: index order of fci.md 4.1.
 std::string Diagnosis::explain(std::size_t flag) const {
   switch (flag) {
@@ -345,9 +385,7 @@ std::string Diagnosis::explain(std::size_t flag) const {
     case 30:
       return solved(3);
     case 31:
-      return "a commanded pose was no homogeneous transformation: its rotation must be "
-             "orthonormal, "
-             "its last row 0 0 0 1, and it must be column-major.";
+      return invalidFrame();
     case 32:
       return commanded(measures_.commandedTorques(), "a change of torque", 1);
     case 34:

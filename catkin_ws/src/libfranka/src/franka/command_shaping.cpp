@@ -5,6 +5,7 @@
 #include <franka/control_tools.h>
 #include <franka/lowpass_filter.h>
 #include <franka/rate_limiting.h>
+#include <franka_core/transform.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,9 +106,8 @@ void shape(const Shaping& shaping, const CartesianPose& pose, const RobotState& 
   }
   // Before the limiter, whose own check would speak of rate limiting.
   if (!isHomogeneousTransformation(command.O_T_EE_c)) {
-    throw std::invalid_argument(
-        "libfranka: The commanded pose is no homogeneous transformation: its rotation must be "
-        "orthonormal and its last row (0, 0, 0, 1); matrices are column-major.");
+    throw std::invalid_argument("libfranka: The commanded pose is no homogeneous transformation: " +
+                                franka_core::transformFault(command.O_T_EE_c) + ".");
   }
   if (shaping.limits != nullptr) {
     const auto& [v, a, j] = shaping.limits->translation;

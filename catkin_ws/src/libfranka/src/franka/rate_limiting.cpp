@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/control_tools.h>
 #include <franka/rate_limiting.h>
+#include <franka_core/transform.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -217,7 +218,8 @@ std::array<double, 16> limitRate(double max_translational_velocity,
   requireFinite(O_T_EE_c);
   if (!isHomogeneousTransformation(O_T_EE_c)) {
     throw std::invalid_argument(
-        "libfranka rate limiting: the commanded pose is no homogeneous transformation.");
+        "libfranka rate limiting: the commanded pose is no homogeneous transformation: " +
+        franka_core::transformFault(O_T_EE_c) + ".");
   }
   const Eigen::Map<const Eigen::Matrix4d> wanted(O_T_EE_c.data());
   const Eigen::Map<const Eigen::Matrix4d> last(last_O_T_EE_c.data());

@@ -25,6 +25,10 @@ constexpr double kMaxFrameDistance = 10.0;
 /// Whether it is a rigid transform to a frame that can be on the arm. Real-time safe.
 bool isFrame(const std::array<double, 16>& transform) noexcept;
 
+/// What keeps it from being one, as the end of a sentence that names it; empty if nothing does.
+/// Not real-time safe.
+std::string frameFault(const std::array<double, 16>& transform);
+
 /// Whether all thresholds are finite and not negative. Real-time safe.
 bool areThresholds(const CollisionThresholds& thresholds) noexcept;
 

@@ -12,9 +12,7 @@ using Transform = std::array<double, 16>;
 /// a times b.
 Transform multiply(const Transform& a, const Transform& b) noexcept;
 
-/// Whether a matrix is a rigid motion: finite, bottom row 0 0 0 1, columns and rows of the rotation
-/// of unit length and at right angles, right-handed; each within 1e-5 (as the FCI client checks,
-/// fci.md 4.3).
+/// Whether the control unit takes a matrix as a pose or a frame: franka_core::isRigidTransform.
 bool isTransform(const Transform& matrix) noexcept;
 
 }  // namespace franka_sim_mujoco

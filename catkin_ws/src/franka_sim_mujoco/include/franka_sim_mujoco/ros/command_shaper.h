@@ -22,8 +22,8 @@ struct ShapingOptions {
 /// Makes the command of a tick of what the controllers want.
 ///
 /// Filters and limits each kind of command that the mode contains against the state it answers, in
-/// that order. What is not finite, or a pose that is no transform, is handed on as it is: the robot
-/// judges it. Real-time safe; pure.
+/// that order. What is not finite is handed on as it is, and a pose that is no transform after the
+/// filter is not limited: the robot judges it. Real-time safe; pure.
 /// @param mode what is claimed @param state k, that the command answers
 /// @param limits what the robot holds motions to
 franka_core::RobotCommand shapeCommand(const ShapingOptions& options, franka_hw::ControlMode mode,

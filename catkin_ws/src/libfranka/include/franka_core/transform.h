@@ -1,0 +1,33 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+
+/// @file
+/// The one rule by which client and robot accept 4x4 column-major matrices as transforms.
+
+namespace franka_core {
+
+/// How far the length of a rotation's row or column may be from 1, and the cosine of the angle
+/// between two columns from 0 (fci.md 4).
+constexpr double kTransformTolerance = 1e-5;
+
+/// Whether a matrix passes the client's check of commanded poses: bottom row exactly 0 0 0 1, every
+/// row and column of the rotation of length 1 within kTransformTolerance. The translation and right
+/// angles are not looked at: the robot judges them (isRigidTransform).
+/// Real-time safe. Thread-safe.
+bool isHomogeneousTransformation(const std::array<double, 16>& matrix) noexcept;
+
+/// Whether the robot takes a matrix as a pose or a frame: a finite homogeneous transformation whose
+/// columns stand at right angles within kTransformTolerance and that does not mirror.
+/// Real-time safe. Thread-safe.
+bool isRigidTransform(const std::array<double, 16>& matrix) noexcept;
+
+/// What keeps a matrix from being a rigid transform, as the end of a sentence that names the
+/// matrix: "its bottom row is 1e-17 0 0 1 and must be exactly 0 0 0 1"; empty for a rigid
+/// transform. Not real-time safe.
+std::string transformFault(const std::array<double, 16>& matrix);
+
+}  // namespace franka_core
