@@ -16,6 +16,10 @@ namespace {
 // Force laws of the fingers: gains of the manual (franka_ros.md 9.5).
 constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
 
+// What an FR3's tau_ext_hat_filtered showed of nothing but its model's error (docs/fidelity.md)
+// [Nm].
+constexpr std::array<double, 7> kGravityError{-0.34, -0.39, -0.06, -0.23, -0.05, 0.14, -0.25};
+
 std::string toText(const std::array<double, 7>& values) {
   std::string text;
   for (const double value : values) {
@@ -26,14 +30,26 @@ std::string toText(const std::array<double, 7>& values) {
   return text;
 }
 
+std::string detailOf(const ControlUnit& unit, std::size_t error) {
+  if (error == indexOf(ErrorFlag::kSelfCollision)) {
+    return linksOf(unit.selfCollisionPair());
+  }
+  if (error == indexOf(ErrorFlag::kJointReflex) && unit.jointCollision().happened) {
+    return describeJointCollision(unit.jointCollision());
+  }
+  if (error == indexOf(ErrorFlag::kCartesianReflex) && unit.cartesianCollision().happened) {
+    return describeCartesianCollision(unit.cartesianCollision(), unit.parameters().threshold_frame);
+  }
+  return "";
+}
+
 std::string errorNames(const ControlUnit& unit) {
   const std::array<bool, franka_core::kErrorCount>& errors = unit.state().errors;
   std::string text;
   for (std::size_t i = 0; i < errors.size(); i++) {
     text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
-    if (errors[i] && i == indexOf(ErrorFlag::kSelfCollision)) {
-      text += " (" + linksOf(unit.selfCollisionPair()) + ")";
-    }
+    const std::string detail = errors[i] ? detailOf(unit, i) : "";
+    text += detail.empty() ? "" : " (" + detail + ")";
   }
   return text.empty() ? " none" : text;
 }
@@ -77,6 +93,21 @@ void setLoad(SimRobot& robot, const franka_core::Payload& load) {
     case RequestStatus::kNotPossible:
       throw std::runtime_error("The load was refused: a motion runs. End it, then set the load.");
   }
+}
+
+std::string collisionOf(const ControlUnit& unit, ErrorFlag error) {
+  const std::string detail = detailOf(unit, indexOf(error));
+  return error == ErrorFlag::kSelfCollision ? "its " + detail + " came too close to each other"
+                                            : "it met something, " + detail;
+}
+
+std::array<double, 7> restingNear(const std::array<double, 7>& q,
+                                  const std::array<double, 7>& stiffness) noexcept {
+  std::array<double, 7> rest = q;
+  for (std::size_t i = 0; i < 7; i++) {
+    rest[i] -= stiffness[i] > 0.0 ? kGravityError[i] / stiffness[i] : 0.0;
+  }
+  return rest;
 }
 
 std::string describe(SimRobot& robot) {

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/error_names.h>
 #include <franka_sim_mujoco/fci/serving.h>
 #include <franka_sim_mujoco/fci/sim_robot.h>
 #include <franka_sim_mujoco/robot/tick.h>
@@ -57,20 +58,23 @@ void SimRobot::restart() noexcept {
 }
 
 void SimRobot::observe() {
-  const bool before = collidesWithItself();
+  constexpr std::array<ErrorFlag, 3> kCollisions{ErrorFlag::kSelfCollision, ErrorFlag::kJointReflex,
+                                                 ErrorFlag::kCartesianReflex};
+  std::array<bool, kCollisions.size()> before{};
+  for (std::size_t i = 0; i < before.size(); i++) {
+    before[i] = unit_.state().errors[indexOf(kCollisions[i])];
+  }
   unit_.observe(arm_.measure());
   if (hand_) {
     // Its state goes out also while time stands still.
     hand_->unit.observe(hand_->plant.measure());
   }
-  if (tell_ && !before && collidesWithItself()) {
-    tell_("its " + linksOf(unit_.selfCollisionPair()) +
-          " came too close to each other (self_collision_avoidance_violation).");
+  for (std::size_t i = 0; tell_ && i < before.size(); i++) {
+    if (!before[i] && unit_.state().errors[indexOf(kCollisions[i])]) {
+      tell_(collisionOf(unit_, kCollisions[i]) + " (" +
+            franka_core::kErrorNames[indexOf(kCollisions[i])] + ").");
+    }
   }
-}
-
-bool SimRobot::collidesWithItself() const noexcept {
-  return unit_.state().errors[indexOf(ErrorFlag::kSelfCollision)];
 }
 
 void SimRobot::actuate() {

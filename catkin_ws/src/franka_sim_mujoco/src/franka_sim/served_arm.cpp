@@ -120,7 +120,7 @@ ServedArm::ServedArm(const ArmOptions& options, World& world) : options_(options
   const auto tell = [name = options.arm_id + " at " + options.ip](const std::string& what) {
     std::fprintf(stderr, "franka_sim: %s: %s\n", name.c_str(), what.c_str());
   };
-  robot_->onSelfCollision(tell);
+  robot_->onCollision(tell);
   robot_->onRefusal(tell);
 }
 

@@ -140,15 +140,24 @@ void ControlUnit::observeContacts() noexcept {
   state_.O_F_ext_hat_K = external_wrench_.inBase(state_.tau_ext_hat_filtered);
   state_.K_F_ext_hat_K = external_wrench_.inStiffness(state_.O_F_ext_hat_K);
 
-  // Thresholds act on what the filters have not yet delayed (decision 3).
-  std::array<double, 6> wrench = external_wrench_.inBase(tau_ext_);
-  if (parameters_.threshold_frame == ThresholdFrame::kStiffness) {
-    wrench = external_wrench_.inStiffness(wrench);
+  in_acceleration_ = phase_.update(accelerating_);
+  const bool in_K = parameters_.threshold_frame == ThresholdFrame::kStiffness;
+  if (!parameters_.reflexes) {
+    // The manual's formulas, for the values that are shown (decision 48).
+    const std::array<double, 6>& shown = in_K ? state_.K_F_ext_hat_K : state_.O_F_ext_hat_K;
+    state_.joint_contact = above(state_.tau_ext_hat_filtered, thresholds().lower_torque);
+    state_.joint_collision = above(state_.tau_ext_hat_filtered, thresholds().upper_torque);
+    state_.cartesian_contact = above(shown, thresholds().lower_force);
+    state_.cartesian_collision = above(shown, thresholds().upper_force);
+    return;
   }
-  const CollisionThresholds& thresholds =
-      phase_.update(accelerating_) ? parameters_.acceleration : parameters_.nominal;
-  joint_contacts_.update(tau_ext_, thresholds.lower_torque, thresholds.upper_torque);
-  cartesian_contacts_.update(wrench, thresholds.lower_force, thresholds.upper_force);
+  // The robot's act on what the filters have not yet delayed (decision 3).
+  wrench_ = external_wrench_.inBase(tau_ext_);
+  if (in_K) {
+    wrench_ = external_wrench_.inStiffness(wrench_);
+  }
+  joint_contacts_.update(tau_ext_, thresholds().lower_torque, thresholds().upper_torque);
+  cartesian_contacts_.update(wrench_, thresholds().lower_force, thresholds().upper_force);
   state_.joint_contact = joint_contacts_.contact();
   state_.joint_collision = joint_contacts_.collision();
   state_.cartesian_contact = cartesian_contacts_.contact();
@@ -220,9 +229,11 @@ void ControlUnit::checkMotion() noexcept {
   // Torques from outside bring the arm wherever they like, whatever a generator beside them wants.
   const bool generated = generates() && !controlledOutside();
   if (self_collision_.violated(parameters_.model, generated ? state_.q_d : state_.q)) {
+    joint_collision_ = worstOf(tau_ext_, thresholds().upper_torque);
     flag(indexOf(ErrorFlag::kSelfCollision));
   }
   if (walls_.violated(state_.O_T_EE)) {
+    cartesian_collision_ = worstOf(wrench_, thresholds().upper_force);
     flag(indexOf(ErrorFlag::kVirtualWall));
   }
   if (controlledOutside()) {

@@ -400,10 +400,7 @@ void ControlUnit::enter(RobotMode before) noexcept {
 void ControlUnit::settle() noexcept {
   if (parameters_.reflexes) {
     // The shock of closing brakes, or the hands of a person, are no collisions.
-    joint_contacts_.clear();
-    cartesian_contacts_.clear();
-    state_.joint_collision.fill(0.0);
-    state_.cartesian_collision.fill(0.0);
+    clearContacts();
   }
   if (user_stop_) {
     handle(ModeEvent::kUserStopPressed);
@@ -434,6 +431,11 @@ void ControlUnit::brake() noexcept {
   rest_ = Rest::kBraking;
   rest_ticks_ = 0;
 }
+  joint_collision_ = cartesian_collision_ = Collision();
+  clearContacts();
+}
+
+void ControlUnit::clearContacts() noexcept {
 
 void ControlUnit::holdHere() noexcept {
   state_.q_d = state_.q;

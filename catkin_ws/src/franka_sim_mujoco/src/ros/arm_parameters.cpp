@@ -5,9 +5,11 @@
 #include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
+#include <ros/console.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace franka_sim_mujoco {
@@ -70,6 +72,11 @@ void readThresholds(const ros::NodeHandle& node, const std::string& phase,
     throw std::invalid_argument("The parameters " + node.resolveName("collision_config") + "/*_" +
                                 phase + " are wrong: " + fault);
   }
+  const std::string remark = thresholdRemark(thresholds);
+  if (!remark.empty()) {
+    ROS_WARN_STREAM_NAMED("franka_hw_sim", "The parameters " << node.resolveName("collision_config")
+                                                             << "/*_" << phase << ": " << remark);
+  }
 }
 
 template <std::size_t N>
@@ -80,9 +87,20 @@ std::string checkPair(const std::array<double, N>& lower, const std::array<doubl
     if (!std::isfinite(lower[i]) || !std::isfinite(upper[i]) || lower[i] < 0.0 || upper[i] < 0.0) {
       return "The " + which + " must be a finite number that is not negative.";
     }
+  }
+  return "";
+}
+
+template <std::size_t N>
+std::string pairRemark(const std::array<double, N>& lower, const std::array<double, N>& upper,
+                       const std::string& what) {
+  for (std::size_t i = 0; i < N; ++i) {
     if (lower[i] > upper[i]) {
-      return "The lower " + which + " (" + std::to_string(lower[i]) + ") is above the upper one (" +
-             std::to_string(upper[i]) + ").";
+      char numbers[80];
+      std::snprintf(numbers, sizeof(numbers), "(%g) is above the upper one (%g)", lower[i],
+                    upper[i]);
+      return "The lower " + what + " threshold " + std::to_string(i + 1) + " " + numbers +
+             ": collisions begin before contacts.";
     }
   }
   return "";
@@ -93,6 +111,12 @@ std::string checkPair(const std::array<double, N>& lower, const std::array<doubl
 std::string checkThresholds(const CollisionThresholds& thresholds) {
   const std::string fault = checkPair(thresholds.lower_torque, thresholds.upper_torque, "torque");
   return fault.empty() ? checkPair(thresholds.lower_force, thresholds.upper_force, "force") : fault;
+}
+
+std::string thresholdRemark(const CollisionThresholds& thresholds) {
+  const std::string remark = pairRemark(thresholds.lower_torque, thresholds.upper_torque, "torque");
+  return remark.empty() ? pairRemark(thresholds.lower_force, thresholds.upper_force, "force")
+                        : remark;
 }
 
 std::string readArmId(const ros::NodeHandle& node, const std::string& robot_namespace,

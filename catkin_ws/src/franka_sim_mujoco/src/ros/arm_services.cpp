@@ -53,6 +53,10 @@ CollisionThresholds checked(const CollisionThresholds& thresholds, const std::st
   if (!fault.empty()) {
     throw std::runtime_error(phase + fault);
   }
+  const std::string remark = thresholdRemark(thresholds);
+  if (!remark.empty()) {
+    ROS_WARN_STREAM_NAMED(kLog, phase << remark);
+  }
   return thresholds;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/lowpass_filter.h>
 #include <franka_core/error_names.h>
+#include <franka_core/transform.h>
 #include <franka_sim_mujoco/fci/serving.h>
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
@@ -82,14 +83,28 @@ void warnOfGains(const ros::NodeHandle& node, const std::string& arm_id) {
   }
 }
 
-std::string namesOfErrors(std::uint64_t errors) {
-  std::string names;
+/// In parentheses, where there is something to say beyond the error's name.
+std::string detailOf(const SimArm::Abort& abort, std::size_t error) {
+  std::string detail;
+  if (error == indexOf(ErrorFlag::kJointReflex) && abort.joint_collision.happened) {
+    detail = describeJointCollision(abort.joint_collision);
+  } else if (error == indexOf(ErrorFlag::kCartesianReflex) && abort.cartesian_collision.happened) {
+    detail = describeCartesianCollision(abort.cartesian_collision, ThresholdFrame::kStiffness);
+  } else if (error == indexOf(MotionFlag::kInvalidFrame)) {
+    detail = "of the commanded pose " + franka_core::transformFault(abort.pose);
+  }
+  return detail.empty() ? "" : " (" + detail + ")";
+}
+
+std::string describe(const SimArm::Abort& abort) {
+  std::string text;
   for (std::size_t i = 0; i < franka_core::kErrorNames.size(); ++i) {
-    if ((errors >> i & 1) != 0) {
-      names += (names.empty() ? "" : ", ") + std::string(franka_core::kErrorNames[i]);
+    if (abort.errors[i]) {
+      text += (text.empty() ? "" : ", ") + std::string(franka_core::kErrorNames[i]) +
+              detailOf(abort, i);
     }
   }
-  return names;
+  return text;
 }
 
 }  // namespace
@@ -317,13 +332,13 @@ void FrankaHWSim::report() {
                    arm_id_.c_str(), static_cast<unsigned long long>(refused - reported_commands_));
     reported_commands_ = refused;
   }
-  const std::uint64_t aborts = arm_->aborts();
-  if (aborts != reported_aborts_) {
-    reported_aborts_ = aborts;
+  const SimArm::Abort& abort = arm_->lastAbort();
+  if (abort.count != reported_aborts_) {
+    reported_aborts_ = abort.count;
     ROS_ERROR_NAMED(kLog,
                     "%s: the motion was ended by the robot: %s. Its controllers have no effect "
                     "before the action franka_control/error_recovery is called.",
-                    arm_id_.c_str(), namesOfErrors(arm_->lastErrors()).c_str());
+                    arm_id_.c_str(), describe(abort).c_str());
   }
   if (model_->takeSingularityWarning()) {
     ROS_WARN_NAMED(kLog,

@@ -75,7 +75,7 @@ ServedRobot::ServedRobot(const RobotPlan& plan, World& world, BetweenTicks betwe
     : between_ticks_(std::move(between_ticks)),
       robot_(makeRobot(plan, world)),
       desk_(ros::NodeHandle(ros::NodeHandle(plan.robot_namespace), "franka_sim")) {
-  robot_.onSelfCollision([name = plan.description.name](const std::string& what) {
+  robot_.onCollision([name = plan.description.name](const std::string& what) {
     ROS_WARN_STREAM("Robot '" << name << "': " << what);
   });
   robot_.onRefusal([name = plan.description.name](const std::string& what) {

@@ -86,7 +86,20 @@ void SimArm::show() noexcept {
     state_.tau_ext_hat_filtered = tau_ext_filtered_;
     state_.O_F_ext_hat_K = O_F_ext_filtered_;
     state_.K_F_ext_hat_K = K_F_ext_filtered_;
+    showContacts();
   }
+}
+
+// The manual's formulas are for the values that are shown; reflexes have a rule of their own.
+void SimArm::showContacts() noexcept {
+  if (unit_.parameters().reflexes) {
+    return;
+  }
+  const CollisionThresholds& thresholds = unit_.thresholds();
+  state_.joint_contact = above(state_.tau_ext_hat_filtered, thresholds.lower_torque);
+  state_.joint_collision = above(state_.tau_ext_hat_filtered, thresholds.upper_torque);
+  state_.cartesian_contact = above(state_.K_F_ext_hat_K, thresholds.lower_force);
+  state_.cartesian_collision = above(state_.K_F_ext_hat_K, thresholds.upper_force);
 }
 
 void SimArm::filter() noexcept {
@@ -120,12 +133,12 @@ const franka_core::RobotCommand* SimArm::command() noexcept {
 void SimArm::watch() noexcept {
   const bool faulty = unit_.state().robot_mode == RobotMode::kReflex;
   if (faulty && !faulty_.load(std::memory_order_relaxed)) {
-    std::uint64_t errors = 0;
-    for (std::size_t i = 0; i < unit_.state().errors.size(); ++i) {
-      errors |= unit_.state().errors[i] ? std::uint64_t{1} << i : 0;
-    }
-    last_errors_.store(errors, std::memory_order_relaxed);
-    aborts_.fetch_add(1, std::memory_order_release);
+    ++last_abort_.count;
+    last_abort_.errors = unit_.state().errors;
+    last_abort_.joint_collision = unit_.jointCollision();
+    last_abort_.cartesian_collision = unit_.cartesianCollision();
+    last_abort_.pose = command_.O_T_EE_c;
+    abort_.write(last_abort_);
   }
   faulty_.store(faulty, std::memory_order_relaxed);
 }

@@ -232,7 +232,7 @@ TEST_F(SimRobotTest, losesTheSameCommandsAgainAfterARestart) {
 
 TEST_F(Panda, SaysOnceWhichLinksCameTooClose) {
   std::vector<std::string> told;
-  robot.onSelfCollision([&](const std::string& what) { told.push_back(what); });
+  robot.onCollision([&](const std::string& what) { told.push_back(what); });
   ASSERT_EQ(RequestStatus::kSuccess, robot.unit().startTorqueControl());
   EXPECT_EQ(std::string::npos, describe(robot).find("hand"));
   const std::array<double, 7> folded{{0, -0.566, 0, -3.0, 0.085, 0.783, 0.785}};

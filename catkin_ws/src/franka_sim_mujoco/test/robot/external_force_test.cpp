@@ -15,6 +15,7 @@ namespace franka_sim_mujoco::test {
 
 namespace {
 
+using franka_core::RobotMode;
 using franka_core::RobotState;
 
 double smallestSingularValue(const ControlUnit& unit) {
@@ -148,23 +149,80 @@ TEST_F(ArmTest, ContactShowsBetweenTheThresholdsAndClears) {
   EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_contact);
 }
 
+TEST_F(ArmTest, WithoutReflexesTheFlagsAreTheManualsFormulasAtEveryMoment) {
+  // Also where a lower threshold lies above the upper one.
+  CollisionThresholds t = parameters.nominal;
+  t.lower_force = {{10, 10, 10, 10, 10, 30}};
+  t.upper_force.fill(20);
+  t.lower_torque.fill(3);
+  t.upper_torque.fill(8);
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  int contacts = 0;
+  int collisions = 0;
+  for (int i = 0; i < 3000; i++) {
+    arm.push = {{0, 0, -30.0 * std::sin(0.01 * i), 0, 0, 0}};
+    const RobotState& state = tick(unit, arm);
+    for (std::size_t j = 0; j < 7; j++) {
+      const double shown = std::abs(state.tau_ext_hat_filtered[j]);
+      ASSERT_EQ(shown > 3 ? 1.0 : 0.0, state.joint_contact[j]);
+      ASSERT_EQ(shown > 8 ? 1.0 : 0.0, state.joint_collision[j]);
+    }
+    for (std::size_t j = 0; j < 6; j++) {
+      const double shown = std::abs(state.K_F_ext_hat_K[j]);
+      ASSERT_EQ(shown > t.lower_force[j] ? 1.0 : 0.0, state.cartesian_contact[j]);
+      ASSERT_EQ(shown > 20 ? 1.0 : 0.0, state.cartesian_collision[j]);
+      contacts += state.cartesian_contact[j] > 0.0 ? 1 : 0;
+      collisions += state.cartesian_collision[j] > 0.0 ? 1 : 0;
+    }
+    ASSERT_EQ(RobotMode::kIdle, state.robot_mode);
+  }
+  EXPECT_GT(collisions, 100);
+  EXPECT_GT(contacts, collisions);
+  arm.push.fill(0.0);
+  run(1000);
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_collision);
+}
+
 TEST_F(ArmTest, CollisionLatchesUntilRecovery) {
+  behaveAsOverFci(parameters, 5);
+  rebuild();
+  run(1);
   CollisionThresholds t = parameters.nominal;
   t.lower_force.fill(10);
   t.upper_force.fill(20);
   t.lower_torque.fill(80);
   t.upper_torque.fill(90);
   ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  EXPECT_FALSE(unit.cartesianCollision().happened);
   arm.push = {{0, 0, -30, 0, 0, 0}};
-  run(3000);
+  run(100);
+  EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
   EXPECT_EQ(1.0, unit.state().cartesian_collision[2]);
   EXPECT_EQ(0.0, unit.state().cartesian_contact[2]);
+  const Collision& collision = unit.cartesianCollision();
+  EXPECT_TRUE(collision.happened && !unit.jointCollision().happened);
+  EXPECT_EQ(2u, collision.index);
+  EXPECT_GT(collision.value, 20.0);
+  EXPECT_EQ(20.0, collision.threshold);
   arm.push.fill(0.0);
   run(3000);
   EXPECT_EQ(1.0, unit.state().cartesian_collision[2]);
   EXPECT_EQ(RequestStatus::kSuccess, unit.automaticErrorRecovery());
   run(100);
   EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_collision);
+  EXPECT_FALSE(unit.cartesianCollision().happened);
+}
+
+TEST(CollisionText, NamesValueThresholdUnitAndPlace) {
+  EXPECT_EQ("joint 4: external torque -23.4 Nm, upper threshold 20 Nm",
+            describeJointCollision({true, 3, -23.4, 20.0}));
+  EXPECT_EQ("along z of O: external force 25.1 N, upper threshold 20 N",
+            describeCartesianCollision({true, 2, 25.1, 20.0}, ThresholdFrame::kBase));
+  EXPECT_EQ("about x of K: external torque 3.5 Nm, upper threshold 0 Nm",
+            describeCartesianCollision({true, 3, 3.5, 0.0}, ThresholdFrame::kStiffness));
+  const Collision worst = worstOf<6>({{5, -30, 9, 0, 0, 0}}, {{1, 20, 10, 1, 1, 1}});
+  EXPECT_EQ(0u, worst.index);
+  EXPECT_FALSE(worstOf<6>({}, {}).happened);
 }
 
 TEST_F(ArmTest, JointThresholdsActPerJoint) {
@@ -207,6 +265,7 @@ TEST_F(ArmTest, ThresholdsMeetTheWrenchInTheFrameOfTheFace) {
 }
 
 TEST_F(ArmTest, ThresholdsDoNotWaitForTheFilter) {
+  behaveAsOverFci(parameters, 5);
   parameters.nominal.upper_force.fill(20);
   rebuild();
   run(100);

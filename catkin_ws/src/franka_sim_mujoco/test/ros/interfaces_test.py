@@ -310,13 +310,12 @@ class InterfacesTest(unittest.TestCase):
             )
             world = matrix(state.O_T_EE, 4)[:3, :3] @ matrix(state.EE_T_K, 4)[:3, :3]
             np.testing.assert_allclose(world @ state.K_F_ext_hat_K[:3], state.O_F_ext_hat_K[:3], atol=1e-6)
-            self.assertTrue(any(state.cartesian_contact) or any(state.cartesian_collision))
+            self.assertTrue(any(state.cartesian_contact))
             self.assertEqual(any(state.cartesian_collision), collides)
             self.assertEqual(state.robot_mode, IDLE)  # shown, not reacted to
             self.arm.when(lambda state: abs(state.O_F_ext_hat_K[1]) < 0.3)
-        self.assertTrue(any(self.arm.state().cartesian_collision), "latched until recovery")
-        self.assertEqual(self.arm.recover()[0], GoalStatus.SUCCEEDED)
-        self.arm.when(lambda state: not any(state.cartesian_collision))
+        # Without reflexes the flags are the manual's formulas at every moment: nothing is latched.
+        self.arm.when(lambda state: not any(state.cartesian_collision) and not any(state.cartesian_contact))
 
     def hand(self):
         x, y, z = matrix(self.arm.state().O_T_EE, 4)[:3, 3]
@@ -380,7 +379,7 @@ class InterfacesTest(unittest.TestCase):
                 "set_full_collision_behavior",
                 SetFullCollisionBehavior,
                 [lows, highs, lows, highs, lows[:6], highs[:6], lows[:6], highs[:6]],
-                [highs, lows, lows, highs, lows[:6], highs[:6], lows[:6], highs[:6]],
+                [[-1.0] * 7, highs, lows, highs, lows[:6], highs[:6], lows[:6], highs[:6]],
             ),
         ):
             answer = self.arm.service(name, kind, *good)

@@ -56,7 +56,7 @@ WRONG = [
         "lower_torque_thresholds_nominal",
     ),
     ("collision_config/upper_torque_thresholds_nominal", [-1.0] * 7, "torque threshold"),
-    ("collision_config/lower_force_thresholds_nominal", [90.0] * 6, "force threshold"),
+    ("collision_config/lower_force_thresholds_nominal", [-1.0] * 6, "force threshold"),
     (
         "collision_config/upper_force_thresholds_nominal",
         "a b c d e f",

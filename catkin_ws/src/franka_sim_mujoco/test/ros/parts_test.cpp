@@ -15,6 +15,7 @@
 #include <franka_sim_mujoco/ros/request_queue.h>
 #include <franka_sim_mujoco/ros/resources.h>
 #include <franka_sim_mujoco/ros/robot_type.h>
+#include <franka_sim_mujoco/ros/sim_arm.h>
 #include <franka_sim_mujoco/ros/world_file.h>
 #include <gtest/gtest.h>
 
@@ -33,6 +34,9 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+
+#include "../robot/arm_fixture.h"
+#include "../robot/transform_sweep.h"
 
 namespace franka_sim_mujoco {
 namespace {
@@ -497,6 +501,89 @@ TEST(CommandShaper, HandsOnWhatIsNoNumberForTheRobotToJudge) {
   const auto pose =
       shapeCommand(limited, franka_hw::ControlMode::CartesianPose, wanted, state, limitsOf(5));
   EXPECT_EQ(2.0, pose.O_T_EE_c[0]);
+}
+
+/// An arm under ros_control whose Cartesian pose controller has just started.
+struct PoseControlledArm {
+  PoseControlledArm(const ControlUnitParameters& parameters, const ShapingOptions& shaping)
+      : plant(parameters.model, test::kReady), arm(parameters, plant, options(shaping)) {
+    plant.payload = parameters.end_effector;
+    arm.read(ros::Time(1));
+    arm.control(franka_hw::ControlMode::CartesianPose, franka_hw::ControlMode::None);
+  }
+  static SimArmOptions options(const ShapingOptions& shaping) {
+    SimArmOptions options;
+    options.shaping = shaping;
+    return options;
+  }
+  void tick() {
+    arm.write();
+    plant.step();
+    arm.read(ros::Time(1));
+  }
+
+  test::FakeArm plant;
+  SimArm arm;
+};
+
+TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
+  ControlUnitParameters parameters = test::pandaWithHand();
+  for (const bool reflexes : {false, true}) {
+    for (const bool limited : {false, true}) {
+      for (const double cutoff : {100.0, 1000.0}) {
+        parameters.reflexes = reflexes;
+        ShapingOptions shaping;
+        shaping.rate_limiting = limited;
+        shaping.cutoff_frequency = cutoff;
+        const std::array<double, 16> pose =
+            PoseControlledArm(parameters, shaping).arm.commands().pose;
+        for (const test::DustyMatrix& dusty : test::dustOn(pose)) {
+          PoseControlledArm controlled(parameters, shaping);
+          ASSERT_EQ(SimArm::Switch::kDone, controlled.arm.switchResult());
+          controlled.arm.commands().pose = dusty.matrix;
+          controlled.tick();
+          controlled.tick();
+          const bool runs = controlled.arm.state().robot_mode == franka::RobotMode::kMove;
+          EXPECT_EQ(dusty.accepted, runs) << dusty << ", reflexes " << reflexes << ", limited "
+                                          << limited << ", cutoff " << cutoff;
+          EXPECT_EQ(dusty.accepted ? 0u : 1u, controlled.arm.lastAbort().count) << dusty;
+          EXPECT_EQ(!dusty.accepted,
+                    controlled.arm.lastAbort().errors[indexOf(MotionFlag::kInvalidFrame)]);
+        }
+      }
+    }
+  }
+}
+
+TEST(SimArm, FlagsAreTheManualsFormulasForTheFilteredValuesThatAreShown) {
+  ControlUnitParameters parameters = test::pandaWithHand();
+  test::FakeArm plant(parameters.model, test::kReady);
+  plant.payload = parameters.end_effector;
+  SimArmOptions options;
+  options.filter_alpha = 0.02;
+  SimArm arm(parameters, plant, options);
+  int contacts = 0;
+  for (int i = 0; i < 1000; ++i) {
+    plant.push = {{0, 0, i < 500 ? 40.0 : 0.0, 0, 0, 0}};
+    arm.read(ros::Time(1));
+    arm.write();
+    plant.step();
+    const franka::RobotState& state = arm.state();
+    for (std::size_t j = 0; j < 7; ++j) {
+      const double shown = std::abs(state.tau_ext_hat_filtered[j]);
+      ASSERT_EQ(shown > parameters.nominal.lower_torque[j] ? 1.0 : 0.0, state.joint_contact[j]);
+      ASSERT_EQ(shown > parameters.nominal.upper_torque[j] ? 1.0 : 0.0, state.joint_collision[j]);
+    }
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double shown = std::abs(state.K_F_ext_hat_K[j]);
+      ASSERT_EQ(shown > parameters.nominal.lower_force[j] ? 1.0 : 0.0, state.cartesian_contact[j]);
+      ASSERT_EQ(shown > parameters.nominal.upper_force[j] ? 1.0 : 0.0,
+                state.cartesian_collision[j]);
+      contacts += state.cartesian_contact[j] > 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(contacts, 100);
+  EXPECT_LT(contacts, 700);
 }
 
 /// The robot itself judges what the shaper makes of commands that jump.

@@ -183,9 +183,9 @@ class SimulationTest(unittest.TestCase):
                 [20, 20, 20, 25, 25, 25],
             ).success
         )
-        bad = set_behavior([5] * 7, [4] * 7, [5] * 6, [50] * 6)
+        bad = set_behavior([-5] * 7, [4] * 7, [5] * 6, [50] * 6)
         self.assertFalse(bad.success)
-        self.assertIn("lower", bad.error)
+        self.assertIn("negative", bad.error)
         self.assertFalse(push("no_such_body", Vector3(), Vector3(), False, Point(), 1).success)
         # The push lasts 100 s of simulated time, which a busy machine takes a while for.
         state_when(lambda s: abs(s.O_F_ext_hat_K[0]) < 0.5, wait=3 * WAIT)

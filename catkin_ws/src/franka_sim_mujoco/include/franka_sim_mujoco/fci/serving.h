@@ -36,7 +36,18 @@ std::string linksOf(const SelfCollision::Pair& pair);
 /// @throws std::runtime_error with a sentence when the robot refuses it
 void setLoad(SimRobot& robot, const franka_core::Payload& load);
 
-/// Mode, client, errors (of a self-collision: its links) and joints in one line for a person.
+/// What a person is told of a collision that raised this error (self-collision, joint or Cartesian
+/// reflex): "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
+std::string collisionOf(const ControlUnit& unit, ErrorFlag error);
+
+/// Where a real arm comes to rest that was told to go to q [rad]: its model of gravity is wrong by
+/// a few tenths of a newton metre, which the stiffness [Nm/rad] of the hold answers with about 1e-4
+/// rad (docs/fidelity.md). A position that equals its target to the last bit is none that a client
+/// was ever tried with.
+std::array<double, 7> restingNear(const std::array<double, 7>& q,
+                                  const std::array<double, 7>& stiffness) noexcept;
+
+/// Mode, client, errors (of collisions: what met what) and joints in one line for a person.
 std::string describe(SimRobot& robot);
 
 }  // namespace franka_sim_mujoco::fci

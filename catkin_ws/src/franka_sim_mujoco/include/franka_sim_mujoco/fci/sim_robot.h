@@ -50,9 +50,10 @@ class SimRobot final : public HostedRobot {
   /// Null where the robot has none.
   VacuumGripperUnit* vacuum() noexcept { return vacuum_ ? &vacuum_->unit : nullptr; }
 
-  /// Who is told when links come too close to each other (decision 17), once for each time the
-  /// error appears: what follows the robot's name and a colon. Called within `observe`.
-  void onSelfCollision(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
+  /// Who is told when links come too close to each other (decision 17) or the arm meets something,
+  /// once for each time the error appears: what follows the robot's name and a colon. Called within
+  /// `observe`.
+  void onCollision(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
 
   /// Who is told why connections were ended (ClientSlot::onRefusal): what follows the robot's name
   /// and a colon. Called within `serve`.
@@ -104,7 +105,6 @@ class SimRobot final : public HostedRobot {
 
   void publishTools(std::uint64_t ticks);
   void updateHash() noexcept;
-  bool collidesWithItself() const noexcept;
 
   ControlUnit unit_;
   ArmPlant& arm_;

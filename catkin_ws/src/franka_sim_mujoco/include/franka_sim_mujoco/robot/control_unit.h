@@ -6,6 +6,7 @@
 #include <franka_core/fci/commands.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim_mujoco/robot/cartesian_impedance.h>
+#include <franka_sim_mujoco/robot/collision.h>
 #include <franka_sim_mujoco/robot/command_filter.h>
 #include <franka_sim_mujoco/robot/contact_monitor.h>
 #include <franka_sim_mujoco/robot/control_unit_parameters.h>
@@ -119,6 +120,13 @@ class ControlUnit {
   const SelfCollision::Pair& selfCollisionPair() const noexcept {
     return self_collision_.culprit();
   }
+  /// What joint_reflex and cartesian_reflex were raised for, until they are recovered from.
+  const Collision& jointCollision() const noexcept { return joint_collision_; }
+  const Collision& cartesianCollision() const noexcept { return cartesian_collision_; }
+  /// The thresholds of contact and collision that held in this tick.
+  const CollisionThresholds& thresholds() const noexcept {
+    return in_acceleration_ ? parameters_.acceleration : parameters_.nominal;
+  }
 
   /// The same without waiting, for the ROS simulation: external torque control without a motion
   /// generator; its end, from which on the arm brakes and is held; recovery, refused while the user
@@ -150,8 +158,8 @@ class ControlUnit {
   /// Refused when not finite, of negative mass, or with an inertia no body has (not symmetric, a
   /// negative principal moment).
   RequestStatus setLoad(const franka_core::Payload& load) noexcept;
-  /// Refused when not finite or negative. A lower threshold at or above the upper one means: no
-  /// contacts.
+  /// Refused when not finite or negative. A lower threshold may lie above the upper one: with
+  /// reflexes there are then no contacts.
   RequestStatus setCollisionBehavior(const CollisionThresholds& acceleration,
                                      const CollisionThresholds& nominal) noexcept;
   /// Of the internal joint controller, 0 to 14250 [Nm/rad].
@@ -220,6 +228,7 @@ class ControlUnit {
   void holdHere() noexcept;
   void showDesired(const DesiredMotion& desired) noexcept;
   void showModes() noexcept;
+  void clearContacts() noexcept;
   void showConfiguration() noexcept;
 
   ControlUnitParameters parameters_;
@@ -238,6 +247,7 @@ class ControlUnit {
   ExternalTorque external_torque_;
   ExternalWrench external_wrench_;
   LowPass<7> tau_ext_filter_, dtau_J_filter_;
+  std::array<double, 6> wrench_{};       // likewise, in the axes of the thresholds
   ContactMonitor<7> joint_contacts_;
   ContactMonitor<6> cartesian_contacts_;
   ThresholdPhase phase_;
@@ -245,6 +255,8 @@ class ControlUnit {
   SelfCollision self_collision_;
   VirtualWalls walls_;
 
+  bool in_acceleration_{false};  // those thresholds hold
+  Collision joint_collision_, cartesian_collision_;
   MoveRequest move_;
   MotionGenerator generator_;
   bool accelerating_{false};

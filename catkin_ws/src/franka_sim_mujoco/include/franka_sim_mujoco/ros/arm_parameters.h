@@ -41,8 +41,11 @@ std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& a
 std::string readArmId(const ros::NodeHandle& node, const std::string& robot_namespace,
                       const std::string& robot_name);
 
-/// Sentence for the first threshold that is negative or not a number, or lower above upper; empty
-/// if none.
+/// Sentence for the first threshold that is negative or not a number; empty if none.
 std::string checkThresholds(const CollisionThresholds& thresholds);
+
+/// Sentence for a log about the first lower threshold above its upper one, which robot and
+/// simulation take as it is; empty if none.
+std::string thresholdRemark(const CollisionThresholds& thresholds);
 
 }  // namespace franka_sim_mujoco

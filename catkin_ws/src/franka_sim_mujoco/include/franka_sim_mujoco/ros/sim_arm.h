@@ -4,6 +4,7 @@
 
 #include <franka/robot_state.h>
 #include <franka_hw/control_mode.h>
+#include <franka_hw/latest.h>
 #include <franka_sim_mujoco/robot/control_unit.h>
 #include <franka_sim_mujoco/robot/plant.h>
 #include <franka_sim_mujoco/ros/arm_commands.h>
@@ -41,6 +42,14 @@ class SimArm {
   };
   /// Why the last motion did not start.
   enum class Refusal { kNone, kSingular, kNotAtRest };
+
+  /// What ended a motion.
+  struct Abort {
+    std::uint64_t count{0};  ///< of motions that errors have ended so far
+    std::array<bool, franka_core::kErrorCount> errors{};
+    Collision joint_collision, cartesian_collision;
+    std::array<double, 16> pose{};  ///< that was commanded last
+  };
 
   SimArm(const ControlUnitParameters& parameters, ArmPlant& plant, const SimArmOptions& options);
 
@@ -94,10 +103,8 @@ class SimArm {
   std::uint64_t refusedCommands() const noexcept {
     return refused_commands_.load(std::memory_order_relaxed);
   }
-  /// How many motions have been ended by errors, and the errors of the last one as bits in the
-  /// order of franka_core::RobotState::errors. Any thread.
-  std::uint64_t aborts() const noexcept { return aborts_.load(std::memory_order_acquire); }
-  std::uint64_t lastErrors() const noexcept { return last_errors_.load(std::memory_order_relaxed); }
+  /// How the last motion was ended by errors, for the log. One thread.
+  const Abort& lastAbort() noexcept { return abort_.read(); }
   /// Why the last switch was refused. Any thread.
   Refusal refusal() const noexcept { return refusal_.load(std::memory_order_relaxed); }
 
@@ -113,6 +120,7 @@ class SimArm {
   void filter() noexcept;
   /// Brings what controllers see up to date.
   void show() noexcept;
+  void showContacts() noexcept;
 
   ControlUnit unit_;
   ArmPlant& plant_;
@@ -131,7 +139,9 @@ class SimArm {
   bool needs_recovery_{false};  ///< since a user stop
   std::atomic<bool> user_stopped_{false}, connected_{true}, faulty_{false};
   std::atomic<Refusal> refusal_{Refusal::kNone};
-  std::atomic<std::uint64_t> refused_commands_{0}, aborts_{0}, last_errors_{0};
+  std::atomic<std::uint64_t> refused_commands_{0};
+  Abort last_abort_;
+  franka_hw::Latest<Abort> abort_;
 };
 
 }  // namespace franka_sim_mujoco
