@@ -99,7 +99,7 @@ const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measur
   O_dP_EE_ = twist(dynamics_.zero_jacobian, now.dq);
   if (first) {
     state_.tau_J = dynamics_.gravity;
-    holdHere();
+    beginHere();
   } else if (mode() == RobotMode::kGuiding) {
     holdHere();
   }
@@ -112,6 +112,17 @@ const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measur
   }
   state_.control_command_success_rate = losses_.rate();
   return state_;
+}
+
+// What a mode remembers of the pose in which it began belongs to this pose now.
+void ControlUnit::beginHere() noexcept {
+  holdHere();
+  guiding_pose_ = state_.O_T_EE;
+  guiding_q_ = state_.q;
+  if (mode() == RobotMode::kMove) {
+    self_collision_.begin(parameters_.model, state_.q);
+    walls_.begin(state_.O_T_EE);
+  }
 }
 
 void ControlUnit::observeTorques(const ArmMeasurement& measurement, bool measured) noexcept {
@@ -218,9 +229,11 @@ void ControlUnit::checkMeasurement() noexcept {
 
 void ControlUnit::checkContacts() noexcept {
   if (any(state_.joint_collision)) {
+    joint_collision_ = worstOf(tau_ext_, thresholds().upper_torque);
     flag(indexOf(ErrorFlag::kJointReflex));
   }
   if (any(state_.cartesian_collision)) {
+    cartesian_collision_ = worstOf(wrench_, thresholds().upper_force);
     flag(indexOf(ErrorFlag::kCartesianReflex));
   }
 }
@@ -229,11 +242,9 @@ void ControlUnit::checkMotion() noexcept {
   // Torques from outside bring the arm wherever they like, whatever a generator beside them wants.
   const bool generated = generates() && !controlledOutside();
   if (self_collision_.violated(parameters_.model, generated ? state_.q_d : state_.q)) {
-    joint_collision_ = worstOf(tau_ext_, thresholds().upper_torque);
     flag(indexOf(ErrorFlag::kSelfCollision));
   }
   if (walls_.violated(state_.O_T_EE)) {
-    cartesian_collision_ = worstOf(wrench_, thresholds().upper_force);
     flag(indexOf(ErrorFlag::kVirtualWall));
   }
   if (controlledOutside()) {

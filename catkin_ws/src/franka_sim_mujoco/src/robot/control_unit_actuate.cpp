@@ -145,18 +145,10 @@ void ControlUnit::advanceRest() noexcept {
   if (!brake_.atRest()) {
     return;
   }
-  rest_ = Rest::kReached;
+  atRest();
   if (reflex) {
     rest_ = Rest::kReleasing;
     rest_ticks_ = 0;
-  }
-  if (motion_end_at_rest_) {
-    motion_end_ = motion_end_at_rest_;
-    motion_end_at_rest_.reset();
-  }
-  if (stopping_) {
-    stop_end_ = Status::kSuccess;
-    stopping_ = false;
   }
 }
 

@@ -65,9 +65,9 @@ ControlUnit::Status ControlUnit::startMotion(const MoveRequest& request) noexcep
       return Status::kMotionStarted;
     }
   }
+  atRest();  // torques may overtake the braking of a motion
   move_ = request;
   motion_end_.reset();
-  motion_end_at_rest_.reset();
   state_.reflex_reason.fill(false);
   handle(ModeEvent::kMotionStarted);
   return Status::kMotionStarted;
@@ -298,6 +298,10 @@ RequestStatus ControlUnit::setProtocolVersion(unsigned version) noexcept {
 }
 
 void ControlUnit::restart() noexcept {
+  if (mode() == RobotMode::kMove && generates()) {
+    endMotion(ModeEvent::kMotionEnded, Status::kAborted, false);
+  }
+  atRest();
   started_ = false;
   continuous_ = false;
   tau_ext_filter_.restart();
@@ -307,7 +311,10 @@ void ControlUnit::restart() noexcept {
   torque_command_.clear();
   blend_.restart();
   phase_.restart();
-  rest_ = Rest::kReached;
+  accelerating_ = false;
+  losses_.restart();
+  force_watch_.restart();
+  still_ticks_ = 0;
 }
 
 // --- transitions ---------------------------------------------------------------------------------
@@ -324,8 +331,8 @@ void ControlUnit::react() noexcept {
   }
 }
 
-// Any event that ends a motion if one runs; the status is the motion's and that of a stop which
-// has not come to its end.
+// Any event that ends a motion if one runs; the status is the motion's and that of what still waits
+// for rest: a stop, or a motion that the client has finished.
 void ControlUnit::endMotion(ModeEvent event, Status status, bool at_rest) noexcept {
   const RobotMode before = mode();
   if (!handle(event)) {
@@ -334,7 +341,7 @@ void ControlUnit::endMotion(ModeEvent event, Status status, bool at_rest) noexce
   if (before == RobotMode::kMove) {
     (at_rest ? motion_end_at_rest_ : motion_end_) = status;
   } else if (motion_end_at_rest_) {
-    motion_end_ = motion_end_at_rest_;
+    motion_end_ = motion_end_at_rest_ == Status::kSuccess ? status : motion_end_at_rest_;
     motion_end_at_rest_.reset();
   }
   if (stopping_ && !at_rest) {
@@ -343,6 +350,19 @@ void ControlUnit::endMotion(ModeEvent event, Status status, bool at_rest) noexce
   }
   if (before == RobotMode::kAutomaticErrorRecovery) {
     recovery_end_ = status;
+  }
+}
+
+// The arm has come to rest: those who wait for that are answered.
+void ControlUnit::atRest() noexcept {
+  rest_ = Rest::kReached;
+  if (motion_end_at_rest_) {
+    motion_end_ = motion_end_at_rest_;
+    motion_end_at_rest_.reset();
+  }
+  if (stopping_) {
+    stop_end_ = Status::kSuccess;
+    stopping_ = false;
   }
 }
 
@@ -411,6 +431,11 @@ void ControlUnit::settle() noexcept {
 
 void ControlUnit::clearErrors() noexcept {
   state_.errors.fill(false);
+  joint_collision_ = cartesian_collision_ = Collision();
+  clearContacts();
+}
+
+void ControlUnit::clearContacts() noexcept {
   joint_contacts_.clear();
   cartesian_contacts_.clear();
   state_.joint_collision.fill(0.0);
@@ -431,11 +456,6 @@ void ControlUnit::brake() noexcept {
   rest_ = Rest::kBraking;
   rest_ticks_ = 0;
 }
-  joint_collision_ = cartesian_collision_ = Collision();
-  clearContacts();
-}
-
-void ControlUnit::clearContacts() noexcept {
 
 void ControlUnit::holdHere() noexcept {
   state_.q_d = state_.q;

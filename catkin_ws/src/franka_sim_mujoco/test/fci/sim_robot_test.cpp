@@ -9,6 +9,8 @@
 #include <franka_sim_mujoco/fci/sim_robot.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -250,6 +252,60 @@ TEST_F(Panda, SaysOnceWhichLinksCameTooClose) {
             told.front());
   EXPECT_NE(std::string::npos,
             describe(robot).find("self_collision_avoidance_violation (link2 and hand)"));
+}
+
+TEST_F(SimRobotTest, aResetAnswersWhoeverWaitsForTheArmToComeToRest) {
+  TestClient client(robot.server().port());
+  connect(client, 10);
+  startMotion(client);
+  double q = test::kReady[0];
+  const auto command = [&](double speed) {
+    franka_core::RobotCommand command;
+    command.message_id = client.state()->message_id;
+    command.q_c = test::kReady;
+    command.q_c[0] = q += 1e-3 * speed;
+    client.command(command);
+  };
+  for (int i = 0; i < 300; i++) {
+    tick([&] { command(1e-3 * i); });
+  }
+  ASSERT_EQ(state().robot_mode, RobotMode::kMove);
+  client.request(codec::StopMoveRequest{});
+  robot.serve(false);
+  tick();
+  ASSERT_TRUE(robot.unit().settling());
+  EXPECT_FALSE(client.answer(Command::kMove, 0));
+  // A Move that does not wait for those answers would lose them.
+  client.request(codec::MoveRequest{franka_core::ControllerMode::kExternalController,
+                                    franka_core::MotionGeneratorMode::kNone});
+  robot.serve(false);
+  arm.put(test::kReady);
+  robot.restart();
+  tick();
+  std::vector<Status> statuses;
+  for (int i = 0; i < 3; i++) {
+    const auto answer = client.answer(Command::kMove, 1000);
+    ASSERT_TRUE(answer) << i;
+    statuses.push_back(answer->reply.status);
+  }
+  EXPECT_EQ(1, std::count(statuses.begin(), statuses.end(), Status::kCommandNotPossibleRejected));
+  EXPECT_EQ(1, std::count(statuses.begin(), statuses.end(), Status::kPreempted));
+  EXPECT_EQ(RobotMode::kIdle, state().robot_mode);
+  startMotion(client);
+}
+
+TEST_F(Panda, SaysWhatACollisionWasFelt) {
+  std::vector<std::string> told;
+  robot.onCollision([&](const std::string& what) { told.push_back(what); });
+  arm.push = {{0, 0, -60, 0, 0, 0}};
+  for (int i = 0; i < 20; i++) {
+    tick();
+  }
+  ASSERT_FALSE(told.empty());
+  for (const char* part : {"it met something", "external", "upper threshold", "_reflex)."}) {
+    EXPECT_NE(std::string::npos, told.front().find(part)) << told.front();
+  }
+  EXPECT_NE(std::string::npos, describe(robot).find("upper threshold")) << describe(robot);
 }
 
 }  // namespace

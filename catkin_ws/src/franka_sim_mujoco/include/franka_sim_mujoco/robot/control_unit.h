@@ -181,7 +181,9 @@ class ControlUnit {
   RequestStatus setProtocolVersion(unsigned version) noexcept;
 
   /// After the arm was put elsewhere (reset, teleport): forgets velocities, filters, commands and
-  /// collisions, and holds the new pose. The mode and the configuration stay.
+  /// collisions, and holds the new pose. A motion of a generator, whose way does not lead from
+  /// there, ends (kAborted); what waits for the arm to come to rest is answered as at rest. Else
+  /// the mode and the configuration stay.
   void restart() noexcept;
 
   /// The configuration as the setters left it.
@@ -198,6 +200,7 @@ class ControlUnit {
   bool settersAllowed() const noexcept;
 
   // observe
+  void beginHere() noexcept;
   void observeTorques(const ArmMeasurement& measurement, bool measured) noexcept;
   void observeContacts() noexcept;
   void observeAccelerometers(const std::array<double, 7>& dq_before) noexcept;
@@ -220,15 +223,16 @@ class ControlUnit {
   void react() noexcept;
   void finishMotion() noexcept;
   void endMotion(ModeEvent event, Status status, bool at_rest) noexcept;
+  void atRest() noexcept;
   bool handle(ModeEvent event) noexcept;
   void enter(franka_core::RobotMode before) noexcept;
   void settle() noexcept;
   void clearErrors() noexcept;
+  void clearContacts() noexcept;
   void brake() noexcept;
   void holdHere() noexcept;
   void showDesired(const DesiredMotion& desired) noexcept;
   void showModes() noexcept;
-  void clearContacts() noexcept;
   void showConfiguration() noexcept;
 
   ControlUnitParameters parameters_;
@@ -243,20 +247,20 @@ class ControlUnit {
   bool desired_stale_{true};             // q_d or the frames have changed
   franka_core::ArmDynamics dynamics_{};  // at the last measurement, frame EE
   std::array<double, 7> tau_ext_{};      // unfiltered
+  std::array<double, 6> wrench_{};       // likewise, in the axes of the thresholds
   std::array<double, 6> O_dP_EE_{};      // measured
   ExternalTorque external_torque_;
   ExternalWrench external_wrench_;
   LowPass<7> tau_ext_filter_, dtau_J_filter_;
-  std::array<double, 6> wrench_{};       // likewise, in the axes of the thresholds
   ContactMonitor<7> joint_contacts_;
   ContactMonitor<6> cartesian_contacts_;
   ThresholdPhase phase_;
+  bool in_acceleration_{false};  // those thresholds hold
+  Collision joint_collision_, cartesian_collision_;
   ForceWatch force_watch_;
   SelfCollision self_collision_;
   VirtualWalls walls_;
 
-  bool in_acceleration_{false};  // those thresholds hold
-  Collision joint_collision_, cartesian_collision_;
   MoveRequest move_;
   MotionGenerator generator_;
   bool accelerating_{false};
