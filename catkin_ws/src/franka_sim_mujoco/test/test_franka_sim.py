@@ -144,7 +144,7 @@ def test_switches_of_the_robot(pace):
         told, joints = say("state").split(", q ")
         assert told == "ok Idle, client of protocol 0, errors none"
         ready = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
-        assert [float(word) for word in joints.split()] == pytest.approx(ready, abs=1e-4)
+        assert [float(word) for word in joints.split()] == pytest.approx(ready, abs=2e-4)
         assert say("user_stop on") == "ok"
         assert say("state").startswith("ok User stopped")
         assert say("user_stop off") == "ok"

@@ -56,7 +56,8 @@ JointPhysics jointPhysics(const ArmOptions& options) {
 }
 
 RobotDescription describeRobot(const ArmOptions& options, const std::string& urdf,
-                               const JointPhysics& physics, bool hand) {
+                               const JointPhysics& physics, bool hand,
+                               const std::array<double, 7>& q) {
   RobotDescription robot;
   robot.name = options.arm_id;
   robot.urdf = urdf;
@@ -64,7 +65,7 @@ RobotDescription describeRobot(const ArmOptions& options, const std::string& urd
   robot.base.position = options.base;
   robot.base.orientation = {std::cos(0.5 * options.yaw), 0, 0, std::sin(0.5 * options.yaw)};
   for (std::size_t i = 0; i < 7; i++) {
-    robot.initial_positions[options.arm_id + "_joint" + std::to_string(i + 1)] = kReady[i];
+    robot.initial_positions[options.arm_id + "_joint" + std::to_string(i + 1)] = q[i];
   }
   if (hand) {
     for (const char* finger : {"_finger_joint1", "_finger_joint2"}) {
@@ -108,8 +109,9 @@ ServedArm::ServedArm(const ArmOptions& options, World& world) : options_(options
   const std::string urdf = robotText(options);
   const JointPhysics physics = jointPhysics(options);
   const bool hand = urdf.find(options.arm_id + "_finger_joint1") != std::string::npos;
-  world.addRobot(describeRobot(options, urdf, physics, hand));
   const ControlUnitParameters unit = unitParameters(options, urdf, physics, hand);
+  world.addRobot(
+      describeRobot(options, urdf, physics, hand, fci::restingNear(kReady, unit.joint_stiffness)));
   std::optional<fci::SimRobot::Vacuum> vacuum;
   if (options.tool == Tool::kVacuum) {
     vacuum.emplace();

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/fci/serving.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
 #include <franka_sim_mujoco/ros/param_reader.h>
 #include <franka_sim_mujoco/ros/physics_config.h>
@@ -118,6 +119,22 @@ std::string chooseNamespace(const SpawnOrder& order, const PluginElement& plugin
   return own;
 }
 
+/// A served arm stands at its initial positions as a real one would.
+void comeToRest(RobotPlan& plan) {
+  std::array<double, 7> q{};
+  std::map<std::string, double>& positions = plan.description.initial_positions;
+  const auto joint = [&](std::size_t i) { return plan.arm_id + "_joint" + std::to_string(i + 1); };
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    q[i] = positions[joint(i)];
+  }
+  const std::array<double, 7> rest = fci::restingNear(
+      q, ControlUnitParameters{franka_core::ArmModel::fromUrdf(plan.description.urdf, plan.arm_id)}
+             .joint_stiffness);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    positions[joint(i)] = rest[i];
+  }
+}
+
 /// Positions of joints that the robot does not have are left out, with a warning: the original's
 /// launch files name the fingers also where there is no hand.
 std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf::Model& model) {
@@ -180,6 +197,9 @@ RobotPlan planRobot(const SpawnOrder& order) {
     plan.robot_type = chooseRobotType(node, plan);
     plan.arm_physics = choosePhysics(node, plan.robot_type);
     applyJointPhysics(plan.arm_physics, plan.arm_id, plan.description);
+    if (!plan.fci_ip.empty()) {
+      comeToRest(plan);
+    }
   }
   return plan;
 }

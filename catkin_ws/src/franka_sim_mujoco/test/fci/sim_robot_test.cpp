@@ -308,5 +308,15 @@ TEST_F(Panda, SaysWhatACollisionWasFelt) {
   EXPECT_NE(std::string::npos, describe(robot).find("upper threshold")) << describe(robot);
 }
 
+// An encoder never shows a target to the last bit, and clients divide by the way that is left.
+TEST(RestingNear, IsAWayOfATenthOfAMilliradianFromTheTarget) {
+  const ControlUnitParameters unit = unitOf(5);
+  const std::array<double, 7> rest = restingNear(test::kReady, unit.joint_stiffness);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_GT(std::abs(rest[i] - test::kReady[i]), 1e-5);
+    EXPECT_LT(std::abs(rest[i] - test::kReady[i]), 2e-4);
+  }
+}
+
 }  // namespace
 }  // namespace franka_sim_mujoco::fci
