@@ -8,6 +8,7 @@ namespace internal {
 
 namespace {
 
+constexpr std::uint32_t kListingThreads = 1;
 constexpr std::uint32_t kWaitingThreads = 2;
 
 const char* stateName(const controller_interface::ControllerBase& controller) {
@@ -48,21 +49,26 @@ controller_manager_msgs::ControllerState message(const ControllerSpec& spec) {
 ManagerServices::ManagerServices(ControllerManager& manager, const ros::NodeHandle& nh)
     : manager_(manager),
       nh_(nh, "controller_manager"),
+      listing_nh_(nh, "controller_manager"),
       waiting_nh_(nh, "controller_manager"),
+      listing_spinner_(kListingThreads, &listing_queue_),
       waiting_spinner_(kWaitingThreads, &waiting_queue_) {
+  listing_nh_.setCallbackQueue(&listing_queue_);
   waiting_nh_.setCallbackQueue(&waiting_queue_);
   list_controllers_ =
-      nh_.advertiseService("list_controllers", &ManagerServices::listControllers, this);
-  list_controller_types_ =
-      nh_.advertiseService("list_controller_types", &ManagerServices::listControllerTypes, this);
+      listing_nh_.advertiseService("list_controllers", &ManagerServices::listControllers, this);
   load_controller_ =
       nh_.advertiseService("load_controller", &ManagerServices::loadController, this);
   unload_controller_ =
       nh_.advertiseService("unload_controller", &ManagerServices::unloadController, this);
   reload_libraries_ = waiting_nh_.advertiseService("reload_controller_libraries",
                                                    &ManagerServices::reloadLibraries, this);
+  // Waits for a controller that is being created, as the services of the node's queue do.
+  list_controller_types_ =
+      nh_.advertiseService("list_controller_types", &ManagerServices::listControllerTypes, this);
   switch_controller_ =
       waiting_nh_.advertiseService("switch_controller", &ManagerServices::switchController, this);
+  listing_spinner_.start();
   waiting_spinner_.start();
 }
 
@@ -72,6 +78,7 @@ ManagerServices::~ManagerServices() {
         &reload_libraries_, &switch_controller_}) {
     server->shutdown();
   }
+  listing_spinner_.stop();
   waiting_spinner_.stop();
 }
 

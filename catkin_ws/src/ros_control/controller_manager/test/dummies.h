@@ -74,7 +74,21 @@ class ThrowingController : public DummyController {
   }
 };
 
-/// Knows the types dummy/Good, dummy/Refusing, dummy/Throwing and dummy/Broken (fails to load).
+/// Sets its parameter `loading` to true and is not ready before somebody has set it to false, for a
+/// minute at most.
+class SlowController : public DummyController {
+  bool init(hardware_interface::EffortJointInterface* hw, ros::NodeHandle& nh) override {
+    nh.setParam("loading", true);
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60.0);
+    while (nh.param("loading", false) && ros::WallTime::now() < end) {
+      ros::WallDuration(0.01).sleep();
+    }
+    return DummyController::init(hw, nh);
+  }
+};
+
+/// Knows the types dummy/Good, dummy/Refusing, dummy/Throwing, dummy/Slow and dummy/Broken (fails
+/// to load).
 class DummyLoader : public controller_manager::ControllerLoaderInterface {
  public:
   DummyLoader() : ControllerLoaderInterface("dummies::DummyController") {}
@@ -89,11 +103,14 @@ class DummyLoader : public controller_manager::ControllerLoaderInterface {
     if (type == "dummy/Throwing") {
       return std::make_shared<ThrowingController>();
     }
+    if (type == "dummy/Slow") {
+      return std::make_shared<SlowController>();
+    }
     throw std::runtime_error("the library is broken");
   }
   std::vector<std::string> getDeclaredClasses() override {
     ++listings_;
-    return {"dummy/Good", "dummy/Refusing", "dummy/Throwing", "dummy/Broken"};
+    return {"dummy/Good", "dummy/Refusing", "dummy/Throwing", "dummy/Slow", "dummy/Broken"};
   }
   void reload() override { ++reloads_; }
 

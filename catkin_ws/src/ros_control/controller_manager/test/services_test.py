@@ -15,7 +15,7 @@ from controller_manager_msgs.srv import (
     ReloadControllerLibraries,
     SwitchControllerRequest,
 )
-from scripts_common import Manager
+from scripts_common import Manager, wait_until
 
 STRICT = SwitchControllerRequest.STRICT
 
@@ -96,6 +96,19 @@ class ServicesTest(unittest.TestCase):
         switch.join(10.0)
         self.assertTrue(answers[0].ok)
         self.assertEqual({"a": "running"}, self.manager.states())
+
+    def test_controllers_are_listed_while_one_is_being_loaded(self):
+        self.assertTrue(self.manager.load("a").ok)
+        answers = []
+        load = threading.Thread(target=lambda: answers.append(self.manager.load("slow")))
+        load.start()
+        wait_until(lambda: rospy.get_param("slow/loading", False), "slow was not loaded")
+        self.assertEqual({"a": "initialized"}, self.manager.states())
+        self.assertEqual([], answers)
+        rospy.set_param("slow/loading", False)
+        load.join(30.0)
+        self.assertTrue(answers[0].ok)
+        self.assertEqual({"a": "initialized", "slow": "initialized"}, self.manager.states())
 
     def test_a_switch_fails_after_its_timeout(self):
         self.assertTrue(self.manager.load("a").ok)

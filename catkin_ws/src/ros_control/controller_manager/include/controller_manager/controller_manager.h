@@ -69,7 +69,8 @@ class ControllerManager {
   /// `<nh>/controller_manager`. Loads plugins of controller_interface::ControllerBase.
   /// @param robot_hw outlives the manager
   /// @param nh below which controllers find their parameters; its queue answers the services,
-  /// except the two that may wait for the loop: those have threads of their own.
+  /// except the two that may wait for the loop, and list_controllers, which waits for nothing:
+  /// those have threads of their own.
   /// @throws std::invalid_argument with a sentence when one of the parameters above makes no sense
   ControllerManager(hardware_interface::RobotHW* robot_hw,
                     const ros::NodeHandle& nh = ros::NodeHandle());

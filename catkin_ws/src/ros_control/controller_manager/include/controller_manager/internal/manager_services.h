@@ -21,8 +21,10 @@ namespace internal {
 
 /// The six services of a controller manager. Every call is answered; `ok` tells how it went.
 ///
-/// Switching, and reloading which switches too, may wait for the loop. They are answered by threads
-/// of their own, so that the others are answered even if the program spins with one thread.
+/// Switching, and reloading which switches too, may wait for the loop; loading and unloading last
+/// as long as the controllers take. Listing is answered by a thread of its own, so that it waits
+/// for none of them, nor for anything else that the program's threads are at; so are those that may
+/// wait for the loop.
 class ManagerServices {
  public:
   /// @param manager outlives the services @param nh above the services' namespace
@@ -46,8 +48,11 @@ class ManagerServices {
 
   ControllerManager& manager_;
   ros::NodeHandle nh_;
+  ros::NodeHandle listing_nh_;
   ros::NodeHandle waiting_nh_;
+  ros::CallbackQueue listing_queue_;
   ros::CallbackQueue waiting_queue_;
+  ros::AsyncSpinner listing_spinner_;
   ros::AsyncSpinner waiting_spinner_;
   ros::ServiceServer list_controllers_;
   ros::ServiceServer list_controller_types_;
