@@ -221,7 +221,8 @@ def stay(options, is_robot):
 def run(name, arguments):
     """A program's main: @returns its exit status."""
     options = parse(name, rospy.myargv(arguments)[1:])
-    rospy.init_node(name, anonymous=True)
+    # Without ROS time: waiting goes by the wall clock, and the simulation may be paused.
+    rospy.init_node(name, anonymous=True, disable_rostime=True)
     try:
         spawn(options)
     except SpawnError as error:

@@ -20,6 +20,7 @@ from controller_manager_msgs.srv import (
     SwitchControllerRequest,
     UnloadController,
 )
+from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Bool
 
 from controller_manager.ending import POLL_PERIOD, Ended, Ending
@@ -82,10 +83,37 @@ def parse_arguments(arguments):
     return parser.parse_args(arguments)
 
 
+class SimulatedClock:
+    """Whether the simulated clock has begun, where there is one.
+
+    Listens to /clock until then and no longer. A node that follows the clock is woken up by each of a
+    thousand messages a second, and every robot has its spawners, which stay as long as it does.
+    """
+
+    def __init__(self):
+        self._listener = None
+        self._begun = not rospy.get_param("/use_sim_time", False)
+
+    def has_begun(self):
+        if not self._begun:
+            if self._listener is None:
+                self._listener = Listener("/clock", Clock, lambda message: not message.clock.is_zero())
+            self._begun = self._listener.heard()
+            if self._begun:
+                self.close()
+        return self._begun
+
+    def close(self):
+        if self._listener is not None:
+            self._listener.close()
+            self._listener = None
+
+
 class Deadline:
     """Wall time left for waiting. While a simulated clock has not begun, it does not run."""
 
-    def __init__(self, timeout):
+    def __init__(self, timeout, clock):
+        self._clock = clock
         self._timeout = timeout
         self._end = time.monotonic() + timeout
         self._said = False
@@ -93,7 +121,7 @@ class Deadline:
     def is_over(self):
         if self._timeout <= 0:
             return False
-        if rospy.rostime.is_rostime_initialized() and rospy.get_time() == 0.0:
+        if not self._clock.has_begun():
             if not self._said:
                 rospy.loginfo("Waiting for /clock to be available...")
                 self._said = True
@@ -131,34 +159,38 @@ def listens(service):
 
 
 class Listener:
-    """Listens for a true on a topic, and subscribes anew while nobody publishes there.
+    """Listens for a message that counts, and subscribes anew while nobody publishes there.
 
     rospy misses a publisher for good when that registers in the same moment as the subscriber, and
     the master's news of it overtakes the master's answer.
     """
 
-    def __init__(self, topic):
+    def __init__(self, topic, kind=Bool, counts=lambda message: message.data):
         self._topic = topic
-        self._said = set()
+        self._kind = kind
+        self._counts = counts
+        self._heard = False
+        self._has_news = False
         self._subscribe()
 
     def _subscribe(self):
-        self._subscriber = rospy.Subscriber(self._topic, Bool, self._take)
+        self._subscriber = rospy.Subscriber(self._topic, self._kind, self._take)
         self._doubt = time.monotonic() + LONELY_TIME
 
     def _take(self, message):
-        self._said.add(message.data)
+        self._has_news = True
+        self._heard = self._heard or self._counts(message)
 
     def heard(self):
-        """Whether a true has come."""
+        """Whether such a message has come."""
         if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._doubt:
             self.close()
             self._subscribe()
-        return True in self._said
+        return self._heard
 
     def account(self):
-        """What has come instead of a true, as the end of a sentence."""
-        if self._said:
+        """What has come instead of such a message, as the end of a sentence."""
+        if self._has_news:
             return "has only said false so far (a simulation says true once it is no longer paused)"
         if self._subscriber.get_num_connections() > 0:
             return "has a publisher, which has said nothing so far"
@@ -232,11 +264,13 @@ class Spawner:
     def _service(self, name, kind):
         return rospy.ServiceProxy(self._prefix + name, kind)
 
-    def wait_for_manager(self, timeout):
+    def wait_for_manager(self, timeout, clock):
         for name in ("load_controller", "switch_controller", "unload_controller"):
             service = self._prefix + name
             rospy.loginfo("Controller Spawner: Waiting for service %s", service)
-            offered = wait_until(lambda service=service: is_offered(service), Deadline(timeout), self._ending)
+            offered = wait_until(
+                lambda service=service: is_offered(service), Deadline(timeout, clock), self._ending
+            )
             if not offered:
                 return False
         return True
@@ -316,8 +350,11 @@ class Spawner:
 
 def spawn(options, spawner, ending):
     """Loads and starts. Raises Ended or SpawnerError."""
-    if not spawner.wait_for_manager(options.timeout):
-        raise SpawnerError("Controller Spawner couldn't find the expected controller_manager ROS interface.")
+    with contextlib.closing(SimulatedClock()) as clock:
+        if not spawner.wait_for_manager(options.timeout, clock):
+            raise SpawnerError(
+                "Controller Spawner couldn't find the expected controller_manager ROS interface."
+            )
     if options.wait_for:
         wait_for_true(options.wait_for, ending)
     spawner.load(controller_names(options.controllers))
@@ -334,7 +371,8 @@ def spawn(options, spawner, ending):
 def main():
     """Runs until it is told to end. Returns the exit status."""
     options = parse_arguments(rospy.myargv()[1:])
-    rospy.init_node("spawner", anonymous=True, disable_signals=True)
+    # Without ROS time: nothing here is timed by it. See SimulatedClock.
+    rospy.init_node("spawner", anonymous=True, disable_signals=True, disable_rostime=True)
     if options.shutdown_timeout is not None:
         rospy.logwarn("--shutdown-timeout has no effect any more")
     ending = Ending()
