@@ -125,7 +125,9 @@ class Session:
             if not entry.name.isdigit() or int(entry.name) == os.getpid():
                 continue
             try:
-                if mark in (entry / "environ").read_bytes().split(b"\0"):
+                # roslaunch gives its nodes the address with a slash at its end.
+                lines = (entry / "environ").read_bytes().split(b"\0")
+                if any(line.rstrip(b"/") == mark for line in lines):
                     found.append(int(entry.name))
             except OSError:
                 continue
