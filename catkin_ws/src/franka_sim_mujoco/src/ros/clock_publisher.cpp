@@ -4,28 +4,30 @@
 #include <franka_sim_mujoco/ros/pace.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr std::int64_t kShortestInterval = 1000000;      // [ns]
 constexpr std::int64_t kStandStillInterval = 100000000;  // [ns]
 
 }  // namespace
 
 ClockPublisher::ClockPublisher(ros::NodeHandle& node) : publisher_(node, "/clock", 10) {}
 
+void ClockPublisher::setRate(double rate) { interval_ns_ = std::llround(1e9 / rate); }
+
 void ClockPublisher::tick(const ros::Time& time) {
   const std::int64_t now = monotonicNanoseconds();
   // Half an interval of grace: a tick that is woken a little early must not lose its message. The
   // bookkeeping below keeps the mean at one message an interval.
-  if (now + kShortestInterval / 2 < next_ns_ || !publisher_.trylock()) {
+  if (now + interval_ns_ / 2 < next_ns_ || !publisher_.trylock()) {
     return;
   }
   publisher_.msg_.clock = time;
   publisher_.unlockAndPublish();
-  next_ns_ = std::max(next_ns_, now - kShortestInterval) + kShortestInterval;
+  next_ns_ = std::max(next_ns_, now - interval_ns_) + interval_ns_;
   published_ = time;
   published_ns_ = now;
 }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// The simulation as a ROS node. Parameters: ~world, ~real_time_factor, ~paused (see Simulation and
-/// findWorldFile), ~gui (a window, where there is a display); services: see SimServices and
-/// PictureService; topics: see ContactPublisher, CameraPublisher and GazeboTopics. It needs
-/// use_sim_time.
+/// The simulation as a ROS node. Parameters: ~world, ~real_time_factor, ~paused,
+/// ~pub_clock_frequency (see SimulationOptions and findWorldFile), ~gui (a window, where there is a
+/// display); services: see SimServices and PictureService; topics: see ContactPublisher,
+/// CameraPublisher and GazeboTopics. It needs use_sim_time.
 
 #include <franka_hw/usage.h>
 #include <franka_sim_mujoco/ros/camera_publisher.h>
@@ -57,6 +57,7 @@ sim::SimulationOptions readOptions(const ros::NodeHandle& node) {
     ROS_INFO_NAMED(kLog, "World '%s': taking %s", world.c_str(), options.world_file.c_str());
   }
   options.real_time_factor = sim::readNumber(node, "real_time_factor").value_or(1.0);
+  options.clock_rate = sim::readNumber(node, "pub_clock_frequency").value_or(0.0);
   options.paused = sim::readBool(node, "paused").value_or(false);
   return options;
 }

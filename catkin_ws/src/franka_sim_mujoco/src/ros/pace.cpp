@@ -12,6 +12,11 @@ namespace franka_sim_mujoco {
 
 namespace {
 
+constexpr double kClockRate = 1000.0;  ///< [Hz] a tick each
+/// [Hz] Chosen here: eight arms with their nodes then spend a tenth of a processor on it
+/// (docs/performance.md), and no node hears of the time more than 5 ms late.
+constexpr double kFastClockRate = 200.0;
+
 std::int64_t nanoseconds(clockid_t clock) noexcept {
   constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
   timespec now{};
@@ -41,6 +46,10 @@ fci::Pace paceOf(double real_time_factor) {
   pace.factor = real_time_factor;
   pace.patience = kPatience;
   return pace;
+}
+
+double clockRateOf(double real_time_factor) noexcept {
+  return real_time_factor > 0.0 && real_time_factor <= 1.0 ? kClockRate : kFastClockRate;
 }
 
 }  // namespace franka_sim_mujoco

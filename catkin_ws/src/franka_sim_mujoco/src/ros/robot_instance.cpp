@@ -1,7 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/ros/joint_state_publisher.h>
 #include <franka_sim_mujoco/ros/pace.h>
 #include <franka_sim_mujoco/ros/robot_instance.h>
+#include <franka_sim_mujoco/ros/transform_publisher.h>
 #include <ros/console.h>
 
 #include <algorithm>
@@ -27,6 +29,9 @@ std::string availableName(HardwareLoader& loader, const std::string& type) {
   }
   return type;
 }
+
+/// So many ticks apart it is looked whether the awaited controllers run.
+constexpr int kStartReview = 50;
 
 /// Adds the time since its making to a sum, when there is one.
 class Stopwatch {
@@ -54,6 +59,8 @@ RobotInstance::RobotInstance(const RobotPlan& plan, World& world, HardwareLoader
   try {
     start(plan, world, loader, std::move(between_ticks));
   } catch (...) {
+    transforms_.reset();
+    joint_states_.reset();
     manager_.reset();
     hardware_.reset();
     world.removeRobot(name_);
@@ -105,6 +112,15 @@ void RobotInstance::startHardware(const RobotPlan& plan, World& world, HardwareL
                              (reason.empty() ? "the log of the simulation says why." : reason));
   }
   manager_ = std::make_unique<controller_manager::ControllerManager>(hardware_.get(), node);
+  if (plan.joint_state_rate) {
+    joint_states_ = std::make_unique<JointStatePublisher>(node, *plan.joint_state_rate, plan.urdf,
+                                                          *hardware_, world);
+  }
+  if (plan.publish_transforms) {
+    transforms_ = std::make_unique<TransformPublisher>(node, plan.urdf);
+  }
+  awaited_controllers_ = plan.awaited_controllers;
+  start_ticks_left_ = awaited_controllers_.empty() ? 0 : kLongestStart;
 }
 
 bool RobotInstance::hasAnyOf(const std::vector<std::string>& joints) const {
@@ -135,9 +151,36 @@ void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
     restart_controllers_ = false;
     ticks_to_control_ = control_ticks_ - 1;
   }
+  if (joint_states_) {
+    joint_states_->tick(time);
+  }
   hardware_->writeSim(time, tick);
   if (times != nullptr) {
     watch.lap(sums.write);
+  }
+  if (isStarting() && --start_ticks_left_ % kStartReview == 0) {
+    reviewStart();
+  }
+}
+
+void RobotInstance::reviewStart() {
+  std::vector<std::string> missing = awaited_controllers_;
+  for (const controller_manager::ControllerSpec& spec : manager_->getControllers()) {
+    if (spec.c->isRunning()) {
+      missing.erase(std::remove(missing.begin(), missing.end(), spec.info.name), missing.end());
+    }
+  }
+  if (missing.empty()) {
+    start_ticks_left_ = 0;
+  } else if (!isStarting()) {
+    std::string names;
+    for (const std::string& name : missing) {
+      names += (names.empty() ? "'" : "', '") + name;
+    }
+    ROS_WARN_NAMED(kLog,
+                   "'%s' has waited %d s of simulated time for its launch file to start %s': time "
+                   "does not wait for that any longer.",
+                   name_.c_str(), kLongestStart / 1000, names.c_str());
   }
 }
 

@@ -14,7 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 namespace franka_sim_mujoco {
@@ -185,6 +187,17 @@ RobotPlan planRobot(const SpawnOrder& order) {
   if (!plan.hardware_type.empty() &&
       !transmission_interface::TransmissionParser::parse(order.urdf, plan.transmissions)) {
     throw std::runtime_error("The transmissions of '" + order.name + "' cannot be read.");
+  }
+
+  std::istringstream names(readString(node, "awaited_controllers").value_or(""));
+  plan.awaited_controllers.assign(std::istream_iterator<std::string>(names), {});
+  plan.publish_transforms = readBool(node, "publish_transforms").value_or(false);
+  plan.joint_state_rate = readNumber(node, "joint_state_rate");
+  if (plan.joint_state_rate &&
+      !(*plan.joint_state_rate > 0.0 && *plan.joint_state_rate <= 1000.0)) {
+    throw std::runtime_error("The parameter " + node.resolveName("joint_state_rate") + " is " +
+                             std::to_string(*plan.joint_state_rate) +
+                             " Hz; it must be above 0 and at most 1000 Hz.");
   }
 
   plan.arm_id = readArmId(node, plan.robot_namespace, order.name);

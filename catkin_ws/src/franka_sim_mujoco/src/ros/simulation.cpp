@@ -7,6 +7,7 @@
 #include <ros/init.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +21,7 @@ constexpr std::chrono::milliseconds kServedNap{1};  ///< where clients want to b
 constexpr std::chrono::milliseconds kStandStillNap{20};
 /// Compiling a world with several robots takes seconds on a slow machine.
 constexpr std::chrono::milliseconds kSpawnTimeout{60000};
+constexpr double kMostClockRate = 1000.0;  ///< [Hz] decision 22
 
 }  // namespace
 
@@ -29,7 +31,15 @@ Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
       clock_(node),
       host_([this] { advance(); }, paceOf(options.real_time_factor)),
       real_time_factor_(options.real_time_factor),
+      clock_rate_(options.clock_rate),
       paused_(options.paused) {
+  if (!std::isfinite(clock_rate_) || clock_rate_ < 0.0 || clock_rate_ > kMostClockRate) {
+    throw std::runtime_error("The clock rate " + std::to_string(clock_rate_) +
+                             " Hz is wrong: it must be 0 (as fits the real time factor), or above "
+                             "it and at most " +
+                             std::to_string(static_cast<int>(kMostClockRate)) + " Hz.");
+  }
+  applyPace();
   const std::string unsupported = world_.unsupported();
   if (!unsupported.empty()) {
     ROS_WARN_NAMED(kLog, "%s", unsupported.c_str());
@@ -56,6 +66,7 @@ void Simulation::loop() {
   try {
     while (!stop_) {
       requests_.serve();
+      reviewPace();
       if (paused_ && steps_left_ == 0) {
         standStill();
         continue;
@@ -115,6 +126,22 @@ void Simulation::requireRunningWorld() const {
   }
 }
 
+void Simulation::reviewPace() {
+  const bool starting = std::any_of(robots_.begin(), robots_.end(),
+                                    [](const auto& robot) { return robot->isStarting(); });
+  if (starting != starting_) {
+    starting_ = starting;
+    applyPace();
+  }
+}
+
+void Simulation::applyPace() {
+  const bool held = starting_ && (real_time_factor_ == 0.0 || real_time_factor_ > 1.0);
+  const double factor = held ? 1.0 : real_time_factor_;
+  host_.setPace(paceOf(factor));
+  clock_.setRate(clock_rate_ > 0.0 ? clock_rate_ : clockRateOf(factor));
+}
+
 void Simulation::finishStepping() {
   if (world_.stopped()) {
     steps_left_ = 0;
@@ -148,8 +175,9 @@ void Simulation::setPaused(bool paused) {
 
 void Simulation::setRealTimeFactor(double factor) {
   requests_.run([&] {
-    host_.setPace(paceOf(factor));
+    paceOf(factor);  // throws the sentence for a factor that makes no sense
     real_time_factor_ = factor;
+    applyPace();
   });
 }
 

@@ -71,6 +71,9 @@ WRONG = [
     ("robot_type", "ur5", "robot_type is 'ur5'; it must be panda or fr3"),
     ("robot_type", 3, "robot_type"),
     ("motion_generators/position/gains/panda_joint3/p", -1, "stiffnesses"),
+    ("joint_state_rate", 0, "above 0 and at most 1000 Hz"),
+    ("publish_transforms", "yes", "publish_transforms"),
+    ("awaited_controllers", 3, "awaited_controllers"),
 ]
 
 PLATFORM = """
@@ -358,6 +361,8 @@ class ParametersTest(unittest.TestCase):
         for wrong, expected in (
             ("_world:=/nowhere/moon.sdf", "moon"),
             ("_real_time_factor:=-1", "real time factor"),
+            ("_pub_clock_frequency:=1001", "at most 1000 Hz"),
+            ("_pub_clock_frequency:=-1", "at most 1000 Hz"),
             ("_real_time_factor:=fast", "real_time_factor"),
             ("_paused:=3", "paused"),
         ):

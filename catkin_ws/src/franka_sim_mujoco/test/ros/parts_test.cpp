@@ -115,6 +115,15 @@ TEST(Pace, RefusesWhatIsNone) {
   EXPECT_TRUE(paceOf(kSlowestPace).by_clock);
 }
 
+TEST(Pace, TellsTheTimeLessOftenBeyondRealTime) {
+  EXPECT_EQ(1000.0, clockRateOf(kSlowestPace));
+  EXPECT_EQ(1000.0, clockRateOf(1.0));
+  for (const double factor : {0.0, 1.01, 30.0}) {
+    EXPECT_GE(clockRateOf(factor), 100.0) << factor;
+    EXPECT_LE(clockRateOf(factor), 250.0) << factor;
+  }
+}
+
 double secondsFor(double factor, int ticks) {
   int done = 0;
   fci::Host host([&] { ++done; }, paceOf(factor));

@@ -12,11 +12,15 @@
 
 namespace franka_sim_mujoco {
 
-/// Publishes /clock, at most 1000 times a wall second however fast the simulation runs (decision
-/// 22). The stepping thread owns it.
+/// Publishes /clock, no more often than a limit of messages a wall second however fast the
+/// simulation runs (decision 22): every message wakes every node up. The time in each is exact. The
+/// stepping thread owns it.
 class ClockPublisher {
  public:
   explicit ClockPublisher(ros::NodeHandle& node);
+
+  /// @param rate most messages a wall second [Hz], above 0
+  void setRate(double rate);
 
   /// After a tick. Neither locks nor allocates; skips a message when one is still under way.
   void tick(const ros::Time& time);
@@ -26,6 +30,7 @@ class ClockPublisher {
 
  private:
   realtime_tools::RealtimePublisher<rosgraph_msgs::Clock> publisher_;
+  std::int64_t interval_ns_{1000000};
   std::int64_t next_ns_{0};
   ros::Time published_;
   std::int64_t published_ns_{0};

@@ -18,6 +18,10 @@ constexpr double kSlowestPace = 0.01;
 /// kSlowestPace but not 0
 fci::Pace paceOf(double real_time_factor);
 
+/// Most messages of /clock a wall second [Hz] at a real time factor: a tick each up to real time;
+/// fewer beyond, where they would keep the processors from all but waking nodes up.
+double clockRateOf(double real_time_factor) noexcept;
+
 /// The monotonic clock [ns].
 std::int64_t monotonicNanoseconds() noexcept;
 

@@ -12,12 +12,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <pluginlib/class_loader.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace franka_sim_mujoco {
+
+class JointStatePublisher;
+class TransformPublisher;
 
 /// What is asked for when a robot is put into the world.
 struct SpawnOrder {
@@ -39,6 +43,14 @@ struct RobotPlan {
   std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a body without hardware
   std::string fci_ip;         ///< where it is served instead, by a ServedRobot; empty: nowhere
   int control_ticks{1};       ///< controlPeriod in ticks of 1 ms
+  /// Names of the controllers that its launch file starts: parameter `awaited_controllers` in its
+  /// namespace, separated by blanks.
+  std::vector<std::string> awaited_controllers;
+  /// At which it publishes `joint_states` [Hz of simulated time]: parameter `joint_state_rate`;
+  /// nothing: it does not, a node of its own may do so.
+  std::optional<double> joint_state_rate;
+  /// Whether it publishes the transforms of its links: parameter `publish_transforms`.
+  bool publish_transforms{false};
   urdf::Model urdf;
   std::vector<transmission_interface::TransmissionInfo> transmissions;
 };
@@ -75,6 +87,11 @@ class RobotInstance {
   /// What the host has to run where the robot is served; else null.
   fci::SimRobot* served() noexcept { return served_ ? &served_->robot() : nullptr; }
 
+  /// Whether controllers that its launch file starts do not run yet: for kLongestStart ticks at
+  /// most, then with a warning.
+  bool isStarting() const noexcept { return start_ticks_left_ > 0; }
+  static constexpr int kLongestStart = 30000;  ///< [ticks], the spawner's own patience
+
   /// Read, controllers, write; nothing for a served robot. 1 kHz loop. @param times when not null,
   /// durations are added to it
   void tick(const ros::Time& time, TickTimes* times);
@@ -93,6 +110,7 @@ class RobotInstance {
   void serve(const RobotPlan& plan, World& world, BetweenTicks between_ticks);
   void startHardware(const RobotPlan& plan, World& world, HardwareLoader& loader,
                      BetweenTicks between_ticks);
+  void reviewStart();
   void updateControllers(const ros::Time& time, const ros::Duration& period);
 
   std::string name_;
@@ -100,10 +118,14 @@ class RobotInstance {
   int control_ticks_;
   int ticks_to_control_{0};
   bool restart_controllers_{false};
+  int start_ticks_left_{0};
+  std::vector<std::string> awaited_controllers_;
   franka_hw::ThrownReport thrown_report_;
   std::unique_ptr<ServedRobot> served_;
   std::shared_ptr<RobotHWSim> hardware_;  ///< destroyed after the manager that uses it
   std::unique_ptr<controller_manager::ControllerManager> manager_;
+  std::unique_ptr<JointStatePublisher> joint_states_;
+  std::unique_ptr<TransformPublisher> transforms_;
 };
 
 }  // namespace franka_sim_mujoco

@@ -24,6 +24,7 @@ namespace franka_sim_mujoco {
 struct SimulationOptions {
   std::string world_file;        ///< MJCF or SDF; empty: the empty world
   double real_time_factor{1.0};  ///< see paceOf
+  double clock_rate{0.0};        ///< most messages of /clock a wall second [Hz]; 0: clockRateOf
   bool paused{false};
 };
 
@@ -45,6 +46,9 @@ struct SimulationState {
 /// The world, the robots in it and the one thread that steps them: requests; then the host keeps
 /// the pace and hears the clients of served robots; then for each other robot readSim, controllers,
 /// writeSim; then the physics, then /clock.
+///
+/// While a robot waits for the controllers that its launch file starts (RobotPlan), time does not
+/// run faster than real time: the nodes that start them need the processors.
 ///
 /// ROS time begins at 1 ms and grows by 1 ms a tick; it never goes back, also not when the world is
 /// reset. All public functions may be called from any thread and throw std::runtime_error with a
@@ -112,6 +116,9 @@ class Simulation {
   void requireRunningWorld() const;
   /// After the world was put back as a whole.
   void worldWasReset();
+  /// Holds the pace down while robots start, and sets it going afterwards.
+  void reviewPace();
+  void applyPace();
   SimulationState stateNow() const;
   ros::Time time() const;
   /// @throws std::runtime_error with a sentence while a client moves a robot
@@ -128,6 +135,8 @@ class Simulation {
   TickTimes times_;
   bool timing_{false};
   double real_time_factor_;
+  double clock_rate_;
+  bool starting_{false};  ///< as the pace is now
   bool paused_;
   bool paused_by_fault_{false};  ///< the world has stopped
   std::uint64_t tick_count_{0};

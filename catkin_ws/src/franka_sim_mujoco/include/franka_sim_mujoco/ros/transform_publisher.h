@@ -1,0 +1,45 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <robot_state_publisher/robot_state_publisher.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/JointState.h>
+#include <urdf/model.h>
+
+#include <string>
+
+namespace franka_sim_mujoco {
+
+/// Publishes the transforms of a robot's links for each message on its topic `joint_states`, and
+/// those that never change once (/tf, /tf_static), by the library of robot_state_publisher.
+///
+/// Debian's node of that name asks the master twice for a parameter at every message: a few robots
+/// at several times real time leave the master no time for anybody else. It would also be one more
+/// process a robot. Here the parameter `tf_prefix`, of the robot's namespace or one above it, is
+/// read once. Has a thread of its own.
+class TransformPublisher {
+ public:
+  /// @param node in whose namespace the joint states are
+  /// @throws std::runtime_error with a sentence when the URDF is no tree of links
+  TransformPublisher(const ros::NodeHandle& node, const urdf::Model& urdf);
+  ~TransformPublisher();
+  TransformPublisher(const TransformPublisher&) = delete;
+  TransformPublisher& operator=(const TransformPublisher&) = delete;
+
+ private:
+  void publish(const sensor_msgs::JointState& state);
+
+  const urdf::Model urdf_;
+  std::string tf_prefix_;
+  robot_state_publisher::RobotStatePublisher publisher_;
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  ros::Subscriber subscriber_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace franka_sim_mujoco
