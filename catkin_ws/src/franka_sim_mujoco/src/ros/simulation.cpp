@@ -67,6 +67,7 @@ void Simulation::loop() {
     while (!stop_) {
       requests_.serve();
       reviewPace();
+      short_sleeps_.sleepIfDue();
       if (paused_ && steps_left_ == 0) {
         standStill();
         continue;

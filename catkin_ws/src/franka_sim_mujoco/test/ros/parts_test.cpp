@@ -18,6 +18,7 @@
 #include <franka_sim_mujoco/ros/sim_arm.h>
 #include <franka_sim_mujoco/ros/world_file.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -122,6 +123,22 @@ TEST(Pace, TellsTheTimeLessOftenBeyondRealTime) {
     EXPECT_GE(clockRateOf(factor), 100.0) << factor;
     EXPECT_LE(clockRateOf(factor), 250.0) << factor;
   }
+}
+
+std::int64_t sleepsOfThisThread() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nvcsw;
+}
+
+TEST(ShortSleeps, InterruptAThreadThatNeverWaits) {
+  ShortSleeps short_sleeps;
+  const std::int64_t before = sleepsOfThisThread();
+  const std::int64_t end = monotonicNanoseconds() + 20000000000;
+  while (sleepsOfThisThread() < before + 3 && monotonicNanoseconds() < end) {
+    short_sleeps.sleepIfDue();
+  }
+  EXPECT_EQ(before + 3, sleepsOfThisThread());
 }
 
 double secondsFor(double factor, int ticks) {

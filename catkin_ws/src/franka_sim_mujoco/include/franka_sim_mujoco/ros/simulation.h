@@ -132,6 +132,7 @@ class Simulation {
   std::map<std::string, Snapshot> snapshots_;
   ClockPublisher clock_;
   fci::Host host_;
+  ShortSleeps short_sleeps_;
   TickTimes times_;
   bool timing_{false};
   double real_time_factor_;
