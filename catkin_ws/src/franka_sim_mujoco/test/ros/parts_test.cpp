@@ -156,7 +156,9 @@ TEST(Pace, KeepsThePaceWithoutAddingUpErrors) {
   // Never faster than asked; how much slower depends on the machine's load.
   EXPECT_GE(secondsFor(1.0, 200), 0.199);
   EXPECT_GE(secondsFor(2.0, 200), 0.099);
-  EXPECT_LT(secondsFor(0.0, 100000), 0.5);
+  // A host that waits takes the whole hundred simulated seconds; one that does not, half a second
+  // of a processor, which it may have to share.
+  EXPECT_LT(secondsFor(0.0, 100000), 25.0);
 }
 
 TEST(WorldFile, FindsWorldsByTheirNames) {
