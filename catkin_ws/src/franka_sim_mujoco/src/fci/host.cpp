@@ -173,8 +173,13 @@ void Host::serveAll() {
   for (const Guest& guest : guests_) {
     guest.robot->serve(stops_only);
   }
+  // The next states wait for commands, which may come from whoever waits for an answer here.
+  const bool states_wait = pace_.lockstep && clientsAreDue();
   for (Service* service : services_) {
     service->serve();
+    if (states_wait) {
+      service->published();
+    }
   }
 }
 

@@ -80,7 +80,8 @@ class Service {
  public:
   virtual ~Service() = default;
   virtual void serve() = 0;
-  /// States have gone out that show what was done before.
+  /// States have gone out that show what was done before; or, where time waits for the command of a
+  /// client in motion, are to follow that command.
   virtual void published() {}
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
