@@ -167,6 +167,9 @@ def test_what_it_does_not_understand_it_says():
         assert say("push nobody 1 0 0 10").startswith("error: ")
         assert say("push panda_hand nan 0 0 10") == "error: 'nan' is not a finite number."
         assert say("loss 2") == "error: The probability of a loss is a number from 0 to 1."
+        for seed in ("-1", "18446744073709551616", "1e300", "0.5"):
+            assert say(f"loss 0 {seed}").startswith(f"error: '{seed}' is no seed: give a whole number")
+        assert say("loss 0 18446744073709551615") == "ok"
         assert say("delay 3") == "error: Commands are delayed by 0, 1 or 2 ticks."
         assert say("load -1 0 0 0").startswith("error: The load was refused")
         assert "push BODY" in say("help")
