@@ -121,19 +121,17 @@ std::string chooseNamespace(const SpawnOrder& order, const PluginElement& plugin
   return own;
 }
 
-/// A served arm stands at its initial positions as a real one would.
+/// A served arm stands at its initial positions as a real one would. Joints without one stay so.
 void comeToRest(RobotPlan& plan) {
-  std::array<double, 7> q{};
-  std::map<std::string, double>& positions = plan.description.initial_positions;
-  const auto joint = [&](std::size_t i) { return plan.arm_id + "_joint" + std::to_string(i + 1); };
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    q[i] = positions[joint(i)];
-  }
-  const std::array<double, 7> rest = fci::restingNear(
-      q, ControlUnitParameters{franka_core::ArmModel::fromUrdf(plan.description.urdf, plan.arm_id)}
-             .joint_stiffness);
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    positions[joint(i)] = rest[i];
+  const ControlUnitParameters unit{
+      franka_core::ArmModel::fromUrdf(plan.description.urdf, plan.arm_id)};
+  const std::array<double, 7> deviation = fci::restingNear({}, unit.joint_stiffness);
+  for (std::size_t i = 0; i < deviation.size(); ++i) {
+    const auto joint =
+        plan.description.initial_positions.find(plan.arm_id + "_joint" + std::to_string(i + 1));
+    if (joint != plan.description.initial_positions.end()) {
+      joint->second += deviation[i];
+    }
   }
 }
 
