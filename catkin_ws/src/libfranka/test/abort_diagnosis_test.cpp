@@ -123,6 +123,21 @@ TEST(AbortDiagnosis, PositionsOutsideTheRange) {
            "joint 4 would have followed the Cartesian command to -0.06781 rad");
 }
 
+TEST(AbortDiagnosis, TargetsWhereNoVelocityLeads) {
+  // Joint 1 of an FR3 ends at 2.9007 rad; its velocity limit is 0 from 2.8644 rad on.
+  const auto log = jointLog(0, {{2.79, 0, 0, 0, 0, 0, 0}});
+  expectIn(
+      only(diagnoseAbort(log, 10)),
+      "joint 1 was to go to 2.89 rad, and its velocity limit, which shrinks towards the ends of "
+      "its range, is 0 outside of -2.864 to 2.864 rad");
+}
+
+TEST(AbortDiagnosis, PosesThatAreNoTransforms) {
+  auto log = cartesianLog(31);
+  log.back().command.O_T_EE_c[3] = 1e-17;
+  expectIn(only(diagnoseAbort(log, 5)), "is 1e-17 0 0 1 and must be exactly 0 0 0 1");
+}
+
 TEST(AbortDiagnosis, TorquesThatChangeTooFast) {
   auto log = jointLog(32, {});
   log.back().command.tau_J_d[6] = -1.5;
