@@ -200,8 +200,8 @@ def test_a_robot_of_the_other_kind_is_told_and_not_commanded(master, there, told
     with simulated(there, OTHER, "lockstep", "--no-hand") as robot, one(master) as node:
         assert node.says("is ready"), node.output
         assert node.says(sentence), node.output
-        assert f"robot_description is {is_told}'s" in node.output
-        assert "'/franka_control/ignore_robot_mismatch' is not true" in node.output
+        assert node.says(f"robot_description is {is_told}'s"), node.output
+        assert node.says("'/franka_control/ignore_robot_mismatch' is not true"), node.output
         said = node.output.count(sentence)
         assert said == 1
         assert "Started" in manager(master, "spawn", STATES), "who only looks does no harm"
@@ -238,12 +238,13 @@ def test_an_arm_of_another_name_is_told_and_not_commanded(master, robot, urdf, n
         assert node.output.count(sentence) == (2 if name == "arm_id" else 1), node.output
 
 
-def test_one_arm_of_several_that_is_another_kind_is_told(master, robot):
+def test_one_arm_of_several_that_is_another_kind_is_told(master, robot, urdf):
     master.set(ALL + "/panda_2/robot_ip", NOBODY)
+    master.set(ALL + "/robot_description", urdf.replace("panda_", "panda_2_"))
     with simulated("fr3", NOBODY, "realtime", "--no-hand"), combined(master) as node:
         assert node.says(f"no controller can command 'panda_2' at {NOBODY}"), node.output
-        assert "the robot is an FR3" in node.output
-        assert "'/combined_panda/panda_2/ignore_robot_mismatch' is not true" in node.output
+        assert node.says("the robot is an FR3"), node.output
+        assert node.says("'/combined_panda/panda_2/ignore_robot_mismatch' is not true"), node.output
 
 
 def test_nodes_that_only_look_warn_of_another_robot(bare, master):
@@ -256,7 +257,7 @@ def test_nodes_that_only_look_warn_of_another_robot(bare, master):
     with simulated("fr3", OTHER, "realtime"):
         with bare.node("franka_visualization", "robot_joint_state_publisher", "arm_looks") as node:
             assert node.says("the robot is an FR3"), node.output
-            assert "robot_description is a Panda's" in node.output
+            assert node.says("robot_description is a Panda's"), node.output
         for package, kind, name in (
             ("franka_visualization", "gripper_joint_state_publisher", "hand_looks"),
             ("franka_gripper", "franka_gripper_node", "hand"),

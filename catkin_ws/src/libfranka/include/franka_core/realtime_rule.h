@@ -4,10 +4,10 @@
 
 #include <string>
 
-struct sockaddr;  // of <sys/socket.h>
-
 /// @file
 /// Whether a motion needs a real-time kernel: one rule for the client and for the nodes.
+
+struct sockaddr;
 
 namespace franka_core {
 
