@@ -8,7 +8,8 @@
 #include <gripper_action_controller/hardware_interface_adapter.h>
 #include <joint_trajectory_controller/internal/command_exchange.h>
 #include <joint_trajectory_controller/internal/latest_value.h>
-#include <joint_trajectory_controller/realtime_goal.h>
+#include <joint_trajectory_controller/internal/realtime_goal.h>
+#include <realtime_tools/realtime_server_goal_handle.h>
 #include <ros/node_handle.h>
 
 #include <atomic>
@@ -57,9 +58,9 @@ class GripperActionController : public controller_interface::Controller<Hardware
  protected:
   typedef actionlib::ActionServer<control_msgs::GripperCommandAction> ActionServer;
   typedef ActionServer::GoalHandle GoalHandle;
-  typedef joint_trajectory_controller::RealtimeGoal<control_msgs::GripperCommandAction>
+  typedef realtime_tools::RealtimeServerGoalHandle<control_msgs::GripperCommandAction>
       RealtimeGoalHandle;
-  typedef boost::shared_ptr<RealtimeGoalHandle> RealtimeGoalHandlePtr;
+  typedef joint_trajectory_controller::internal::RealtimeGoal<RealtimeGoalHandle> RealtimeGoal;
   typedef HardwareInterfaceAdapter<HardwareInterface> HwIfaceAdapter;
   typedef typename HardwareInterface::ResourceHandleType JointHandle;
 
@@ -77,7 +78,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
   /// What callbacks lay before the loop; without a goal: hold.
   struct Order {
     Commands commands;
-    RealtimeGoalHandlePtr goal;
+    boost::shared_ptr<RealtimeGoal> goal;
     std::uint64_t session{0};
     Order* next{nullptr};
   };
@@ -95,7 +96,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
   void takeOrder();
   void hold();
   void judgeGoal(double error_position);
-  void settle(RealtimeGoalHandle& goal, bool reached);
+  void settle(RealtimeGoal& goal, bool reached);
   void publishSnapshot(bool stalled);
 
   // In callbacks.
@@ -124,7 +125,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
 
   // Of callbacks, under mutex_.
   std::recursive_mutex mutex_;
-  RealtimeGoalHandlePtr active_goal_;
+  boost::shared_ptr<RealtimeGoal> active_goal_;
   std::uint64_t active_goal_session_{0};
   std::shared_ptr<ActionServer> action_server_;
   ros::WallTimer monitor_timer_;

@@ -147,7 +147,7 @@ void GripperActionController<HardwareInterface>::hold() {
 
 template <class HardwareInterface>
 void GripperActionController<HardwareInterface>::judgeGoal(double error_position) {
-  RealtimeGoalHandle* const goal = order_ != nullptr ? order_->goal.get() : nullptr;
+  RealtimeGoal* const goal = order_ != nullptr ? order_->goal.get() : nullptr;
   if (goal == nullptr || !goal->isOpen()) {
     return;
   }
@@ -159,16 +159,15 @@ void GripperActionController<HardwareInterface>::judgeGoal(double error_position
 
 /// A gripper that stalls keeps pressing towards its target: it may hold something.
 template <class HardwareInterface>
-void GripperActionController<HardwareInterface>::settle(RealtimeGoalHandle& goal, bool reached) {
+void GripperActionController<HardwareInterface>::settle(RealtimeGoal& goal, bool reached) {
   if (!goal.claim()) {
     return;
   }
-  goal.preallocated_result_->position = joint_.getPosition();
-  goal.preallocated_result_->effort = computed_effort_;
-  goal.preallocated_result_->reached_goal = reached;
-  goal.preallocated_result_->stalled = !reached;
-  goal.settle(reached ? RealtimeGoalHandle::Outcome::kSucceeded
-                      : RealtimeGoalHandle::Outcome::kAborted);
+  goal.handle()->preallocated_result_->position = joint_.getPosition();
+  goal.handle()->preallocated_result_->effort = computed_effort_;
+  goal.handle()->preallocated_result_->reached_goal = reached;
+  goal.handle()->preallocated_result_->stalled = !reached;
+  goal.settle(reached ? RealtimeGoal::Outcome::kSucceeded : RealtimeGoal::Outcome::kAborted);
 }
 
 template <class HardwareInterface>
@@ -200,7 +199,7 @@ void GripperActionController<HardwareInterface>::goalCB(GoalHandle gh) {
   }
   auto order = std::make_unique<Order>();
   order->commands = Commands{command.position, command.max_effort};
-  order->goal.reset(new RealtimeGoalHandle(gh));
+  order->goal = boost::make_shared<RealtimeGoal>(boost::make_shared<RealtimeGoalHandle>(gh));
   order->session = session;
   endGoal("Another goal replaced this one.");
   gh.setAccepted();
@@ -212,7 +211,7 @@ void GripperActionController<HardwareInterface>::goalCB(GoalHandle gh) {
 template <class HardwareInterface>
 void GripperActionController<HardwareInterface>::cancelCB(GoalHandle gh) {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
-  if (!active_goal_ || !(active_goal_->gh_ == gh)) {
+  if (!active_goal_ || !(active_goal_->handle()->gh_ == gh)) {
     return;
   }
   if (active_goal_->isOpen() && running_.load()) {
@@ -237,10 +236,10 @@ void GripperActionController<HardwareInterface>::endGoal(const std::string& reas
   }
   if (active_goal_->claim()) {
     const Snapshot& snapshot = snapshot_.read();
-    active_goal_->preallocated_result_->position = snapshot.position;
-    active_goal_->preallocated_result_->effort = snapshot.effort;
-    active_goal_->preallocated_result_->stalled = snapshot.stalled;
-    active_goal_->settle(RealtimeGoalHandle::Outcome::kCanceled);
+    active_goal_->handle()->preallocated_result_->position = snapshot.position;
+    active_goal_->handle()->preallocated_result_->effort = snapshot.effort;
+    active_goal_->handle()->preallocated_result_->stalled = snapshot.stalled;
+    active_goal_->settle(RealtimeGoal::Outcome::kCanceled);
     tellResult(reason);
     return;
   }
@@ -254,7 +253,7 @@ void GripperActionController<HardwareInterface>::endGoal(const std::string& reas
 
 template <class HardwareInterface>
 void GripperActionController<HardwareInterface>::tellResult(const std::string& reason) {
-  const control_msgs::GripperCommandResult& result = *active_goal_->preallocated_result_;
+  const control_msgs::GripperCommandResult& result = *active_goal_->handle()->preallocated_result_;
   std::string text = reason;
   if (text.empty()) {
     text = result.reached_goal ? "The gripper reached its goal."
@@ -272,7 +271,7 @@ void GripperActionController<HardwareInterface>::publishFeedback() {
   feedback.position = snapshot.position;
   feedback.effort = snapshot.effort;
   feedback.stalled = snapshot.stalled;
-  active_goal_->gh_.publishFeedback(feedback);
+  active_goal_->handle()->gh_.publishFeedback(feedback);
 }
 
 template <class HardwareInterface>
