@@ -171,7 +171,7 @@ def with_stone(fingers):
     opened(fingers)
     stone(True)
     report["hold"] = grasp(0.03, force=5.0).result()
-    say("push stone 60 0 0 400")
+    say("push stone 20 0 0 60")  # out of the fingers, but not out of the world
     report["slipped"] = fingers.until(lambda width: width < 0.005)
     opened(fingers)
     stone(False)

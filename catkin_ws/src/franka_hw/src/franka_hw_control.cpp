@@ -138,7 +138,8 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
 }
 
 bool FrankaHW::mayStart(const std::list<hardware_interface::ControllerInfo>& list) const {
-  const std::string refusal = refusalOfMotions();
+  // Before init() there is no robot that could be another one than the parameters say.
+  const std::string refusal = initialized_ ? refusalOfMotions() : std::string();
   if (refusal.empty()) {
     return true;
   }

@@ -100,6 +100,7 @@ def test_help_names_every_option():
         (["--base", "1e11,0,0"], "give metres, 1000 at most"),
         (["--base=0,-1001,0"], "give metres, 1000 at most"),
         (["--ip"], "needs a value"),
+        (["--urdf", str(ROBOTS / "panda.urdf"), "--arm-id", "nobody"], "nobody"),
     ],
 )
 def test_a_wrong_command_line_is_refused_with_a_sentence(arguments, sentence):
@@ -115,7 +116,6 @@ def test_a_wrong_command_line_is_refused_with_a_sentence(arguments, sentence):
         (["--ip", "192.0.2.1"], "does not have that address"),
         (["--world", "nowhere.xml"], "There is no world 'nowhere.xml'"),
         (["--urdf", "/nowhere.urdf"], "Cannot read the file '/nowhere.urdf'"),
-        (["--urdf", str(ROBOTS / "panda.urdf"), "--arm-id", "nobody"], "nobody"),
     ],
 )
 def test_what_cannot_be_is_said(arguments, sentence, monkeypatch):

@@ -100,17 +100,17 @@ def test_arm_and_hand_are_shown_together(screen, tmp_path, name):
     "address, sentence",
     [("no.such.host.invalid", "no.such.host.invalid"), ("127.0.33.9", "Please install FCI feature")],
 )
-def test_without_a_robot_the_nodes_end_with_a_sentence(tmp_path, address, sentence):
+def test_without_a_robot_the_launch_ends_with_a_sentence(tmp_path, address, sentence):
     log = tmp_path / "launch.log"
     arguments = [f"robot_ip:={address}", "rviz:=false"]
     with Session("franka_visualization", "franka_visualization.launch", *arguments, log=log) as session:
         session.wait_for_master()
         deadline = time.monotonic() + 180
-        while log.read_text(errors="replace").count("exit code 255") < 2:
+        while "exit code 255" not in log.read_text(errors="replace"):
             assert time.monotonic() < deadline, session.tail(40)
             time.sleep(0.2)
     text = log.read_text(errors="replace")
-    for node in ("robot_joint_state_publisher", "gripper_joint_state_publisher"):
-        errors = re.findall(rf"^.*\[ERROR\].*{node}: .*$", text, re.M)
-        assert len(errors) == 1, text
-        assert sentence in errors[0]
+    # The arm's node is required: it may end the launch before the hand's has given up.
+    errors = re.findall(r"^.*\[ERROR\].*robot_joint_state_publisher: .*$", text, re.M)
+    assert len(errors) == 1, text
+    assert sentence in errors[0]

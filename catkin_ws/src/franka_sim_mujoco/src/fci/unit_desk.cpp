@@ -76,7 +76,7 @@ void UnitDesk::applyVersion() noexcept {
 std::optional<Status> UnitDesk::handle(const codec::Request& request) noexcept {
   if (const auto* move = std::get_if<codec::MoveRequest>(&request)) {
     // Whoever waits for the arm to come to rest is answered before another motion begins.
-    return unit_.settling() ? Status::kCommandNotPossibleRejected : unit_.startMotion(*move);
+    return unit_.owesAnswers() ? Status::kCommandNotPossibleRejected : unit_.startMotion(*move);
   }
   if (std::holds_alternative<codec::StopMoveRequest>(request)) {
     // Clients stop after every failed motion, whatever the mode, and wait for the answer.

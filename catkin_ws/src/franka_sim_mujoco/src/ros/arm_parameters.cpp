@@ -1,6 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/transform.h>
 #include <franka_sim_mujoco/physics/world.h>
 #include <franka_sim_mujoco/robot/parameter_checks.h>
 #include <franka_sim_mujoco/ros/arm_parameters.h>
@@ -42,10 +41,11 @@ void readTransform(const ros::NodeHandle& node, const std::string& name,
                    std::array<double, 16>& transform) {
   readArray(node, name, transform);
   transform = withUnitColumns(transform);
-  const std::string fault = franka_core::transformFault(transform);
+  const std::string fault = frameFault(transform);
   if (!fault.empty()) {
-    throw std::invalid_argument("The parameter " + node.resolveName(name) +
-                                " is not a column-major 4x4 transform: " + fault + ".");
+    throw std::invalid_argument(
+        "The parameter " + node.resolveName(name) +
+        " is no column-major 4x4 transform to a frame on the arm: " + fault + ".");
   }
 }
 

@@ -44,8 +44,10 @@ std::string contentOf(const std::string& path) {
 
 class SdfTextTest : public SdfTest {
  protected:
-  SdfScene byTinyXml(const std::string& text) const {
-    const SdfFiles files(folder_, {});
+  SdfScene byTinyXml(const std::string& text) const { return byTinyXml(text, folder_); }
+
+  static SdfScene byTinyXml(const std::string& text, const std::string& folder) {
+    const SdfFiles files(folder, {});
     return physics::readExpandedSdf(
         physics::expandByTinyXml(physics::withStandardModels(text, files, "test", ""), files,
                                  "test"),
@@ -57,9 +59,11 @@ class SdfTextTest : public SdfTest {
   }
 
   /// The scene that our own reader finds, after a comparison with sdformat's where that is there.
-  SdfScene both(const std::string& text) const {
-    SdfScene own = byTinyXml(text);
-    const SdfScene other = physics::readSdf(text, folder_, "test", {});
+  SdfScene both(const std::string& text) const { return both(text, folder_); }
+
+  static SdfScene both(const std::string& text, const std::string& folder) {
+    SdfScene own = byTinyXml(text, folder);
+    const SdfScene other = physics::readSdf(text, folder, "test", {});
     expectSame(own, other);
     return own;
   }
@@ -134,7 +138,9 @@ class SdfTextTest : public SdfTest {
 };
 
 TEST_F(SdfTextTest, ShippedWorldsReadAlike) {
-  both(contentOf(std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world/stone.sdf"));
+  const std::string folder = std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world";
+  const SdfScene scene = both(contentOf(folder + "/stone.sdf"), folder);
+  EXPECT_GE(scene.models.size(), 5u);  // the ground, a table, two trays, a stone
 }
 
 TEST_F(SdfTextTest, PosesFollowTheirFrames) {

@@ -400,7 +400,7 @@ TEST(ControlUnitParameters, ThatMakeNoSenseAreRefusedWithTheirName) {
   EXPECT_EQ("", changed([](ControlUnitParameters&) {}));
   EXPECT_NE(std::string::npos, changed([](auto& p) {
                                  p.NE_T_EE[0] = 2;
-                               }).find("parameter NE_T_EE is no rigid transform: column 1"));
+                               }).find("parameter NE_T_EE is no frame on the arm: column 1"));
   EXPECT_NE(std::string::npos, changed([](auto& p) { p.F_T_NE[15] = 0; }).find("F_T_NE"));
   EXPECT_NE(std::string::npos, changed([](auto& p) { p.EE_T_K[12] = kNan; }).find("EE_T_K"));
   EXPECT_NE(std::string::npos, changed([](auto& p) { p.end_effector.mass = -1; }).find("m_ee"));

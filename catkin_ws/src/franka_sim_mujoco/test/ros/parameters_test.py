@@ -45,7 +45,7 @@ WRONG = [
     ("m_load", 730.0, "730 kg; it must lie between 0 and 10 kg"),
     ("F_x_Cload", "0 0 1000", "1000 m from the flange"),
     ("m_ee", 11, "11 kg"),
-    ("NE_T_EE", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 1e11 1", "at most 10 m"),
+    ("NE_T_EE", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 1e11 1", "must be within 10 m"),
     ("gravity_vector", "0 0 -9810", "100 m/s^2"),
     ("I_load", "nan 0 0 0 1 0 0 0 1", "I_load"),
     ("F_x_Cload", "0 0 0 0", "F_x_Cload"),

@@ -92,7 +92,7 @@ TEST_F(LoadTest, declaredTypesNameTheirLoader) {
       EXPECT_EQ("controller_interface::ControllerBase", declared.base_class);
     }
   }
-  EXPECT_EQ(4, dummies_found);
+  EXPECT_EQ(5, dummies_found);
 }
 
 TEST_F(LoadTest, unloadsAndDestroys) {

@@ -68,7 +68,7 @@ class ToolsTest(unittest.TestCase):
         self.check(1, ["usage: controller_manager"], "dance")
         self.check(1, ["usage: controller_manager"], "load")
         self.check(1, ["usage: unspawner"], name="unspawner")
-        self.check(1, ["usage: unspawner"], "-h", name="unspawner")
+        self.check(0, ["usage: unspawner"], "-h", name="unspawner")
         self.check(0, ["usage: controller_group"], name="controller_group")
         self.check(1, ["usage: controller_group"], "spawn", name="controller_group")
 

@@ -116,6 +116,8 @@ class ControlUnit {
 
   /// Time must go on though no client answers: the arm brakes or recovers.
   bool settling() const noexcept;
+  /// Whether the end of a motion or of a stop is answered only once the arm has come to rest.
+  bool owesAnswers() const noexcept { return motion_end_at_rest_.has_value() || stopping_; }
   /// Which links came too close, after self_collision_avoidance_violation.
   const SelfCollision::Pair& selfCollisionPair() const noexcept {
     return self_collision_.culprit();
