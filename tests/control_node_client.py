@@ -389,14 +389,18 @@ def log_of(text, state):
         rows = list(csv.DictReader(file))
     times = [int(row["time"]) for row in rows]
     last = [float(rows[-1][f"state.q[{i}]"]) for i in range(7)]
-    echo = [float(rows[-1][f"cmd.q_d[{i}]"]) - float(rows[-1][f"state.q_d[{i}]"]) for i in range(7)]
+    # The median: in the last rows the robot may be braking already.
+    echo = median(
+        apart(*([float(row[f"{source}.q_d[{i}]"]) for i in range(7)] for source in ("cmd", "state")))
+        for row in rows
+    )
     return {
         "announced": int(words.split()[2]),
         "rows": len(rows),
         "rising": all(b > a for a, b in zip(times, times[1:])),
         "before_the_state": 0 <= 1000 * state.time - times[-1],
         "apart": apart(last, state.q),
-        "echo": apart(echo, 0.0),
+        "echo": echo,
         "columns": len(rows[0]),
     }
 

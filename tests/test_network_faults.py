@@ -76,7 +76,7 @@ def stepped():
     """The same in lock-step."""
     with ExitStack() as stack:
         kinds = [("panda", "panda"), ("pylibfranka", "fr3"), ("pyfranka", "panda")]
-        yield stations(stack, "127.0.24", "lockstep", kinds)
+        yield stations(stack, "127.0.24", "lockstep", kinds, "--patience", "0.5")
 
 
 @pytest.fixture(scope="module")

@@ -67,8 +67,7 @@ def test_who_is_starved_is_waited_for_and_does_the_same(library, robot):
         assert client.tell("connect", address=address)["outcome"] == "ok"
         for torque in (False, True):
             hashes = [
-                moved(sim, client, torque, stopped)
-                for stopped in (None, client.process.pid, sim.process.pid)
+                moved(sim, client, torque, stopped) for stopped in (None, client.process.pid, sim.process.pid)
             ]
             assert len(set(hashes)) == 1, hashes
         assert sim.ask("state").startswith("Idle")

@@ -26,12 +26,12 @@ class Station:
         self.sim, self.proxy, self.client = sim, proxy, client
 
 
-def stations(stack: ExitStack, network: str, pace: str, kinds) -> list[Station]:
+def stations(stack: ExitStack, network: str, pace: str, kinds, *arguments: str) -> list[Station]:
     made = []
     for i, (library, robot) in enumerate(kinds):
         python = sys.executable if library == "pyfranka" else client_python(library)
         client = stack.enter_context(client_process(library, python))
-        sim = stack.enter_context(simulated(robot, f"{network}.{2 * i + 1}", pace))
+        sim = stack.enter_context(simulated(robot, f"{network}.{2 * i + 1}", pace, *arguments))
         proxy = stack.enter_context(Proxy(f"{network}.{2 * i + 2}", sim.address, sim.version))
         made.append(Station(sim, proxy, client))
     for station in made:
