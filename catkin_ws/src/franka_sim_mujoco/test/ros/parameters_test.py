@@ -191,8 +191,7 @@ class ParametersTest(unittest.TestCase):
             self.assertTrue(self.delete("machine").success)
 
     def test_who_says_what_a_robot_is_is_believed_and_told_of_a_contradiction(self):
-        heard = []
-        log = rospy.Subscriber("/rosout", Log, heard.append)
+        heard, log = self.listen_to_log()
         rospy.set_param("/believed/robot_type", "panda")
         answer = self.spawn_bent(rospy.get_param("/fr3_description"), "/believed")
         self.assertFalse(answer.success)
@@ -202,8 +201,23 @@ class ParametersTest(unittest.TestCase):
         )
         log.unregister()
 
+    @staticmethod
+    def publishers_of(topic):
+        _, _, (publishers, _, _) = rospy.get_master().getSystemState()
+        return dict(publishers)[topic]
+
+    def listen_to_log(self):
+        """@returns a list that all further messages of the log are added to, and its subscriber."""
+        heard = []
+        log = rospy.Subscriber("/rosout", Log, heard.append)
+        end = time.monotonic() + WAIT
+        while log.get_num_connections() < len(self.publishers_of("/rosout")):
+            self.assertLess(time.monotonic(), end, "Not every node's log is heard.")
+            time.sleep(0.01)
+        return heard, log
+
     def expect_warning(self, heard, text):
-        """The first warning of the log that contains the text. @param heard what came on /rosout"""
+        """The first warning of the log that contains the text. @param heard of listen_to_log"""
         end = time.monotonic() + WAIT
         while True:
             found = [said.msg for said in heard if text in said.msg and said.level == Log.WARN]
@@ -213,8 +227,7 @@ class ParametersTest(unittest.TestCase):
             time.sleep(0.05)
 
     def test_positions_of_joints_that_are_not_there_are_ignored_with_a_warning(self):
-        heard = []
-        log = rospy.Subscriber("/rosout", Log, heard.append)
+        heard, log = self.listen_to_log()
         rospy.set_param("/handless/arm_id", "right")
         fingers = [(f"right_finger_joint{i}", 0.001) for i in (1, 2)]
         joints = [("right_joint1", 0.25), ("right_joint4", -1.5), ("right_joint6", 1.5), *fingers]
@@ -227,8 +240,7 @@ class ParametersTest(unittest.TestCase):
 
     def test_the_namespace_of_the_description_counts(self):
         # The manual's own snippet of the plugin.
-        heard = []
-        log = rospy.Subscriber("/rosout", Log, heard.append)
+        heard, log = self.listen_to_log()
         end = "</robotSimType>"
         urdf = self.panda.replace(end, end + "<robotNamespace>own_name</robotNamespace>")
         self.assertNotEqual(urdf, self.panda)
@@ -242,8 +254,7 @@ class ParametersTest(unittest.TestCase):
         self.assertTrue(self.delete("panda").success)
 
     def test_gains_without_effect_are_named_in_one_warning(self):
-        heard = []
-        log = rospy.Subscriber("/rosout", Log, heard.append)
+        heard, log = self.listen_to_log()
         gains = {f"panda_joint{i}": {"p": 600, "i": 0, "d": 30} for i in range(1, 8)}
         rospy.set_param("/gains/arm_id", "panda")
         rospy.set_param("/gains/motion_generators/position/gains", gains)
