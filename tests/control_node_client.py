@@ -389,10 +389,10 @@ def log_of(text, state):
         rows = list(csv.DictReader(file))
     times = [int(row["time"]) for row in rows]
     last = [float(rows[-1][f"state.q[{i}]"]) for i in range(7)]
-    # The median: in the last rows the robot may be braking already.
-    echo = median(
+    # The last rows may show the braking, the first ones no command yet.
+    echo = min(
         apart(*([float(row[f"{source}.q_d[{i}]"]) for i in range(7)] for source in ("cmd", "state")))
-        for row in rows
+        for row in rows[-5:]
     )
     return {
         "announced": int(words.split()[2]),
