@@ -19,7 +19,7 @@ from genuine_clients import client_python
 from stalls import in_time
 
 CLIENTS = Path(__file__).resolve().parent / "support" / "genuine"
-# A patient robot keeps to the clock, and loses nothing on a machine that does not.
+# A patient robot keeps to the clock, and waits for clients on a machine that does not.
 PACES = ["lockstep", "patient"] + (["realtime"] if os.environ.get("FRANKA_TEST_LONG") else [])
 FLOOR = """<mujoco><worldbody>
   <light pos="0 0 3"/>
@@ -83,7 +83,7 @@ def fr3(request, world):
 
 
 def tolerance(seen) -> float:
-    """Of a motion's goal [rad]: by the clock, a client on a busy machine misses some of its states."""
+    """Of a motion's goal [rad]. By the clock, 1.9e-3 was measured once on a busy machine, cause not known."""
     return 1e-3 if seen["pace"] == "lockstep" else 1e-2
 
 

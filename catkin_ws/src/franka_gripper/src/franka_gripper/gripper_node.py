@@ -278,7 +278,7 @@ def warn_of_unknown_joints(parameters):
     try:
         description = ElementTree.fromstring(rospy.get_param(name)) if name else None
     except (ElementTree.ParseError, TypeError):
-        return  # whoever needs the description says so
+        return  # the nodes that need the description report it
     known = set() if description is None else {joint.get("name") for joint in description.iter("joint")}
     unknown = [joint for joint in parameters.joint_names if joint not in known]
     if known and unknown:

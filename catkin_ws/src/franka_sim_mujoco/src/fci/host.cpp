@@ -173,7 +173,7 @@ void Host::serveAll() {
   for (const Guest& guest : guests_) {
     guest.robot->serve(stops_only);
   }
-  // The next states wait for commands, which may come from whoever waits for an answer here.
+  // The next states wait for commands. Their sender may be waiting for an answer of a service.
   const bool states_wait = pace_.lockstep && clientsAreDue();
   for (Service* service : services_) {
     service->serve();

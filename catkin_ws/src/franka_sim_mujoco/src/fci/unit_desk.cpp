@@ -75,7 +75,7 @@ void UnitDesk::applyVersion() noexcept {
 
 std::optional<Status> UnitDesk::handle(const codec::Request& request) noexcept {
   if (const auto* move = std::get_if<codec::MoveRequest>(&request)) {
-    // Whoever waits for the arm to come to rest is answered before another motion begins.
+    // Requests that wait for the arm to come to rest are answered before the next motion begins.
     return unit_.owesAnswers() ? Status::kCommandNotPossibleRejected : unit_.startMotion(*move);
   }
   if (std::holds_alternative<codec::StopMoveRequest>(request)) {

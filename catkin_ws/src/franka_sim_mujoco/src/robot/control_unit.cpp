@@ -154,7 +154,7 @@ void ControlUnit::observeContacts() noexcept {
   in_acceleration_ = phase_.update(accelerating_);
   const bool in_K = parameters_.threshold_frame == ThresholdFrame::kStiffness;
   if (!parameters_.reflexes) {
-    // The manual's formulas, for the values that are shown (decision 48).
+    // Without reflexes: the manual's formulas, applied to the published values.
     const std::array<double, 6>& shown = in_K ? state_.K_F_ext_hat_K : state_.O_F_ext_hat_K;
     state_.joint_contact = above(state_.tau_ext_hat_filtered, thresholds().lower_torque);
     state_.joint_collision = above(state_.tau_ext_hat_filtered, thresholds().upper_torque);
@@ -162,7 +162,7 @@ void ControlUnit::observeContacts() noexcept {
     state_.cartesian_collision = above(shown, thresholds().upper_force);
     return;
   }
-  // The robot's act on what the filters have not yet delayed (decision 3).
+  // The robot's reflexes use the unfiltered values, which have no delay.
   wrench_ = external_wrench_.inBase(tau_ext_);
   if (in_K) {
     wrench_ = external_wrench_.inStiffness(wrench_);

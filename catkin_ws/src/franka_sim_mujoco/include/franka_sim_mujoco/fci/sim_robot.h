@@ -50,8 +50,8 @@ class SimRobot final : public HostedRobot {
   /// Null where the robot has none.
   VacuumGripperUnit* vacuum() noexcept { return vacuum_ ? &vacuum_->unit : nullptr; }
 
-  /// Who is told when links come too close to each other (decision 17) or the arm meets something,
-  /// once for each time the error appears: what follows the robot's name and a colon. Called within
+  /// Sets the function that reports a self-collision or a contact reflex, once each time the error
+  /// appears. Its argument is the text after the robot's name and a colon. It is called within
   /// `observe`.
   void onCollision(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
 

@@ -13,7 +13,7 @@
 namespace franka_sim_mujoco {
 
 /// Publishes /clock, no more often than a limit of messages a wall second however fast the
-/// simulation runs (decision 22): every message wakes every node up. The time in each is exact. The
+/// simulation runs, because every message wakes up every node. The time in each is exact. The
 /// stepping thread owns it.
 class ClockPublisher {
  public:
