@@ -11,6 +11,8 @@ import sys
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from lines import Lines
+
 HERE = Path(__file__).resolve().parent
 VERSIONS = {"panda": 5, "fr3": 10}
 
@@ -124,6 +126,7 @@ class ClientProcess:
             [python, str(script), library], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
         go_first(self.process.pid)
+        self._lines = Lines(self.process.stdout)
         self._due = False  # a result
 
     def tell(self, do: str, **task) -> dict:
@@ -138,9 +141,9 @@ class ClientProcess:
         self.process.stdin.flush()
 
     def line(self, timeout: float = 60.0) -> str:
-        ready, _, _ = select.select([self.process.stdout], [], [], timeout)
-        assert ready, f"The client has said nothing for {timeout} s."
-        return self.process.stdout.readline().strip()
+        line = self._lines.next(timeout)
+        assert line is not None, f"The client has ended, or has written nothing for {timeout} s."
+        return line
 
     def result(self, timeout: float = 60.0) -> dict:
         line = self.line(timeout)
@@ -159,4 +162,3 @@ def client_process(library: str, python: str = sys.executable):
         client.process.kill()
         client.process.wait()
         client.process.stdin.close()
-        client.process.stdout.close()

@@ -4,7 +4,6 @@
 
 import json
 import os
-import select
 import statistics
 import subprocess
 import time
@@ -13,6 +12,7 @@ from pathlib import Path
 import pytest
 from fci_session import start
 from franka_sim_mujoco.session import Session
+from lines import Lines
 
 HERE = Path(__file__).resolve().parent
 ADDRESS = "127.0.31.1"
@@ -47,10 +47,12 @@ def start_hand(world) -> subprocess.Popen:
 
 def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
     """Follows the client, and ends and starts the hand when it asks for that."""
+    lines = Lines(client.stdout)
     deadline = time.monotonic() + 600
     while time.monotonic() < deadline:
-        ready, _, _ = select.select([client.stdout], [], [], 120)
-        line = client.stdout.readline().strip() if ready else ""
+        line = lines.next(120.0)
+        if line is None:
+            break
         if line == "kill":
             hand.kill()
             hand.wait()
@@ -60,8 +62,6 @@ def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
             client.stdin.flush()
         elif line.startswith("{"):
             return json.loads(line), hand
-        elif not ready or client.poll() is not None:
-            break
     pytest.fail("The client has ended early.")
 
 
