@@ -14,17 +14,16 @@
 #include <functional>
 #include <type_traits>
 
+// Newer versions of Boost say themselves that std's placeholders are placeholders.
+#if __has_include(<boost/bind/std_placeholders.hpp>)
+#include <boost/bind/std_placeholders.hpp>
+#else
 #define BOOST_BIND_COMPAT_PLACEHOLDER(number)                                           \
   template <>                                                                           \
   struct is_placeholder<std::remove_cv<decltype(std::placeholders::_##number)>::type> { \
     enum _vt { value = number };                                                        \
-  };                                                                                    \
-  namespace placeholders {                                                              \
-  using std::placeholders::_##number;                                                   \
-  }
-
+  };
 namespace boost {
-
 BOOST_BIND_COMPAT_PLACEHOLDER(1)
 BOOST_BIND_COMPAT_PLACEHOLDER(2)
 BOOST_BIND_COMPAT_PLACEHOLDER(3)
@@ -34,9 +33,22 @@ BOOST_BIND_COMPAT_PLACEHOLDER(6)
 BOOST_BIND_COMPAT_PLACEHOLDER(7)
 BOOST_BIND_COMPAT_PLACEHOLDER(8)
 BOOST_BIND_COMPAT_PLACEHOLDER(9)
-
 }  // namespace boost
-
 #undef BOOST_BIND_COMPAT_PLACEHOLDER
+#endif
+
+namespace boost {
+namespace placeholders {
+using std::placeholders::_1;
+using std::placeholders::_2;
+using std::placeholders::_3;
+using std::placeholders::_4;
+using std::placeholders::_5;
+using std::placeholders::_6;
+using std::placeholders::_7;
+using std::placeholders::_8;
+using std::placeholders::_9;
+}  // namespace placeholders
+}  // namespace boost
 
 #endif
