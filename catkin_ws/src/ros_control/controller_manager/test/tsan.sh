@@ -53,6 +53,7 @@ pending=0
 for source in "$package"/src/*.cpp "$here/stress_test.cpp"; do
   object="$build/$(basename "$source" .cpp).o"
   objects="$objects $object"
+  # shellcheck disable=SC2086  # a list of options
   $launcher g++ -std=c++17 -O1 -g -fsanitize=thread -fPIE $includes -c "$source" -o "$object" &
   pending=$((pending + 1))
   if [ $((pending % 2)) -eq 0 ]; then wait -n; fi
