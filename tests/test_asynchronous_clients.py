@@ -13,7 +13,7 @@ from fci_session import simulated
 from fci_wire import COMMUNICATION, IDLE, REFLEX, connected
 from genuine_clients import client_python
 
-# Joint 4 goes to and fro; each line tells how one way ended.
+# Joint 4 goes back and forth; each line tells how one way ended.
 CLIENT = """
 import json, sys, time
 import pylibfranka as franka

@@ -16,7 +16,7 @@
 
 namespace franka_example_controllers {
 
-/// Leads the end effector to and fro along an arc of 0.15 m radius, by its pose.
+/// Leads the end effector back and forth along an arc of 0.15 m radius, by its pose.
 ///
 /// Parameter in the controller's namespace: `arm_id`.
 class CartesianPoseExampleController

@@ -16,7 +16,7 @@
 
 namespace franka_example_controllers {
 
-/// Moves the end effector to and fro along a line that falls by 45 degrees: 4 s one way, 4 s back,
+/// Moves the end effector back and forth along a line that falls by 45 degrees: 4 s one way, 4 s back,
 /// 0.05 m/s at most.
 ///
 /// Parameter in the controller's namespace: `arm_id`. stopping() leaves the last velocity: a jump

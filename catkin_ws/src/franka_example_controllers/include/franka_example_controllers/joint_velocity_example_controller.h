@@ -16,7 +16,7 @@
 
 namespace franka_example_controllers {
 
-/// Moves all joints to and fro by smooth velocities: 8 s one way, 8 s back, 0.1 rad/s at most.
+/// Moves all joints back and forth by smooth velocities: 8 s one way, 8 s back, 0.1 rad/s at most.
 ///
 /// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven). stopping() leaves the
 /// last velocity: a jump to zero would be a discontinuity; the robot brakes by itself.
