@@ -372,9 +372,7 @@ def reflex(robot, person, services, diagnosis):
     report["flagged"] = robot.waits(lambda: robot.state.current_errors.cartesian_reflex) is not None
     report["has_error"] = robot.waits(lambda: robot.has_error) is not None
     # A report of the moment of the reflex may still hold the last state of the motion.
-    report["diagnosis"] = diagnosis.shows(
-        "Robot", "In error; call the action error_recovery", Mode="Reflex"
-    )
+    report["diagnosis"] = diagnosis.shows("Robot", "In error; call the action error_recovery", Mode="Reflex")
     # Latched: whoever asks afterwards is told.
     report["abort"] = rospy.wait_for_message("/franka_control/abort", String, PATIENCE).data
     report["log"] = log_of(report["abort"], robot.state)

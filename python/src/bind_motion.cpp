@@ -35,8 +35,7 @@ void bindCommand(py::module_& module, const char* name, const char* field, Membe
           doc)
       .def_readwrite("motion_finished", &Command::motion_finished,
                      "Whether this is the last command of its motion.")
-      .def(
-          "__copy__", [](const Command& self) { return Command(self); }, "Another one, equal.");
+      .def("__copy__", [](const Command& self) { return Command(self); }, "Another one, equal.");
   constexpr std::size_t kSize =
       std::tuple_size<std::remove_reference_t<decltype(std::declval<Command>().*member)>>::value;
   if constexpr (std::is_constructible_v<Command, std::array<double, kSize>,

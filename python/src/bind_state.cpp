@@ -18,7 +18,7 @@ using franka::RobotState;
 /// A read-only attribute that shows the state's own numbers.
 template <std::size_t size>
 void field(py::class_<RobotState>& type, const char* name,
-           std::array<double, size> RobotState::*member, const char* doc,
+           std::array<double, size> RobotState::* member, const char* doc,
            Shape shape = Shape::kVector) {
   type.def_property_readonly(
       name,

@@ -141,9 +141,7 @@ def check_box(dae, mesh):
     if not mesh.faces:
         raise ConversionError(f"assimp found no face in {dae.name}")
     expected, found = collada_box(dae), mesh.box()
-    worst = max(
-        abs(expected[corner][axis] - found[corner][axis]) for corner in (0, 1) for axis in range(3)
-    )
+    worst = max(abs(expected[corner][axis] - found[corner][axis]) for corner in (0, 1) for axis in range(3))
     if worst > BOX_TOLERANCE:
         raise ConversionError(
             f"{dae.name} would end up elsewhere: its bounding box is {expected}, after conversion"

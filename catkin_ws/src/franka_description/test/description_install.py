@@ -11,8 +11,6 @@ SCRIPT = Path(__file__).resolve().parents[1] / "scripts" / "install_meshes"
 
 def load():
     loader = importlib.machinery.SourceFileLoader("install_meshes", str(SCRIPT))
-    module = importlib.util.module_from_spec(
-        importlib.util.spec_from_loader("install_meshes", loader)
-    )
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("install_meshes", loader))
     loader.exec_module(module)
     return module

@@ -27,9 +27,7 @@ def expand_text(body, **arguments):
     """The Robot from xacro text that has the macros, and panda_limits for joint_limits."""
     path = ROBOTS / "panda" / "joint_limits.yaml"
     limits = f'<xacro:property name="panda_limits" value="${{xacro.load_yaml(\'{path}\')}}"/>'
-    include = (
-        '<xacro:include filename="$(find franka_description)/robots/common/franka_robot.xacro"/>'
-    )
+    include = '<xacro:include filename="$(find franka_description)/robots/common/franka_robot.xacro"/>'
     start = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">'
     text = f"{start}{include}{limits}{body}</robot>"
     document = xacro.parse(text)

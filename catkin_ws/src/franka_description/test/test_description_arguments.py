@@ -168,7 +168,4 @@ def test_dual_panda_arguments():
     robot = expand("dual_panda/dual_panda_example", arm_id_1="l", arm_id_2="r")
     assert {"l_link0", "l_hand", "r_link0", "r_hand", "base"} <= set(robot.links)
     assert not any(n.startswith("panda") for n in robot.links)
-    assert (
-        expand("dual_panda/dual_panda_example", mesh_index=NO_MESHES).links["panda_1_hand_tcp"]
-        is not None
-    )
+    assert expand("dual_panda/dual_panda_example", mesh_index=NO_MESHES).links["panda_1_hand_tcp"] is not None

@@ -112,9 +112,7 @@ def test_fingers(gazebo, side, sign):
 
 @pytest.mark.parametrize("direction", ["x", "y", "z"])
 def test_capsule_directions(direction):
-    body = (
-        f'<xacro:collision_capsule radius="0.1" length="0.4" xyz="1 2 3" direction="{direction}"/>'
-    )
+    body = f'<xacro:collision_capsule radius="0.1" length="0.4" xyz="1 2 3" direction="{direction}"/>'
     link = expand_text(f'<link name="l">{body}</link>').links["l"]
     assert_capsules(link, [((1, 2, 3), "xyz".index(direction), 0.1, 0.4)], 0)
 

@@ -18,8 +18,7 @@ hand | -0.01 0 0.03 | 0.73 | 0.001 0.0025 0.0017 | 0 0 0
 leftfinger | 0 0 0 | 0.015 | 2.375e-06 2.375e-06 7.5e-07 | 0 0 0
 rightfinger | 0 0 0 | 0.015 | 2.375e-06 2.375e-06 7.5e-07 | 0 0 0"""  # noqa: E501
 ROWS = {
-    row.split("|")[0].strip(): [numbers(cell) for cell in row.split("|")[1:]]
-    for row in TABLE.splitlines()
+    row.split("|")[0].strip(): [numbers(cell) for cell in row.split("|")[1:]] for row in TABLE.splitlines()
 }
 TERMS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
@@ -64,7 +63,5 @@ def test_solid_cylinder():
     inertial = expand_text(body).links["l"].find("inertial")
     inertia = {k: float(v) for k, v in inertial.find("inertia").attrib.items()}
     # 2 kg * (3 * 0.01 + 0.09) / 12 across, 2 kg * 0.01 / 2 along
-    assert inertia == pytest.approx(
-        {"ixx": 0.02, "iyy": 0.02, "izz": 0.01, "ixy": 0, "ixz": 0, "iyz": 0}
-    )
+    assert inertia == pytest.approx({"ixx": 0.02, "iyy": 0.02, "izz": 0.01, "ixy": 0, "ixz": 0, "iyz": 0})
     assert float(inertial.find("mass").get("value")) == 2.0

@@ -27,9 +27,7 @@ def test_tree(name, hand, gazebo):
     joints = {f"{name}_joint{i}" for i in range(1, 9)}
     joints |= {f"{name}_{link}_sc_joint" for link in ARM_LINKS}
     if hand:
-        links |= {
-            f"{name}_{n}" for n in ("hand", "hand_sc", "hand_tcp", "leftfinger", "rightfinger")
-        }
+        links |= {f"{name}_{n}" for n in ("hand", "hand_sc", "hand_tcp", "leftfinger", "rightfinger")}
         joints |= {f"{name}_{n}_joint" for n in ("hand", "hand_sc", "hand_tcp")}
         joints |= {f"{name}_finger_joint1", f"{name}_finger_joint2"}
     if gazebo:
@@ -44,9 +42,7 @@ def test_tree(name, hand, gazebo):
 @pytest.mark.parametrize("name", ROBOTS)
 def test_joint_types_axes_and_dynamics(name):
     robot = expand(f"{name}/{name}", hand="true")
-    dynamics = dict(
-        D="1", K="7000", damping="0.003", friction="0.0", mu_coulomb="0", mu_viscous="16"
-    )
+    dynamics = dict(D="1", K="7000", damping="0.003", friction="0.0", mu_coulomb="0", mu_viscous="16")
     for i in range(1, 8):
         joint = robot.joints[f"{name}_joint{i}"]
         assert joint.get("type") == "revolute"

@@ -21,8 +21,7 @@ FR3 = """-2.3093 2.3093 2.0 87
 0.8521 4.2094 1.50 12
 -2.6895 2.6895 3.00 12"""
 TABLES = {
-    name: [numbers(row) for row in table.splitlines()]
-    for name, table in (("panda", PANDA), ("fr3", FR3))
+    name: [numbers(row) for row in table.splitlines()] for name, table in (("panda", PANDA), ("fr3", FR3))
 }
 
 # The limits the FCI documents, joints 1 to 7: Panda; FR3 before system 5.9; FR3 from 5.9 on.
@@ -108,9 +107,7 @@ def test_friction_sets(physics):
     assert set(physics) == {"panda", "fr3", "friction_sets"}
     assert set(physics["friction_sets"]) == {"none", "fr3"}
     none = physics["friction_sets"]["none"]
-    assert none == {
-        k: physics["panda"][k] for k in ("rotor_inertia", "damping", "coulomb_friction")
-    }
+    assert none == {k: physics["panda"][k] for k in ("rotor_inertia", "damping", "coulomb_friction")}
     fr3 = physics["friction_sets"]["fr3"]
     assert fr3["rotor_inertia"] == [0.195] * 4 + [0.074] * 3
     assert fr3["damping"] == [0.21] * 7

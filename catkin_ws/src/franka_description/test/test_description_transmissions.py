@@ -49,9 +49,7 @@ def test_franka_state(name):
     interface = "franka_hw/FrankaStateInterface"
     assert state.find("type").text == interface
     assert [j.get("name") for j in state.findall("joint")] == [f"a_joint{i}" for i in range(1, 8)]
-    assert [m.get("name") for m in state.findall("actuator")] == [
-        f"a_motor{i}" for i in range(1, 8)
-    ]
+    assert [m.get("name") for m in state.findall("actuator")] == [f"a_motor{i}" for i in range(1, 8)]
     assert {h.text for h in state.iter("hardwareInterface")} == {interface}
     assert len(list(state.iter("hardwareInterface"))) == 14
 

@@ -39,9 +39,7 @@ class Place:
         return self.script.main()
 
     def files(self):
-        return sorted(
-            str(p.relative_to(self.meshes)) for p in self.meshes.rglob("*") if p.is_file()
-        )
+        return sorted(str(p.relative_to(self.meshes)) for p in self.meshes.rglob("*") if p.is_file())
 
     def wheel(self, robot):
         (source,) = [s for s in self.script.SOURCES if s.robot == robot]

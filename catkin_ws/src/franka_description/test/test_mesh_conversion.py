@@ -94,9 +94,7 @@ def test_coordinates_stay_and_colours_split(tmp_path):
         faces = read(tmp_path / "out" / "part" / line.split("file: ")[1].split(",")[0])
         red = "[1.0, 0.0" in line
         assert len(faces) == (2 if red else 1)
-        assert rounded(faces) == {
-            tuple(round(v, 6) for v in p) for p in lifted(RED if red else BLUE)
-        }
+        assert rounded(faces) == {tuple(round(v, 6) for v in p) for p in lifted(RED if red else BLUE)}
 
 
 @needs_assimp

@@ -17,7 +17,7 @@ constexpr uint8_t kJoints = 7;
 
 struct Interface {
   const char* name;
-  uint8_t ResourceClaims::*counter;
+  uint8_t ResourceClaims::* counter;
   uint8_t claims;  // of one controller
 };
 

@@ -358,27 +358,13 @@ TEST_F(Loop, BadValuesStopTheRobot) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const std::function<void()> bad[] = {
-      [&] {
-        robot->control(constant(Torques({0, 0, nan, 0, 0, 0, 0})));
-      },
-      [&] {
-        robot->control(constant(JointPositions({0, 0, 0, inf, 0, 0, 0})));
-      },
-      [&] {
-        robot->control(constant(JointVelocities({0, 0, 0, 0, -inf, 0, 0})));
-      },
-      [&] {
-        robot->control(constant(CartesianVelocities({0, nan, 0, 0, 0, 0})));
-      },
-      [&] {
-        robot->control(constant(CartesianVelocities({0, 0, 0, 0, 0, 0}, {0.1, 0.5})));
-      },
-      [&] {
-        robot->control(constant(CartesianVelocities({0, 0, 0, 0, 0, 0}, {nan, 1.0})));
-      },
-      [&] {
-        robot->control(constant(CartesianPose(kPose, {0.1, 0.0})));
-      },
+      [&] { robot->control(constant(Torques({0, 0, nan, 0, 0, 0, 0}))); },
+      [&] { robot->control(constant(JointPositions({0, 0, 0, inf, 0, 0, 0}))); },
+      [&] { robot->control(constant(JointVelocities({0, 0, 0, 0, -inf, 0, 0}))); },
+      [&] { robot->control(constant(CartesianVelocities({0, nan, 0, 0, 0, 0}))); },
+      [&] { robot->control(constant(CartesianVelocities({0, 0, 0, 0, 0, 0}, {0.1, 0.5}))); },
+      [&] { robot->control(constant(CartesianVelocities({0, 0, 0, 0, 0, 0}, {nan, 1.0}))); },
+      [&] { robot->control(constant(CartesianPose(kPose, {0.1, 0.0}))); },
       [&] {
         robot->control(constant(CartesianPose(std::array<double, 16>{})),
                        ControllerMode::kJointImpedance, false, kMaxCutoffFrequency);

@@ -19,7 +19,7 @@ struct NamedMember {
 
 #define MEMBER(name)                                                       \
   NamedMember {                                                            \
-#name, [](const Errors& errors) -> const bool& { return errors.name; } \
+    #name, [](const Errors& errors) -> const bool& { return errors.name; } \
   }
 
 // In the order of the wire (fci.md 4.1).

@@ -39,15 +39,11 @@ const Call kCalls[] = {
     {Command::kSetCartesianImpedance, "Set Cartesian Impedance", 3, 10,
      [](Robot& r) { r.setCartesianImpedance(kSix); }},
     {Command::kSetGuidingMode, "Set Guiding Mode", 3, 10,
-     [](Robot& r) {
-       r.setGuidingMode({true, false, true, false, true, false}, true);
-     }},
+     [](Robot& r) { r.setGuidingMode({true, false, true, false, true, false}, true); }},
     {Command::kSetEEToK, "Set EE to K", 3, 10, [](Robot& r) { r.setK(kPose); }},
     {Command::kSetNEToEE, "Set NE to EE", 3, 10, [](Robot& r) { r.setEE(kPose); }},
     {Command::kSetLoad, "Set Load", 3, 10,
-     [](Robot& r) {
-       r.setLoad(1.5, {0.1, 0.2, 0.3}, {1, 2, 3, 4, 5, 6, 7, 8, 9});
-     }},
+     [](Robot& r) { r.setLoad(1.5, {0.1, 0.2, 0.3}, {1, 2, 3, 4, 5, 6, 7, 8, 9}); }},
     {Command::kSetFilters, "Set Filters", 3, 5,
      [](Robot& r) { r.setFilters(100, 200, 300, 400, 500); }},
     {Command::kAutomaticErrorRecovery, "Automatic Error Recovery", 3, 10,

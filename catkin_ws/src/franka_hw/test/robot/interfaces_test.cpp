@@ -194,7 +194,7 @@ TEST(Warnings, NameTheJointsNearTheirEnds) {
 
 /// Whether a NaN in each place of a command is found, and none where there is none.
 template <typename Command, size_t size>
-void expectEveryNanIsFound(Command command, std::array<double, size> Command::*values) {
+void expectEveryNanIsFound(Command command, std::array<double, size> Command::* values) {
   EXPECT_FALSE(FrankaHW::commandHasNaN(command));
   for (size_t i = 0; i < size; i++) {
     Command spoilt = command;

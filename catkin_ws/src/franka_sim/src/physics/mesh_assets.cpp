@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kMostFaces = 200000;  ///< MuJoCo's own limit for STL
 
 bool isFile(const std::string& path) {
-  struct stat info {};
+  struct stat info{};
   return stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode);
 }
 

@@ -130,24 +130,14 @@ TEST(DeterminismTest, nobodySeesThatAStepIsPrepared) {
 
 TEST(DeterminismTest, whatChangesAfterAStepWasPreparedCounts) {
   const std::vector<std::function<void(World*)>> changes{
-      [](World* world) {
-        world->setBodyPose("stone", {{0.2, 0.1, 0.5}, {1, 0, 0, 0}});
-      },
-      [](World* world) {
-        world->setBodyTwist("stone", {{0.1, 0, 1}, {0, 0, 3}});
-      },
+      [](World* world) { world->setBodyPose("stone", {{0.2, 0.1, 0.5}, {1, 0, 0, 0}}); },
+      [](World* world) { world->setBodyTwist("stone", {{0.1, 0, 1}, {0, 0, 3}}); },
       [](World* world) { world->setJointPosition("panda_joint2", -0.5); },
       [](World* world) { world->setJointVelocity("panda_joint2", 0.5); },
-      [](World* world) {
-        world->setGravity({1, 2, -3});
-      },
-      [](World* world) {
-        world->push("stone", {3, 0, 0}, {}, 5);
-      },
+      [](World* world) { world->setGravity({1, 2, -3}); },
+      [](World* world) { world->push("stone", {3, 0, 0}, {}, 5); },
       [](World* world) { world->arm("panda", "panda").setBrakes(true); },
-      [](World* world) {
-        world->hand("panda", "panda").applyForces({5, 5});
-      },
+      [](World* world) { world->hand("panda", "panda").applyForces({5, 5}); },
       [](World* world) { world->removeRobot("panda"); },
       [](World* world) {
         world->addObject("ball", "<body><freejoint/><geom size='0.05'/></body>", {{0, 0, 1}});

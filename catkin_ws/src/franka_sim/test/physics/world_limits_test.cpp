@@ -50,38 +50,22 @@ const Entrance kEntrances[] = {
     {"place", " m", 1e3, [](World& w, double size) { w.setBodyPose("stone", at(size, 0, 1)); }},
     {"place down", " m", 1e3,
      [](World& w, double size) { w.setBodyPose("stone", at(0, 0, -size)); }},
-    {"push", " N", 1e4,
-     [](World& w, double size) {
-       w.push("stone", {0, size, 0}, {}, 1);
-     }},
+    {"push", " N", 1e4, [](World& w, double size) { w.push("stone", {0, size, 0}, {}, 1); }},
     {"push torque", " Nm", 1e4,
-     [](World& w, double size) {
-       w.push("stone", {}, {size, 0, 0}, 1);
-     }},
+     [](World& w, double size) { w.push("stone", {}, {size, 0, 0}, 1); }},
     {"push at", " N", 1e4,
-     [](World& w, double size) {
-       w.pushAt("stone", {0, 0, 0}, {0, 0, size}, 1);
-     }},
+     [](World& w, double size) { w.pushAt("stone", {0, 0, 0}, {0, 0, size}, 1); }},
     {"push point", " m", 1e3,
-     [](World& w, double size) {
-       w.pushAt("stone", {size, 0, 0}, {}, 1);
-     }},
+     [](World& w, double size) { w.pushAt("stone", {size, 0, 0}, {}, 1); }},
     {"linear velocity", " m/s", 1e3,
-     [](World& w, double size) {
-       w.setBodyTwist("stone", {{size, 0, 0}, {}});
-     }},
+     [](World& w, double size) { w.setBodyTwist("stone", {{size, 0, 0}, {}}); }},
     {"angular velocity", " rad/s", 1e3,
-     [](World& w, double size) {
-       w.setBodyTwist("stone", {{}, {0, 0, size}});
-     }},
+     [](World& w, double size) { w.setBodyTwist("stone", {{}, {0, 0, size}}); }},
     {"joint position", " rad", 1e3,
      [](World& w, double size) { w.setJointPosition("axle", size); }},
     {"joint velocity", " rad/s", 1e3,
      [](World& w, double size) { w.setJointVelocity("axle", size); }},
-    {"gravity", " m/s^2", 1e2,
-     [](World& w, double size) {
-       w.setGravity({0, 0, -size});
-     }},
+    {"gravity", " m/s^2", 1e2, [](World& w, double size) { w.setGravity({0, 0, -size}); }},
     {"object", " m", 1e3,
      [](World& w, double size) { w.addObject("other", kCrate, at(size, 0, 9)); }},
     {"robot", " m", 1e3,

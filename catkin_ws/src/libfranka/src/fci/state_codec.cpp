@@ -151,7 +151,7 @@ class StateWriter {
       : version_(version), state_(state), to_(to) {}
 
   template <typename T>
-  void operator()(const char* /*name*/, T RobotState::*member, std::uint16_t since) noexcept {
+  void operator()(const char* /*name*/, T RobotState::* member, std::uint16_t since) noexcept {
     if (version_ >= since) {
       put(state_.*member);
     }
@@ -212,7 +212,7 @@ class StateReader {
       : version_(version), from_(from), state_(state) {}
 
   template <typename T>
-  void operator()(const char* /*name*/, T RobotState::*member, std::uint16_t since) noexcept {
+  void operator()(const char* /*name*/, T RobotState::* member, std::uint16_t since) noexcept {
     if (version_ >= since) {
       take(state_.*member);
     }

@@ -34,9 +34,7 @@ class ServicesTest(unittest.TestCase):
         self.assertEqual({}, self.manager.states())
 
     def test_types_name_their_base_class(self):
-        list_types = rospy.ServiceProxy(
-            "controller_manager/list_controller_types", ListControllerTypes
-        )
+        list_types = rospy.ServiceProxy("controller_manager/list_controller_types", ListControllerTypes)
         answer = list_types()
         self.assertEqual(len(answer.types), len(answer.base_classes))
         bases = dict(zip(answer.types, answer.base_classes))
@@ -56,9 +54,7 @@ class ServicesTest(unittest.TestCase):
         self.assertEqual({"a": "running"}, self.manager.states())
         self.assertFalse(self.manager.unload("a").ok)
         self.assertTrue(
-            self.manager.switch(
-                start_controllers=["a"], stop_controllers=["a"], strictness=STRICT
-            ).ok
+            self.manager.switch(start_controllers=["a"], stop_controllers=["a"], strictness=STRICT).ok
         )
         self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
         self.assertEqual({"a": "stopped"}, self.manager.states())
@@ -81,9 +77,7 @@ class ServicesTest(unittest.TestCase):
         self.manager.run_loop(False)
         answers = []
         switch = threading.Thread(
-            target=lambda: answers.append(
-                self.manager.switch(start_controllers=["a"], strictness=STRICT)
-            )
+            target=lambda: answers.append(self.manager.switch(start_controllers=["a"], strictness=STRICT))
         )
         switch.start()
         # Long enough for the switch to be waiting at the latest when this is over.

@@ -57,8 +57,8 @@ class Transmissions : public testing::Test {
  protected:
   /// The map that reads one member of the actuators' data and writes that of the joints'.
   template <class Function>
-  static Map toJoint(Transmission& t, std::vector<double*> ActuatorData::*from,
-                     std::vector<double*> JointData::*to, Function function) {
+  static Map toJoint(Transmission& t, std::vector<double*> ActuatorData::* from,
+                     std::vector<double*> JointData::* to, Function function) {
     return [&t, from, to, function](const Values& input) {
       Values in = input, out(t.numJoints(), 99.0);
       ActuatorData actuators;
@@ -70,8 +70,8 @@ class Transmissions : public testing::Test {
     };
   }
   template <class Function>
-  static Map toActuator(Transmission& t, std::vector<double*> JointData::*from,
-                        std::vector<double*> ActuatorData::*to, Function function) {
+  static Map toActuator(Transmission& t, std::vector<double*> JointData::* from,
+                        std::vector<double*> ActuatorData::* to, Function function) {
     return [&t, from, to, function](const Values& input) {
       Values in = input, out(t.numActuators(), 99.0);
       ActuatorData actuators;

@@ -18,8 +18,9 @@ ROBOT = os.path.join(HERE, "robot.xacro")
 
 def run(*command, **environment):
     """Run a command; return its completed process with text output."""
-    return subprocess.run(command, env=dict(os.environ, **environment), capture_output=True,
-                          text=True, timeout=60, check=False)
+    return subprocess.run(
+        command, env=dict(os.environ, **environment), capture_output=True, text=True, timeout=60, check=False
+    )
 
 
 class XacroTest(unittest.TestCase):
@@ -54,22 +55,33 @@ class XacroTest(unittest.TestCase):
             self.expect_robot(done.stdout, "nobody")
 
     def test_runs_in_launch_files(self):
-        done = run("/usr/bin/roslaunch", "--dump-params", os.path.join(HERE, "robot.launch"),
-                   "file:=" + ROBOT, PATH=self.path_with_a_foreign_python())
+        done = run(
+            "/usr/bin/roslaunch",
+            "--dump-params",
+            os.path.join(HERE, "robot.launch"),
+            "file:=" + ROBOT,
+            PATH=self.path_with_a_foreign_python(),
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.expect_robot(yaml.safe_load(done.stdout)["/robot_description"], "launched")
 
     def test_module_is_importable_by_nodes(self):
-        done = run("/usr/bin/python3", "-c", "import sys, xacro; "
-                   "print(xacro.process_file(sys.argv[1]).toxml())", ROBOT)
+        done = run(
+            "/usr/bin/python3",
+            "-c",
+            "import sys, xacro; print(xacro.process_file(sys.argv[1]).toxml())",
+            ROBOT,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.expect_robot(done.stdout, "nobody")
 
     def test_names_the_package_that_is_missing(self):
         missing = os.path.join(self.directory, "missing.xacro")
         with open(missing, "w", encoding="utf-8") as file:
-            file.write('<robot xmlns:xacro="http://www.ros.org/wiki/xacro">'
-                       '<xacro:include filename="$(find no_such_package)/a.xacro"/></robot>')
+            file.write(
+                '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">'
+                '<xacro:include filename="$(find no_such_package)/a.xacro"/></robot>'
+            )
         done = run("xacro", missing)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("'no_such_package' was not found", done.stderr)
@@ -82,13 +94,14 @@ class XacroTest(unittest.TestCase):
         with open(os.path.join(self.directory, "robot.xacro"), "w", encoding="utf-8") as file:
             file.write(text)
         with open(os.path.join(self.directory, "CMakeLists.txt"), "w", encoding="utf-8") as file:
-            file.write("cmake_minimum_required(VERSION 3.10)\nproject(user C CXX)\n"
-                       "find_package(catkin REQUIRED COMPONENTS xacro)\n"
-                       "xacro_add_xacro_file(robot.xacro robot.urdf REMAP name:=built)\n"
-                       "add_custom_target(robot ALL DEPENDS ${XACRO_OUTPUT_FILE})\n")
+            file.write(
+                "cmake_minimum_required(VERSION 3.10)\nproject(user C CXX)\n"
+                "find_package(catkin REQUIRED COMPONENTS xacro)\n"
+                "xacro_add_xacro_file(robot.xacro robot.urdf REMAP name:=built)\n"
+                "add_custom_target(robot ALL DEPENDS ${XACRO_OUTPUT_FILE})\n"
+            )
         build = os.path.join(self.directory, "build")
-        configure = run("cmake", "-S", self.directory, "-B", build,
-                        "-DPYTHON_EXECUTABLE=/usr/bin/python3")
+        configure = run("cmake", "-S", self.directory, "-B", build, "-DPYTHON_EXECUTABLE=/usr/bin/python3")
         self.assertEqual(configure.returncode, 0, configure.stderr)
 
         def built():

@@ -92,8 +92,7 @@ class Host {
  public:
   /// @param step advances the world by one millisecond.
   /// @param prepare does ahead what it can of that, before answers to a state are waited for.
-  Host(
-      std::function<void()> step, const Pace& pace, std::function<void()> prepare = [] {});
+  Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare = [] {});
 
   /// Must outlive the host, or be removed.
   void add(HostedRobot& robot);

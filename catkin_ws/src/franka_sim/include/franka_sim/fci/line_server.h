@@ -44,8 +44,7 @@ class LineServer final : public Service {
   /// @param usage the command as a person writes it, for example "user_stop on|off"; its first word
   /// is the name.
   /// @param ready lines wait until it says yes
-  void add(
-      const std::string& usage, Handler handler, Ready ready = [] { return true; });
+  void add(const std::string& usage, Handler handler, Ready ready = [] { return true; });
   /// The answer to one line.
   std::string answer(const std::string& line) const;
 

@@ -66,9 +66,8 @@ class GripperUnit {
 
   GripperOutcome outcome(Ticket ticket) const noexcept { return tickets_.outcome(ticket); }
   GripperState state() const noexcept { return state_; }
-  double width() const noexcept {
-    return measured_.q[0] + measured_.q[1];
-  }                                                                   ///< as last measured [m]
+  /// As last measured [m].
+  double width() const noexcept { return measured_.q[0] + measured_.q[1]; }
   double maxWidth() const noexcept { return parameters_.max_width; }  ///< [m]
   bool isGrasped() const noexcept;  ///< holds an object within the epsilons of the last grasp
 

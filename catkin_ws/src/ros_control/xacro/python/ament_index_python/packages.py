@@ -27,7 +27,8 @@ def get_package_share_directory(package_name):
     except rospkg.ResourceNotFound:
         raise PackageNotFoundError(
             f"The package '{package_name}' was not found. Is it built, and is the setup.bash of "
-            f"its workspace sourced? ROS_PACKAGE_PATH is '{path}'.") from None
+            f"its workspace sourced? ROS_PACKAGE_PATH is '{path}'."
+        ) from None
 
 
 @functools.lru_cache(maxsize=4)
