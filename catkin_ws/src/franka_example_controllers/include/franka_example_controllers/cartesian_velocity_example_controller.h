@@ -16,8 +16,8 @@
 
 namespace franka_example_controllers {
 
-/// Moves the end effector back and forth along a line that falls by 45 degrees: 4 s one way, 4 s back,
-/// 0.05 m/s at most.
+/// Moves the end effector back and forth along a line that falls by 45 degrees: 4 s one way, 4 s
+/// back, 0.05 m/s at most.
 ///
 /// Parameter in the controller's namespace: `arm_id`. stopping() leaves the last velocity: a jump
 /// to zero would be a discontinuity; the robot brakes by itself.
