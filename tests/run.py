@@ -84,7 +84,7 @@ def run_pytest(title: str, paths: list[Path], long: bool) -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="./franka test")
     parser.add_argument("packages", nargs="*", help="only these packages; `tests` is the end-to-end folder")
-    parser.add_argument("--long", action="store_true", help="the long forms of soaks and sweeps")
+    parser.add_argument("--long", action="store_true", help="long forms of soaks, sweeps and style checks")
     arguments = parser.parse_args()
     known = packages()
     unknown = [name for name in arguments.packages if name not in known and name != "tests"]
@@ -102,7 +102,8 @@ def main() -> int:
         shutil.rmtree(folder, ignore_errors=True)
     PYTEST_RESULTS.mkdir(parents=True)
 
-    style_failed = not arguments.packages and run("style", [sys.executable, str(TOP / "tests" / "style.py")])
+    style = [sys.executable, str(TOP / "tests" / "style.py")] + (["--long"] if arguments.long else [])
+    style_failed = not arguments.packages and run("style", style)
     pytest_broken = 0
     if wanted or not arguments.packages:
         run_ctest("gtest", wanted)

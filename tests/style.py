@@ -1,30 +1,37 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The style checks: ruff for Python, and the rules of the house that a search can hold.
+"""The style checks: our own rules, ruff, clang-format, shellcheck, codespell and clang-tidy.
 
-clang-format runs where it is installed. Exit status 1 when something is out of place; each finding is a
-line `file:line: what`.
+Called by `./franka test --style`, by continuous integration and by the hooks of pre-commit. Each finding is
+a line `file:line: what`. Exit status 1 when a check finds something or its tool is missing.
 """
 
+import argparse
+import json
+import os
 import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
+VENV = TOP / ".venv" / "bin"
+COMPILE_COMMANDS = TOP / "compile_commands.json"
 
 HEADER = "Copyright (c) 2026 the franka_ros for Debian authors"
 NEEDS_HEADER = {".cpp", ".h", ".py", ".sh", ".cmake", ".launch", ".xacro"}
 
 # Who may include what: a path pattern, the headers that must not stand there, and why.
-ROOMS = [
+INCLUDE_RULES = [
     (
         r"catkin_ws/src/(libfranka|franka_sim)/",
         r"<(ros|tf2?|tf2_ros|std_msgs|sensor_msgs|geometry_msgs)/",
-        "this room knows no ROS",
+        "libfranka and franka_sim build without ROS",
     ),
     (r"(?!.*/physics/)", r"<mujoco/", "MuJoCo headers stand in physics/ only"),
     (
@@ -37,13 +44,59 @@ MARKERS = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(work|home|root|Users)/\w+")
 
 
+class ToolMissing(Exception):
+    """A check cannot run; the message is a sentence that says what to do."""
+
+
+def git(*arguments: str) -> str:
+    """Output of a git command; empty where git refuses it."""
+    return subprocess.run(["git", *arguments], cwd=TOP, capture_output=True, text=True).stdout
+
+
 def tracked() -> list[Path]:
-    listing = subprocess.run(["git", "ls-files", "-z"], cwd=TOP, capture_output=True, check=True).stdout
-    return [TOP / name for name in listing.decode().split("\0") if name and (TOP / name).is_file()]
+    return [TOP / name for name in git("ls-files", "-z").split("\0") if name and (TOP / name).is_file()]
 
 
-def room_findings(name: str, lines: list[str]) -> Iterator[str]:
-    for pattern, header, reason in ROOMS:
+def first_line(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.readline(80)
+
+
+def sources(files: list[Path]) -> list[Path]:
+    return [path for path in files if path.suffix in {".cpp", ".h"}]
+
+
+# ---- tools -----------------------------------------------------------------------------------------------
+
+
+def pinned_tool(name: str) -> str:
+    """A program that requirements-test.txt pins: never another version that happens to be on PATH."""
+    for folder in (Path(sys.executable).parent, VENV):
+        if (folder / name).is_file():
+            return str(folder / name)
+    raise ToolMissing(f"{name} is missing: run ./franka install, which puts it into .venv.")
+
+
+def debian_tool(name: str) -> str:
+    found = shutil.which(name)
+    if not found:
+        raise ToolMissing(f"{name} is missing: run ./franka install, which installs the Debian package.")
+    return found
+
+
+def passes(command: list[str], files: list[Path]) -> bool:
+    """Runs a tool on files, whose names it then prints relative to the root."""
+    if not files:
+        return True
+    names = [str(path.relative_to(TOP)) for path in files]
+    return subprocess.run([*command, *names], cwd=TOP).returncode == 0
+
+
+# ---- our own rules ---------------------------------------------------------------------------------------
+
+
+def include_findings(name: str, lines: list[str]) -> Iterator[str]:
+    for pattern, header, reason in INCLUDE_RULES:
         if not re.match(pattern, name):
             continue
         for number, line in enumerate(lines, 1):
@@ -60,7 +113,7 @@ def text_findings(path: Path) -> Iterator[str]:
     if path.suffix in NEEDS_HEADER and lines and not any(HEADER in line for line in lines[:6]):
         yield f"{name}:1: the licence header is missing"
     if path.suffix in {".cpp", ".h"}:
-        yield from room_findings(name, lines)
+        yield from include_findings(name, lines)
         if path.suffix == ".h" and "#pragma once" not in lines:
             yield f"{name}:1: #pragma once is missing"
     for number, line in enumerate(lines, 1):
@@ -72,19 +125,137 @@ def text_findings(path: Path) -> Iterator[str]:
             yield f"{name}:{number}: blanks at the end of the line"
 
 
-def clang_format(files: list[Path]) -> int:
-    if not shutil.which("clang-format"):
-        return 0
-    sources = [str(path) for path in files if path.suffix in {".cpp", ".h"}]
-    return subprocess.run(["clang-format", "--dry-run", "--Werror", *sources]).returncode
+def check_text(files: list[Path], long: bool) -> bool:
+    findings = [finding for path in files for finding in text_findings(path)]
+    if findings:
+        print("\n".join(findings))
+    return not findings
+
+
+# ---- checks by tools -------------------------------------------------------------------------------------
+
+
+def check_ruff(files: list[Path], long: bool) -> bool:
+    ruff = pinned_tool("ruff")
+    scripts = [path for path in files if not path.suffix and re.match(rb"#!.*python", first_line(path))]
+    python = [path for path in files if path.suffix == ".py"] + scripts
+    tables = [path for path in files if path.suffix == ".cfg"]
+    linted = passes([ruff, "check", "--quiet", "--output-format=concise"], python + tables)
+    return passes([ruff, "format", "--check", "--quiet"], python) and linted
+
+
+def check_clang_format(files: list[Path], long: bool) -> bool:
+    return passes([pinned_tool("clang-format"), "--dry-run", "--Werror"], sources(files))
+
+
+def check_shellcheck(files: list[Path], long: bool) -> bool:
+    shell = re.compile(rb"#!.*\b(ba)?sh\b")
+    named = [path for path in files if path.suffix in {".sh", ".bash", ""}]
+    scripts = [path for path in named if shell.match(first_line(path))]
+    return passes([pinned_tool("shellcheck"), "--format=gcc"], scripts)
+
+
+def check_codespell(files: list[Path], long: bool) -> bool:
+    return passes([pinned_tool("codespell")], files)
+
+
+# ---- clang-tidy ------------------------------------------------------------------------------------------
+
+
+def base_commit() -> str:
+    """The commit that changes count from: where this branch left the main one, or the commit before."""
+    head = git("rev-parse", "HEAD").strip()
+    for main in ("origin/HEAD", "origin/main"):
+        base = git("merge-base", "HEAD", main).strip()
+        if base and base != head:
+            return base
+    return git("rev-parse", "--verify", "--quiet", "HEAD~1").strip() or head
+
+
+def changed(files: list[Path]) -> list[Path]:
+    names = set(git("diff", "--name-only", "-z", base_commit()).split("\0"))
+    return [path for path in files if str(path.relative_to(TOP)) in names]
+
+
+def package_of(path: Path) -> Path:
+    """The nearest folder with a package.xml, or the root."""
+    for folder in path.parents:
+        if folder == TOP or (folder / "package.xml").is_file():
+            return folder
+    return TOP
+
+
+def units_of(files: list[Path], compiled: set[Path]) -> list[Path]:
+    """What is compiled of these files; a header is checked with the source of its name in its package."""
+    named = set(files)
+    headers = {(package_of(path), path.stem) for path in files if path.suffix == ".h"}
+    return sorted(path for path in compiled if path in named or (package_of(path), path.stem) in headers)
+
+
+def tidy(program: str, path: Path) -> str:
+    """What clang-tidy says of a source; empty when it is clean."""
+    command = [program, "--quiet", f"-p={TOP}", "--extra-arg=-Wno-unknown-warning-option", str(path)]
+    result = subprocess.run(command, cwd=TOP, capture_output=True, text=True)
+    if result.returncode == 0:
+        return ""
+    # The error stream counts suppressed warnings, and says what went wrong where the program itself fails.
+    return (result.stdout or result.stderr).replace(f"{TOP}/", "")
+
+
+def check_clang_tidy(files: list[Path], long: bool) -> bool:
+    program = debian_tool("clang-tidy-22")
+    candidates = sources(files) if long else sources(changed(files))
+    if not candidates:
+        return True
+    if not COMPILE_COMMANDS.exists():
+        raise ToolMissing("clang-tidy needs compile_commands.json: run ./franka build, which makes it.")
+    entries = json.loads(COMPILE_COMMANDS.read_text(encoding="utf-8"))
+    compiled = {Path(entry["directory"], entry["file"]) for entry in entries} & set(files)
+    units = units_of(candidates, compiled)
+    left_out = [path for path in candidates if path.suffix == ".cpp" and path not in compiled]
+    if left_out:
+        names = ", ".join(str(path.relative_to(TOP)) for path in left_out[:3])
+        print(f"clang-tidy: {len(left_out)} sources are not part of the present build ({names} ...)")
+    with ThreadPoolExecutor(int(os.environ.get("FRANKA_JOBS") or os.cpu_count() or 2)) as pool:
+        findings = [text for text in pool.map(lambda path: tidy(program, path), units) if text]
+    # A header's finding is repeated by each source that includes it.
+    lines = dict.fromkeys(line for text in findings for line in text.splitlines())
+    print("\n".join(lines), end="\n" if lines else "")
+    print(f"clang-tidy: {len(units)} sources")
+    return not findings
+
+
+CHECKS: dict[str, Callable[[list[Path], bool], bool]] = {
+    "text": check_text,
+    "ruff": check_ruff,
+    "clang-format": check_clang_format,
+    "shellcheck": check_shellcheck,
+    "codespell": check_codespell,
+    "clang-tidy": check_clang_tidy,
+}
 
 
 def main() -> int:
+    parser = argparse.ArgumentParser(prog="./franka test --style")
+    parser.add_argument("checks", nargs="*", metavar="CHECK", help=f"only these of {', '.join(CHECKS)}")
+    parser.add_argument("--long", action="store_true", help="clang-tidy on all sources, not only the changed")
+    arguments = parser.parse_args()
+    unknown = [name for name in arguments.checks if name not in CHECKS]
+    if unknown:
+        parser.error(f"there is no check {', '.join(unknown)}; there are: {', '.join(CHECKS)}")
     files = tracked()
-    findings = [finding for path in files for finding in text_findings(path)]
-    print("\n".join(findings))
-    ruff = subprocess.run([sys.executable, "-m", "ruff", "check", "--quiet", "."], cwd=TOP).returncode
-    return 1 if findings or ruff or clang_format(files) else 0
+    failed = []
+    for name in arguments.checks or CHECKS:
+        begin = time.monotonic()
+        try:
+            clean = CHECKS[name](files, arguments.long)
+        except ToolMissing as missing:
+            print(f"style: {missing}", file=sys.stderr)
+            clean = False
+        print(f"{name}: {'clean' if clean else 'FAILED'} ({time.monotonic() - begin:.1f} s)", flush=True)
+        if not clean:
+            failed.append(name)
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
