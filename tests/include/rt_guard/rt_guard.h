@@ -124,11 +124,13 @@ constexpr bool kActive = true;
 // glibc's own entry points: calling them instead of looking malloc up avoids the recursion of a
 // look-up that allocates.
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier)  glibc's names
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 void __libc_free(void*);
+// NOLINTEND(bugprone-reserved-identifier)
 
 void* malloc(std::size_t size) noexcept {
   rt_guard::internal::countAllocation();
@@ -177,6 +179,7 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
 }  // extern "C"
 
 // One forwarding definition: counts, then calls the genuine function with the same arguments.
+// NOLINTBEGIN(bugprone-macro-parentheses)  names and lists of parameters take no parentheses
 #define RT_GUARD_FORWARD(count, version, name, specifier, parameters, arguments)  \
   extern "C" int name parameters specifier {                                      \
     static std::atomic<void*> genuine{nullptr};                                   \
@@ -184,6 +187,7 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
     rt_guard::internal::count();                                                  \
     return rt_guard::internal::next<Function>(genuine, #name, version) arguments; \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 
 RT_GUARD_FORWARD(countLock, nullptr, pthread_mutex_lock, noexcept, (pthread_mutex_t * mutex),
                  (mutex))

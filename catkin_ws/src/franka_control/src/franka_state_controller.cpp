@@ -53,7 +53,7 @@ bool FrankaStateController::init(hardware_interface::RobotHW* robot_hardware,
 }
 
 bool FrankaStateController::readParameters(const ros::NodeHandle& controller_node_handle) {
-  const std::string where = controller_node_handle.getNamespace();
+  const std::string& where = controller_node_handle.getNamespace();
   if (!controller_node_handle.getParam("arm_id", arm_id_) || arm_id_.empty()) {
     ROS_ERROR(
         "FrankaStateController: set the parameter %s/arm_id to the name of the arm, such as "

@@ -130,8 +130,8 @@ struct ModelKDL::Workspace {
             double singularity_threshold)
       : Workspace(checkedChain(model, root, tip), singularity_threshold) {}
 
-  Workspace(KDL::Chain unfolded, double singularity_threshold)
-      : chain(std::move(unfolded)),
+  Workspace(const KDL::Chain& unfolded, double singularity_threshold)
+      : chain(unfolded),
         flange_T_link7(foldFixedEnd(chain).Inverse()),
         last_inertia(chain.getSegment(kJoints - 1).getInertia()),
         dynamics(chain, KDL::Vector::Zero()),

@@ -113,7 +113,7 @@ TEST(RealTimeWindow, SeesWhatACallbackAllocates) {
   rt_guard::Scope scope;
   robot->control([&](const RobotState&, Duration) {
     const std::size_t before = scope.allocations();
-    std::unique_ptr<volatile int> allocated(new volatile int(1));
+    const auto allocated = std::make_unique<volatile int>(1);
     allocations += scope.allocations() - before;
     const franka::Torques torques({0, 0, 0, 0, 0, 0, 0});
     return ++cycles == 10 ? franka::MotionFinished(torques) : torques;

@@ -6,7 +6,6 @@ namespace franka_sim::fci {
 
 namespace codec = franka_core::fci;
 using codec::Status;
-using franka_core::RobotMode;
 
 namespace {
 

@@ -16,7 +16,6 @@ using combined_robot_hw_test::Controllers;
 using combined_robot_hw_test::Robot;
 using hardware_interface::ControllerInfo;
 using hardware_interface::InterfaceResources;
-using testing::ElementsAre;
 using testing::IsEmpty;
 typedef hardware_interface::RobotHW::SwitchState State;
 

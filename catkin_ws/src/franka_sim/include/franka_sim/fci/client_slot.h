@@ -55,7 +55,7 @@ class ClientSlot {
 
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
   ClientSlot(const std::string& address, std::uint16_t port, const SlotRules& rules = SlotRules())
-      : listener_(address, port), rules_(std::move(rules)) {}
+      : listener_(address, port), rules_(rules) {}
 
   std::uint16_t port() const noexcept { return listener_.port(); }
   /// The connection that is being served, else the client's; null when there is none.
