@@ -19,8 +19,8 @@ constexpr std::chrono::milliseconds kPatience{500};
 std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
   const RobotWanted wanted;
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  std::unique_lock<std::mutex> lock(robot_mutex, std::try_to_lock);
-  while (!lock.owns_lock()) {
+  std::unique_lock<std::mutex> lock(robot_mutex, std::defer_lock);
+  while (!lock.try_lock()) {
     if (RobotInMotion::holds(robot_mutex)) {
       throw franka::InvalidOperationException(
           "The robot cannot be configured while a controller commands it. Stop that controller "
@@ -32,7 +32,6 @@ std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
           "that it answers and nothing moves it, then try again.");
     }
     std::this_thread::sleep_for(RobotWanted::kMoment);
-    lock.try_lock();
   }
   return lock;
 }
