@@ -22,7 +22,7 @@ NEEDS_HEADER = {".cpp", ".h", ".py", ".sh", ".cmake", ".launch", ".xacro"}
 # Who may include what: a path pattern, the headers that must not stand there, and why.
 ROOMS = [
     (
-        r"catkin_ws/src/(libfranka|franka_sim_mujoco/.*(physics|robot|fci))/",
+        r"catkin_ws/src/(libfranka|franka_sim)/",
         r"<(ros|tf2?|tf2_ros|std_msgs|sensor_msgs|geometry_msgs)/",
         "this room knows no ROS",
     ),

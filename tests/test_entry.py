@@ -200,7 +200,7 @@ def test_a_shell_has_roscd_and_completion(tmp_path):
     assert "/franka_description\n" in said
     for line in (r"-F _roscomplete_launch roslaunch", r"_roscomplete_exe rosrun", r"-F _franka franka"):
         assert line in said, said
-    assert "/franka_sim_mujoco/franka_sim\n" in said
+    assert "/devel/bin/franka_sim\n" in said
 
 
 @pytest.mark.parametrize(

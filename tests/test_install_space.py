@@ -56,6 +56,7 @@ def test_xacro_runs_from_the_install_space(installed, robot, tmp_path):
     [
         "hardware_interface/robot_hw.h",
         "franka_hw/model_kdl.h",
+        "franka_sim/physics/world.h",
         "franka_sim_mujoco/robot_hw_sim.h",
         "franka_gazebo/franka_hw_sim.h",
         "gazebo_msgs/ModelStates.h",

@@ -52,5 +52,5 @@ def test_it_says_what_to_start_and_fails(results, name):
     status, output = results[name]
     assert status == 1, output
     assert NOBODY in output
-    assert "rosrun franka_sim_mujoco franka_sim" in output
+    assert "franka_sim --robot" in output
     assert name.startswith("franka_visualization/") or "sim:=true" in output

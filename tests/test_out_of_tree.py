@@ -50,7 +50,7 @@ def test_package_builds_and_runs(space, tmp_path, request):
     overlay = Overlay(underlay, PACKAGES / "my_arm", tmp_path)
     overlay.build()
     address = "127.0.41.1" if space == "devel" else "127.0.41.2"
-    simulator = f"$(catkin_find --first-only --libexec franka_sim_mujoco franka_sim) --ip {address}"
+    simulator = f"franka_sim --ip {address}"
     log = tmp_path / "launch.log"
     robot = overlay.start(f"{simulator} --pace lockstep --control-port 0", tmp_path / "robot.log")
     try:

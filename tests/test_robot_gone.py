@@ -32,13 +32,7 @@ def report(request, tmp_path_factory, long_run):
     parameters = folder / "controllers.yaml"
     config = SOURCE / "franka_example_controllers/config/franka_example_controllers.yaml"
     parameters.write_text(config.read_text().replace("$(arg arm_id)", kind))
-    executable = subprocess.run(
-        ["catkin_find", "--first-only", "--libexec", "franka_sim_mujoco", "franka_sim"],
-        text=True,
-        capture_output=True,
-        check=True,
-    ).stdout.strip()
-    command = [executable, "--robot", kind, "--no-hand", "--ip", ADDRESS, "--pace", "patient"]
+    command = ["franka_sim", "--robot", kind, "--no-hand", "--ip", ADDRESS, "--pace", "patient"]
     launch = ["franka_control", "franka_control.launch", "load_gripper:=false", f"robot_ip:={ADDRESS}"]
     launch += [f"robot:={kind}"]
     launch += ["realtime_config:=ignore", "connect_timeout:=30", f"reconnect:={reconnect}"]

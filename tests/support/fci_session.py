@@ -19,7 +19,7 @@ VERSIONS = {"panda": 5, "fr3": 10}
 
 def program() -> str:
     for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
-        found = Path(prefix) / "lib" / "franka_sim_mujoco" / "franka_sim"
+        found = Path(prefix) / "bin" / "franka_sim"
         if found.exists():
             return str(found)
     raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")

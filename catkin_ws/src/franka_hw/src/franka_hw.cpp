@@ -27,8 +27,8 @@ constexpr double kConnectPeriod = 0.2;
 constexpr int kReadAttempts = 3;
 // For somebody whose robot does not answer because there is none.
 constexpr char kNoRobot[] =
-    " Without a robot, start a simulated one: give the launch file sim:=true, or run `rosrun "
-    "franka_sim_mujoco franka_sim --robot panda --ip 127.0.0.1` (or fr3, any loopback address) "
+    " Without a robot, start a simulated one: give the launch file sim:=true, or run "
+    "`franka_sim --robot panda --ip 127.0.0.1` (or fr3, any loopback address) "
     "beside it.";
 
 }  // namespace

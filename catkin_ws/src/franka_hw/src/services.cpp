@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_hw/robot_wanted.h>
+#include <franka_hw/robot_access.h>
 #include <franka_hw/services.h>
 
 #include <array>
@@ -17,7 +17,7 @@ constexpr std::chrono::milliseconds kPatience{500};
 
 /// The robot for a short operation. @throws franka::InvalidOperationException while it is moving.
 std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
-  const RobotWanted wanted;
+  const RobotAccessRequest wanted;
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   std::unique_lock<std::mutex> lock(robot_mutex, std::defer_lock);
   while (!lock.try_lock()) {
@@ -31,7 +31,7 @@ std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
           "The robot cannot be configured now: it is silent, or something else keeps it busy. See "
           "that it answers and nothing moves it, then try again.");
     }
-    std::this_thread::sleep_for(RobotWanted::kMoment);
+    std::this_thread::sleep_for(RobotAccessRequest::kMoment);
   }
   return lock;
 }

@@ -22,9 +22,8 @@ void require(const ros::NodeHandle& nh, const std::string& name, const char* wha
 }  // namespace
 
 const char* const kNoRobot =
-    " Without a robot, start a simulated one: `rosrun franka_sim_mujoco franka_sim --robot panda "
-    "--ip "
-    "127.0.0.1` (or fr3, any loopback address).";
+    " Without a robot, start a simulated one: `franka_sim --robot panda --ip 127.0.0.1` (or fr3, "
+    "any loopback address).";
 
 Parameters readParameters(const ros::NodeHandle& nh, std::size_t joints) {
   Parameters parameters;

@@ -22,7 +22,7 @@ constexpr const char* kRobotJointSuffixes[] = {"_joint1", "_joint2",        "_jo
                                                "_joint7", "_finger_joint1", "_finger_joint2"};
 
 /// Says what a controller's claims mean for an arm with a hand, by the original's rules. The
-/// simulation itself allows more (franka_sim_mujoco/ros/controller_check.h). No function changes
+/// simulation itself allows more (franka_sim_mujoco/controller_check.h). No function changes
 /// anything.
 class ControllerVerifier {
  public:

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim_mujoco/ros/franka_gripper_sim.h>
+#include <franka_sim_mujoco/franka_gripper_sim.h>
 
 namespace franka_gazebo {
 

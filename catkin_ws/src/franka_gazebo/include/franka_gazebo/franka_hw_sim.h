@@ -6,7 +6,7 @@
 #include <franka_gazebo/joint.h>
 #include <franka_gazebo/model_kdl.h>
 #include <franka_gazebo/statemachine.h>
-#include <franka_sim_mujoco/ros/franka_hw_sim.h>
+#include <franka_sim_mujoco/franka_hw_sim.h>
 
 namespace franka_gazebo {
 

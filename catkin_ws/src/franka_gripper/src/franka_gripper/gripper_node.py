@@ -39,7 +39,7 @@ Parameters: ~robot_ip, ~joint_names (two) and others, which docs/franka_control.
 franka_gripper.launch sets them.
 """
 NO_HAND = (
-    " Without a robot, start a simulated one: `rosrun franka_sim_mujoco franka_sim --robot panda --ip "
+    " Without a robot, start a simulated one: `franka_sim --robot panda --ip "
     "127.0.0.1` (or fr3, any loopback address)."
 )
 

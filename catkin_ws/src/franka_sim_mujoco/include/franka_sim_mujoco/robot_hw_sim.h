@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim_mujoco/ros/physics_config.h>
+#include <franka_sim/physics/physics_config.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
@@ -13,9 +13,11 @@
 #include <string>
 #include <vector>
 
-namespace franka_sim_mujoco {
-
+namespace franka_sim {
 class World;
+}
+
+namespace franka_sim_mujoco {
 
 /// Runs a piece of work in the stepping thread between two ticks and returns when it is done, also
 /// while the simulation is paused. Rethrows what the work throws; throws std::runtime_error with a
@@ -25,10 +27,11 @@ using BetweenTicks = std::function<void(const std::function<void()>& work)>;
 
 /// A robot of the simulated world, as a RobotHWSim plugin gets to know it.
 struct RobotHandle {
-  World* world;              ///< only to be touched in initSim, readSim, writeSim and between ticks
+  franka_sim::World* world;  ///< only to be touched in initSim, readSim, writeSim and between ticks
   std::string name;          ///< of the robot in the world
   std::string urdf;          ///< the text of its description
-  JointPhysics arm_physics;  ///< what the world's joints have of rotor inertia and friction
+  franka_sim::JointPhysics
+      arm_physics;  ///< what the world's joints have of rotor inertia and friction
   BetweenTicks between_ticks;
   std::string robot_type;  ///< what the arm is, "panda" or "fr3"; empty where there is none
 };

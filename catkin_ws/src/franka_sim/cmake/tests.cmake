@@ -1,0 +1,93 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+
+# rt_guard.h: proves that loops neither allocate nor lock.
+set(FRANKA_TEST_INCLUDE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
+
+# Under catkin the workspace's gtest runs the tests; a plain build takes the system's gtest and ctest.
+function(sim_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  set(test ${PROJECT_NAME}_${name})
+  if(catkin_FOUND)
+    catkin_add_gtest(${test} ${ARG_SOURCES} TIMEOUT 240)
+    target_link_libraries(${test} gtest_main)
+  else()
+    add_executable(${test} ${ARG_SOURCES})
+    target_link_libraries(${test} GTest::gtest GTest::gtest_main)
+    add_test(NAME ${test} COMMAND ${test})
+    set_tests_properties(${test} PROPERTIES TIMEOUT 240)
+  endif()
+  target_include_directories(${test} PRIVATE ${FRANKA_TEST_INCLUDE_DIR} src ${MUJOCO_INCLUDE_DIR})
+  target_link_libraries(${test} ${ARG_LIBRARIES} ${CMAKE_DL_LIBS} Threads::Threads)
+  target_compile_definitions(${test} PRIVATE
+    FRANKA_SIM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/physics/data"
+    FRANKA_SIM_ROBOTS="${CMAKE_CURRENT_SOURCE_DIR}/robots"
+    FRANKA_SIM_WORLDS="${CMAKE_CURRENT_SOURCE_DIR}/worlds")
+endfunction()
+
+if(NOT catkin_FOUND)
+  enable_testing()
+  find_package(GTest REQUIRED)
+endif()
+
+# Each in a program of its own: rt_guard.h is made for one translation unit of a program.
+foreach(name control_unit external_force gripper_unit modes_and_requests parts repeatability)
+  sim_test(robot_${name}_test SOURCES test/robot/${name}_test.cpp LIBRARIES franka_sim_robot)
+endforeach()
+
+sim_test(robot_unit_test
+  SOURCES
+    test/robot/error_flags_test.cpp
+    test/robot/laws_test.cpp
+    test/robot/transform_entrances_test.cpp
+    test/robot/unit_limits_test.cpp
+    test/robot/unit_motion_test.cpp
+    test/robot/unit_restart_test.cpp
+  LIBRARIES franka_sim_robot)
+
+sim_test(robot_motion_test
+  SOURCES
+    test/robot/motion/cartesian_limits_test.cpp
+    test/robot/motion/inverse_kinematics_test.cpp
+    test/robot/motion/joint_limits_test.cpp
+    test/robot/motion/motion_generator_test.cpp
+    test/robot/motion/motion_parts_test.cpp
+    test/robot/motion/rate_limited_client_test.cpp
+  LIBRARIES franka_sim_robot Franka::Franka)
+
+sim_test(unit_in_world_test SOURCES test/robot/unit_in_world_test.cpp
+  LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
+sim_test(arm_in_world_test SOURCES test/world/arm_in_world_test.cpp
+  LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
+
+sim_test(physics_test
+  SOURCES
+    test/physics/arm_plant_test.cpp
+    test/physics/determinism_test.cpp
+    test/physics/grasp_test.cpp
+    test/physics/joint_drive_test.cpp
+    test/physics/mjcf_world_test.cpp
+    test/physics/model_agreement_test.cpp
+    test/physics/renderer_test.cpp
+    test/physics/sdf_meshes_test.cpp
+    test/physics/sdf_text_test.cpp
+    test/physics/sdf_world_test.cpp
+    test/physics/urdf_robot_test.cpp
+    test/physics/world_limits_test.cpp
+    test/physics/world_objects_test.cpp
+    test/physics/world_test.cpp
+  LIBRARIES franka_sim_physics ${MUJOCO_LIBRARY} PkgConfig::TINYXML2 Franka::Core)
+
+sim_test(fci_test
+  SOURCES
+    test/fci/command_link_test.cpp
+    test/fci/hostile_clients_test.cpp
+    test/fci/host_rules_test.cpp
+    test/fci/host_test.cpp
+    test/fci/line_server_test.cpp
+    test/fci/own_client_test.cpp
+    test/fci/robot_server_test.cpp
+    test/fci/served_models_test.cpp
+    test/fci/sim_robot_test.cpp
+    test/fci/vacuum_gripper_test.cpp
+  LIBRARIES franka_sim_fci franka_sim_physics Franka::Franka PkgConfig::TINYXML2)

@@ -1,0 +1,53 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/robot_state.h>
+
+#include <array>
+#include <cstdint>
+#include <random>
+
+namespace franka_sim::fci {
+
+/// A worse way for commands than loopback is: loses some and delays all by whole ticks. The same
+/// seed loses the same commands. One thread; pass is real-time safe.
+class CommandLink {
+ public:
+  static constexpr unsigned kLongestDelay = 2;  ///< [ticks] (decision 20)
+
+  /// @param probability of each command to be lost, 0 to 1.
+  /// @throws std::invalid_argument with a sentence for any other.
+  void setLoss(double probability, std::uint64_t seed);
+  /// Loses the next commands, one after the other.
+  void loseNext(unsigned commands) noexcept { lose_next_ = commands; }
+  /// @param ticks 0, 1 or 2. @throws std::invalid_argument with a sentence for any other.
+  void setDelay(double ticks);
+
+  /// Nothing is under way any more.
+  void clear() noexcept;
+  /// As when loss and delay were set: nothing under way, the same losses again.
+  void restart() noexcept;
+
+  /// One tick: what comes in, or null; what comes out at the other end, or null. The result is
+  /// valid until the next call.
+  const franka_core::RobotCommand* pass(const franka_core::RobotCommand* command) noexcept;
+
+ private:
+  struct Slot {
+    bool full{false};
+    franka_core::RobotCommand command;
+  };
+
+  bool loses() noexcept;
+
+  double loss_{0.0};
+  std::uint64_t seed_{0};
+  unsigned lose_next_{0};
+  unsigned delay_{0};
+  std::mt19937_64 engine_;
+  std::array<Slot, kLongestDelay + 1> slots_{};
+  std::size_t now_{0};
+};
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,196 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <arpa/inet.h>
+#include <franka_core/fci/gripper_codec.h>
+#include <franka_sim/fci/client_slot.h>
+#include <franka_sim/robot/ticket_log.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace franka_sim::fci {
+
+/// The network face of what is mounted on the flange: requests over TCP, states over UDP about
+/// thirty times a second (the real rate is not published). One client at a time, as with
+/// RobotServer. A command that replaces another one ends it: the earlier one's reply is Aborted.
+///
+/// One thread; serve allocates only when a client connects.
+/// @tparam Device says what the gripper and the vacuum gripper do not share (gripper_server.h).
+template <typename Device>
+class HandServer {
+ public:
+  using Unit = typename Device::Unit;
+
+  /// @param unit outlives the server.
+  /// @throws std::runtime_error with a sentence when the port cannot be opened.
+  HandServer(const std::string& address, std::uint16_t port, Unit& unit)
+      : unit_(unit), slot_(address, port), datagrams_(address) {}
+
+  std::uint16_t port() const noexcept { return slot_.port(); }
+  bool hasClient() const noexcept { return slot_.confirmed(); }
+  /// See ClientSlot::onRefusal.
+  void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
+  /// A command runs, also one whose client has gone: a hand does not drop what it holds because a
+  /// program ends.
+  bool busy() const noexcept { return unit_.outcome(last_) == GripperOutcome::kRunning; }
+
+  /// Accepts, reads and answers. @param stops_only leaves all but Connect and Stop.
+  void serve(bool stops_only = false);
+  /// Sends a state if one is due and the replies of what has ended.
+  /// @param milliseconds of simulated time since the last call.
+  void publish(std::uint64_t milliseconds);
+
+  void addDescriptors(std::vector<pollfd>& fds) const { slot_.addDescriptors(fds); }
+
+ private:
+  using Header = franka_core::fci::gripper::Header;
+  using Status = franka_core::fci::gripper::Status;
+  using ConnectRequest = franka_core::fci::gripper::ConnectRequest;
+  using Request = typename Device::Request;
+  using Command = typename Device::Command;
+  struct Running {
+    Command command;
+    std::uint32_t id;
+    TicketLog::Ticket ticket;
+  };
+  static constexpr std::chrono::milliseconds kStatePeriod{33};
+
+  static Status toStatus(GripperOutcome outcome) noexcept;
+  Served serveOne(Connection& client, bool stops_only);
+  bool connect(const Header& header, const ConnectRequest& request);
+  bool start(const Header& header, const Request& request);
+  bool reply(Command command, std::uint32_t id, Status status, std::uint16_t version = 0);
+  bool replyToEnded();
+  void forgetClient() noexcept { running_.reset(); }
+
+  Unit& unit_;
+  ClientSlot slot_;
+  Datagrams datagrams_;
+  std::chrono::steady_clock::time_point state_sent_at_{};
+  std::optional<Running> running_;  // for the client that is there
+  TicketLog::Ticket last_{0};
+  std::uint64_t message_id_{0};
+};
+
+template <typename Device>
+typename HandServer<Device>::Status HandServer<Device>::toStatus(GripperOutcome outcome) noexcept {
+  switch (outcome) {
+    case GripperOutcome::kSucceeded:
+      return Status::kSuccess;
+    case GripperOutcome::kInterrupted:
+      return Status::kAborted;
+    default:
+      return Status::kUnsuccessful;
+  }
+}
+
+template <typename Device>
+void HandServer<Device>::serve(bool stops_only) {
+  slot_.serve([this, stops_only](Connection& client) { return serveOne(client, stops_only); },
+              [this] { forgetClient(); });
+}
+
+template <typename Device>
+Served HandServer<Device>::serveOne(Connection& client, bool stops_only) {
+  using franka_core::fci::CodecError;
+  Header header;
+  const franka_core::fci::Bytes stream = client.received();
+  const CodecError framing =
+      franka_core::fci::gripper::nextMessage(stream, Device::kMaxRequestSize, header);
+  if (framing != CodecError::kNone) {
+    return framing == CodecError::kIncomplete ? Served::kIncomplete : Served::kBroken;
+  }
+  Request request;
+  if (decodeRequest({stream.data, header.size}, header, request) != CodecError::kNone) {
+    return Served::kBroken;
+  }
+  if (stops_only && slot_.confirmed() && commandOf(request) != Command::kStop) {
+    return Served::kHeldBack;
+  }
+  client.consume(header.size);
+  const auto* connection = std::get_if<ConnectRequest>(&request);
+  const bool goes_on = connection != nullptr ? connect(header, *connection)
+                                             : slot_.confirmed() && start(header, request);
+  return goes_on ? Served::kDone : Served::kBroken;
+}
+
+template <typename Device>
+bool HandServer<Device>::connect(const Header& header, const ConnectRequest& request) {
+  const bool fits = Device::speaks(request.version);
+  if (!reply(Command::kConnect, header.command_id, fits ? Status::kSuccess : Status::kFail,
+             fits ? request.version : Device::kNewestVersion)) {
+    return false;
+  }
+  if (fits) {
+    slot_.confirm();
+    sockaddr_in peer = slot_.peer();
+    peer.sin_port = htons(request.udp_port);
+    datagrams_.setPeer(peer);
+    state_sent_at_ = {};
+  }
+  return true;
+}
+
+template <typename Device>
+bool HandServer<Device>::start(const Header& header, const Request& request) {
+  const TicketLog::Ticket ticket = Device::start(unit_, request);
+  const Command command = commandOf(request);
+  if (ticket == 0) {
+    return reply(command, header.command_id, Status::kFail);
+  }
+  last_ = ticket;
+  // The unit has ended what ran before; its reply goes first.
+  if (!replyToEnded()) {
+    return false;
+  }
+  running_ = Running{command, header.command_id, ticket};
+  return replyToEnded();
+}
+
+template <typename Device>
+bool HandServer<Device>::replyToEnded() {
+  if (!running_ || unit_.outcome(running_->ticket) == GripperOutcome::kRunning) {
+    return true;
+  }
+  const Running ended = *running_;
+  running_.reset();
+  return reply(ended.command, ended.id, toStatus(unit_.outcome(ended.ticket)));
+}
+
+template <typename Device>
+bool HandServer<Device>::reply(Command command, std::uint32_t id, Status status,
+                               std::uint16_t version) {
+  franka_core::fci::gripper::Reply reply;
+  reply.status = status;
+  reply.server_version = version;
+  typename Device::ReplyMessage message;
+  return encodeReply(command, id, reply, message) == franka_core::fci::CodecError::kNone &&
+         slot_.client()->send(message.bytes());
+}
+
+template <typename Device>
+void HandServer<Device>::publish(std::uint64_t milliseconds) {
+  message_id_ += milliseconds;
+  if (!slot_.confirmed()) {
+    return;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  const bool ended = running_ && unit_.outcome(running_->ticket) != GripperOutcome::kRunning;
+  if (ended || now - state_sent_at_ >= kStatePeriod) {
+    state_sent_at_ = now;
+    const auto state = Device::encode(unit_, static_cast<std::uint32_t>(message_id_));
+    datagrams_.send({state.data(), state.size()});
+  }
+  if (!replyToEnded()) {
+    slot_.drop();
+    forgetClient();
+  }
+}
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,96 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/fci/host.h>
+#include <franka_sim/fci/sockets.h>
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace franka_sim::fci {
+
+/// What stands in for the user beside the robot: commands of one line each over TCP, answered by
+/// one line, "ok", "ok <value>" or "error: <sentence>". `nc` suffices to talk to it. Commands are
+/// carried out between two ticks, by the thread that runs the host, and answered once states that
+/// show their effect have gone out.
+///
+/// One client at a time: a second one is refused with a sentence, unless the first has not sent a
+/// line for 5 s since it came; then that one is told so and goes. The user may type as slowly as
+/// they like while nobody else waits.
+class LineServer final : public Service {
+ public:
+  using Words = std::vector<std::string>;
+  /// Gets the words behind the command's name; returns the value to tell, or nothing.
+  /// @throws std::exception whose text becomes the error.
+  using Handler = std::function<std::string(const Words&)>;
+  /// Whether a command's time has come.
+  using Ready = std::function<bool()>;
+
+  /// @param first_line a client that has sent no line for so long makes room for another
+  /// @throws std::runtime_error with a sentence when the port cannot be opened.
+  LineServer(const std::string& address, std::uint16_t port,
+             std::chrono::seconds first_line = std::chrono::seconds(5))
+      : listener_(address, port), first_line_(first_line) {}
+  /// Sends the answer that is left: to the line that ended the host.
+  ~LineServer() override;
+
+  std::uint16_t port() const noexcept { return listener_.port(); }
+  /// @param usage the command as the user writes it, for example "user_stop on|off"; its first word
+  /// is the name.
+  /// @param ready lines wait until it says yes
+  void add(
+      const std::string& usage, Handler handler, Ready ready = [] { return true; });
+  /// The answer to one line.
+  std::string answer(const std::string& line) const;
+
+  void serve() override;
+  void published() override;
+  void addDescriptors(std::vector<pollfd>& fds) const override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Entry {
+    std::string usage;
+    Handler handler;
+    Ready ready;
+  };
+  /// A connection that has been told why it ends: closed once its peer has read that.
+  struct Leaving {
+    std::unique_ptr<Connection> connection;
+    Clock::time_point until;
+  };
+
+  void accept();
+  void serveClient();
+  bool isReady(const std::string& line) const;
+  void dismiss(std::unique_ptr<Connection> connection, const std::string& sentence);
+  void closeLeaving();
+  std::string help() const;
+
+  Listener listener_;
+  Clock::duration first_line_;
+  std::unique_ptr<Connection> client_;
+  Clock::time_point accepted_at_{};
+  bool has_spoken_{false};             ///< the client has sent a line
+  bool has_ended_{false};              ///< it sends no more, but may wait for answers
+  bool waits_{false};                  ///< its line is not ready
+  std::optional<std::string> answer_;  ///< to its last line, until states have gone out
+  std::vector<Leaving> leaving_;
+  std::map<std::string, Entry> entries_;
+};
+
+/// A word as a number. @throws std::invalid_argument with a sentence.
+double toNumber(const std::string& word);
+/// A word as a whole number from 0 to 18446744073709551615, the largest of 64 bits.
+/// @throws std::invalid_argument with a sentence.
+std::uint64_t toSeed(const std::string& word);
+/// "on" or "off". @throws std::invalid_argument with a sentence.
+bool toSwitch(const std::string& word);
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,145 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/fci/protocol.h>
+#include <netinet/in.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// @file
+/// The server's sockets. None of them ever blocks; one thread owns each.
+
+namespace franka_sim::fci {
+
+using franka_core::fci::Bytes;
+
+/// Bytes that many messages share, such as a model: nobody copies them.
+using Blob = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+/// Whether a text is an IPv4 address such as 127.0.0.1, of this machine or not.
+bool isAddress(const std::string& text) noexcept;
+
+/// Closes a file descriptor when it goes.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int fd) noexcept : fd_(fd) {}
+  ~Descriptor() { close(); }
+  Descriptor(Descriptor&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
+  Descriptor& operator=(Descriptor&& other) noexcept;
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const noexcept { return fd_; }
+  explicit operator bool() const noexcept { return fd_ >= 0; }
+  void close() noexcept;
+
+ private:
+  int fd_{-1};
+};
+
+/// Waits for connections on one address of this machine.
+class Listener {
+ public:
+  /// @param port 0: the system chooses.
+  /// @throws std::runtime_error with a sentence that names address, port and cause.
+  Listener(const std::string& address, std::uint16_t port);
+
+  std::uint16_t port() const noexcept { return port_; }
+  int descriptor() const noexcept { return socket_.get(); }
+  /// The next connection and where it comes from; an empty descriptor when there is none, or when
+  /// this process can open no more of them.
+  Descriptor accept(sockaddr_in& peer) noexcept;
+  /// Whether a connection that waits can be accepted: worth a poll.
+  bool accepts() const noexcept;
+
+  /// Closed: whoever connects is refused; the port stays this listener's.
+  bool isOpen() const noexcept { return open_; }
+  void close() noexcept;
+  /// @returns false when another program has taken the port meanwhile.
+  bool open() noexcept;
+
+ private:
+  Descriptor socket_;
+  sockaddr_in name_{};
+  std::chrono::steady_clock::time_point exhausted_until_{};
+  bool open_{true};
+  std::uint16_t port_{0};
+};
+
+/// One TCP connection. Requests collect in a buffer of fixed size; what the peer does not take at
+/// once is kept and sent by later calls of flush. A peer that vanishes without a word, or takes
+/// nothing, is noticed after 5 s.
+class Connection {
+ public:
+  explicit Connection(Descriptor socket);
+
+  int descriptor() const noexcept { return socket_.get(); }
+  bool open() const noexcept { return static_cast<bool>(socket_); }
+  bool hasUnsent() const noexcept { return !unsent_.empty(); }
+  /// What is kept for the peer, shared bytes included.
+  std::size_t unsentBytes() const noexcept;
+  /// The buffer has no room: nothing is received before something is consumed.
+  bool isFull() const noexcept { return filled_ == kCapacity; }
+
+  /// Reads what is there. @returns false once the peer has closed or vanished.
+  bool receive() noexcept;
+  /// The same question where nothing may be read: it is answered whatever still waits to be read.
+  bool peerHasClosed() const noexcept;
+  /// What has been received and not consumed.
+  Bytes received() const noexcept { return {buffer_, filled_}; }
+  void consume(std::size_t size) noexcept;
+
+  /// Sends, or keeps for later. Allocates only where the peer is slower than the messages.
+  /// @returns false once the peer has vanished.
+  bool send(Bytes message);
+  /// The same for shared bytes, which are kept without a copy.
+  bool send(const Blob& bytes);
+  bool flush() noexcept;
+
+  void close() noexcept { socket_.close(); }
+  /// Closes so that the peer notices at once: it sees a reset, not an end.
+  void reset() noexcept;
+
+ private:
+  static constexpr std::size_t kCapacity = 4096;  // larger than the largest request
+
+  struct Unsent {
+    Blob bytes;
+    std::size_t sent;
+  };
+
+  bool write(Bytes message, std::size_t& done) noexcept;
+
+  Descriptor socket_;
+  std::uint8_t buffer_[kCapacity];
+  std::size_t filled_{0};
+  std::vector<Unsent> unsent_;
+};
+
+/// A UDP socket on one address, with one peer at a time.
+class Datagrams {
+ public:
+  /// @throws std::runtime_error with a sentence.
+  explicit Datagrams(const std::string& address);
+
+  int descriptor() const noexcept { return socket_.get(); }
+  /// The system keeps away what others send from then on.
+  void setPeer(const sockaddr_in& peer) noexcept;
+  /// Real-time safe. A datagram that the system does not take is lost, as on a wire.
+  void send(Bytes datagram) noexcept;
+  /// The next datagram from the peer's address; others are dropped, a limited number a call.
+  /// @returns its size, which may be larger than `capacity`; -1 when there is none.
+  std::ptrdiff_t receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
+
+ private:
+  Descriptor socket_;
+  sockaddr_in peer_{};
+};
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,36 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/fci/arm_request_handler.h>
+#include <franka_sim/robot/control_unit.h>
+
+#include <cstdint>
+#include <optional>
+
+namespace franka_sim::fci {
+
+/// Hands requests to a control unit and its outcomes back, in the words of the protocol.
+class UnitRequestHandler final : public ArmRequestHandler {
+ public:
+  /// @param unit outlives the handler.
+  explicit UnitRequestHandler(ControlUnit& unit) noexcept : unit_(unit) {}
+
+  const franka_core::RobotState& state() const noexcept override { return unit_.state(); }
+  void connected(std::uint16_t version) noexcept override;
+  void disconnected() noexcept override { unit_.clientGone(); }
+  bool active() const noexcept override { return unit_.fciActive(); }
+  std::optional<Status> handle(const franka_core::fci::Request& request) noexcept override;
+  std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept override;
+  std::optional<Status> motionEnd() noexcept override;
+  std::optional<Status> stopEnd() noexcept override;
+  std::optional<Status> recoveryEnd() noexcept override;
+
+ private:
+  void applyVersion() noexcept;
+
+  ControlUnit& unit_;
+  std::uint16_t version_{0};  // of a client that came while the motion of another one ran; else 0
+};
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,65 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/world.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace franka_sim {
+
+/// A camera that looks from one point to another, both in the world frame [m].
+struct Camera {
+  std::array<double, 3> position{{1.4, -1.2, 1.2}};
+  std::array<double, 3> target{{0, 0, 0.4}};
+  double field_of_view{45};  ///< vertical [deg]
+};
+
+/// What is needed to draw a moment of a world: copied by the stepping thread, drawn by another.
+struct Scene {
+  std::string mjcf;                      ///< World::mjcf(true)
+  std::map<std::string, Pose> bodies;    ///< free bodies
+  std::map<std::string, double> joints;  ///< joints with one degree of freedom [rad] or [m]
+  std::vector<Contact> contacts;         ///< for the window's arrows
+};
+
+struct Picture {
+  int width{0}, height{0};
+  std::vector<std::uint8_t> rgb;  ///< rows from top to bottom, 3 bytes a pixel
+  std::vector<float> depth;       ///< along the line of sight's axis [m], as rgb; infinity: nothing
+  Pose camera;                    ///< of a named camera: optical frame (z ahead, y down)
+};
+
+/// Takes what `Renderer` needs from a world (the stepping thread calls it, between ticks; it
+/// allocates).
+Scene captureScene(World& world);
+
+/// Draws scenes without a display: EGL surfaceless or OSMesa, whichever the machine has (decision
+/// 38: shadow map at most 1024, no multisampling). One thread owns a renderer.
+class Renderer {
+ public:
+  /// @throws std::runtime_error with a sentence when no way of drawing is found.
+  Renderer();
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  /// @throws std::runtime_error with a sentence when the size, the camera or the scene cannot be
+  /// drawn.
+  Picture render(const Scene& scene, const Camera& camera, int width, int height);
+  /// The view of a camera that stands in the world, with depth. @throws as the other one, and when
+  /// the scene has no such camera.
+  Picture render(const Scene& scene, const std::string& camera, int width, int height);
+  /// "EGL" or "OSMesa".
+  std::string backend() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace franka_sim

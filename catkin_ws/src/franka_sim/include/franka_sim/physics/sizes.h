@@ -1,0 +1,27 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+
+/// @file
+/// Sizes that the world of a robot arm does not exceed (chosen here, far above what an arm of 1 m
+/// that lifts 3 kg meets). A number beyond them is a typing error or another unit, and would make
+/// the physics diverge.
+
+namespace franka_sim::sizes {
+
+constexpr double kFarthest = 1e3;   ///< from the world's origin [m]; of a joint [m] or [rad]
+constexpr double kFastest = 1e3;    ///< [m/s] or [rad/s]
+constexpr double kStrongest = 1e4;  ///< [N] or [Nm]
+constexpr double kGravity = 1e2;    ///< [m/s^2]
+
+/// @param what the beginning of the sentence, for example "The force"
+/// @throws std::runtime_error with a sentence that names the first number which is not finite or
+/// beyond `largest`, the limit and the unit.
+void check(const std::array<double, 3>& values, double largest, const char* unit,
+           const std::string& what);
+void check(double value, double largest, const char* unit, const std::string& what);
+
+}  // namespace franka_sim::sizes

@@ -1,0 +1,37 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/control_unit_parameters.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace franka_sim {
+
+/// What a collision reflex was raised for: the joint or axis that was the farthest beyond its upper
+/// threshold in the tick of the reflex.
+struct Collision {
+  bool happened{false};
+  std::size_t index{0};   ///< of the joint, or of x, y, z, R, P, Y
+  double value{0.0};      ///< external torque [Nm] or force [N], not filtered
+  double threshold{0.0};  ///< the upper one that held [Nm, N]
+};
+
+/// The farthest beyond its threshold by ratio. Real-time safe.
+template <std::size_t N>
+Collision worstOf(const std::array<double, N>& values, const std::array<double, N>& upper) noexcept;
+
+/// Which magnitudes are above their thresholds: 1 or 0, as the flags of RobotState. Real-time safe.
+template <std::size_t N>
+std::array<double, N> above(const std::array<double, N>& values,
+                            const std::array<double, N>& thresholds) noexcept;
+
+/// "joint 4: external torque 23.4 Nm, upper threshold 20 Nm". Not real-time safe.
+std::string describeJointCollision(const Collision& collision);
+/// "along z of O: external force -25.1 N, upper threshold 20 N", or about it, or of K. Not
+/// real-time safe.
+std::string describeCartesianCollision(const Collision& collision, ThresholdFrame frame);
+
+}  // namespace franka_sim

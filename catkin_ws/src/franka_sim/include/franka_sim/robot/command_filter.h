@@ -1,0 +1,28 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/fci/commands.h>
+#include <franka_core/robot_state.h>
+
+namespace franka_sim {
+
+/// The low-pass filters that clients up to protocol 5 can put before the motion generators and the
+/// torque controller (SetFilters). First order, with the gain of fci.md 4.3; at 1000 Hz a signal
+/// passes as it is. Rotations are filtered along the shortest arc. Real-time safe; one thread.
+class CommandFilter {
+ public:
+  /// @returns whether all cutoffs are within 1 and 1000 Hz.
+  bool set(const franka_core::fci::SetFiltersRequest& cutoffs) noexcept;
+  /// A motion begins from here: q_d, O_T_EE_c, elbow_c of the state; nothing else moves.
+  void begin(const franka_core::RobotState& state) noexcept;
+  /// One command. What is not finite or no rigid transform passes as it is, to be refused.
+  const franka_core::RobotCommand& apply(const franka_core::RobotCommand& command) noexcept;
+
+ private:
+  franka_core::fci::SetFiltersRequest cutoffs_;
+  bool active_{false};
+  franka_core::RobotCommand last_;
+};
+
+}  // namespace franka_sim

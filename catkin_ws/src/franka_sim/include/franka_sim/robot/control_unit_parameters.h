@@ -1,0 +1,69 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// Thresholds of contact (lower) and collision (upper), [Nm] and [N, N, N, Nm, Nm, Nm].
+struct CollisionThresholds {
+  std::array<double, 7> lower_torque, upper_torque;
+  std::array<double, 6> lower_force, upper_force;
+};
+
+/// Whose axes the wrench has that is compared with the Cartesian thresholds (decision 15).
+enum class ThresholdFrame {
+  kBase,      ///< O_F_ext_hat_K, as over the FCI
+  kStiffness  ///< K_F_ext_hat_K, as the ROS simulation's manual says
+};
+
+/// The configuration a control unit starts with. Defaults and sources: decisions.md,
+/// franka_ros.md 9.2.
+struct ControlUnitParameters {
+  franka_core::ArmModel model;
+  std::array<double, 7> max_torque{{87, 87, 87, 87, 12, 12, 12}};  ///< saturation [Nm], fci.md 5.5
+  std::array<double, 7> rotor_inertia{
+      {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< B [kg m^2] (decision 1)
+  /// Coulomb friction the unit compensates where |dq| > 0.01 rad/s [Nm] (decision 1: zero by
+  /// default).
+  std::array<double, 7> coulomb_friction{};
+  std::array<double, 7> viscous_friction{};      ///< likewise [Nm s/rad]
+  int substeps{2};                               ///< of the physics per tick (decision 3)
+  std::array<double, 3> gravity{{0, 0, -9.81}};  ///< O_ddP_O, in O [m/s^2]
+  std::array<double, 16> F_T_NE{franka_core::kIdentityTransform};
+  std::array<double, 16> NE_T_EE{franka_core::kIdentityTransform};
+  std::array<double, 16> EE_T_K{franka_core::kIdentityTransform};
+  franka_core::Payload end_effector{};  ///< m_ee, F_x_Cee, I_ee
+  franka_core::Payload load{};          ///< m_load, F_x_Cload, I_load
+  CollisionThresholds nominal{{{20, 20, 18, 18, 16, 14, 12}},
+                              {{20, 20, 18, 18, 16, 14, 12}},
+                              {{20, 20, 20, 25, 25, 25}},
+                              {{20, 20, 20, 25, 25, 25}}};
+  CollisionThresholds acceleration{nominal};
+  /// Of the idle hold, and of joint impedance control until it is set [Nm/rad].
+  std::array<double, 7> joint_stiffness{{3000, 3000, 3000, 2500, 2500, 2000, 2000}};
+  /// Of Cartesian impedance control until it is set [N/m, Nm/rad] (decision 11).
+  std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
+  bool has_hand{true};           ///< for the avoidance of self-collisions
+  unsigned protocol_version{5};  ///< whose limits hold (decisions 8 and 25)
+  /// Whether setters are taken in Move: the ROS simulation does, the FCI refuses (fci.md 5.1).
+  bool setters_in_motion{true};
+  ThresholdFrame threshold_frame{ThresholdFrame::kStiffness};
+  /// Whether collisions, violated limits and lost commands end a motion. The robot does so; the ROS
+  /// simulation only shows contacts and collisions.
+  bool reflexes{false};
+};
+
+/// Makes a unit behave as behind its own interface: reflexes, setters refused while it moves,
+/// thresholds for O_F_ext_hat_K.
+inline void behaveAsOverFci(ControlUnitParameters& parameters, unsigned protocol_version) {
+  parameters.protocol_version = protocol_version;
+  parameters.reflexes = true;
+  parameters.setters_in_motion = false;
+  parameters.threshold_frame = ThresholdFrame::kBase;
+}
+
+}  // namespace franka_sim

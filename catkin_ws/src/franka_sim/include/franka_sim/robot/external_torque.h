@@ -1,0 +1,42 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+#include <franka_sim/robot/plant.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// External joint torque: the measured torque minus what the model of the motion explains (decision
+/// 3),
+///   tau_ext = tau_J - [M(q) a + c(q, dq) + g(q)],  a = (dq_k - dq_{k-1}) / T.
+///
+/// tau_J is a mean over the tick. With n physics substeps the plant evaluated its dynamics at the
+/// start of each, whose mean lies at alpha = (n - 1) / (2 n) of the tick: the model is evaluated
+/// there. The robot's own force counts positive: an outside force F on the arm reads -J^T F
+/// (decision 4). Real-time safe; one thread.
+class ExternalTorque {
+ public:
+  /// @param substeps of the physics per tick, 1 or more
+  explicit ExternalTorque(int substeps) noexcept : alpha_((substeps - 1.0) / (2.0 * substeps)) {}
+
+  /// @param now sensors at the end of the tick @param payload the configured one
+  /// @param gravity_earth in O [m/s^2] @returns tau_ext over the last tick [Nm], zero without a
+  /// previous sample
+  std::array<double, 7> update(const franka_core::ArmModel& model,
+                               const franka_core::Payload& payload,
+                               const std::array<double, 3>& gravity_earth,
+                               const ArmMeasurement& now) noexcept;
+
+  /// Starts anew from this sample: what happened before it is not explained by motor torques.
+  void restart(const ArmMeasurement& now) noexcept;
+
+ private:
+  double alpha_;
+  bool has_previous_{false};
+  std::array<double, 7> q_{}, dq_{};
+};
+
+}  // namespace franka_sim

@@ -1,0 +1,31 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/command_window.h>
+
+namespace franka_sim {
+
+/// Counts the commands of a motion that arrived and those that did not (fci.md 5.3). Real-time
+/// safe; one thread.
+class LossMonitor {
+ public:
+  /// So many lost in a row end a motion.
+  static constexpr int kLostInARow = 20;
+
+  /// One tick. Before a motion's first command nothing counts as lost: the client consumes states
+  /// without answering while it starts (fci.md 1.10).
+  /// @param patience ticks to wait for that first command @returns whether the client is lost.
+  bool record(bool received, int patience = kPatience) noexcept;
+  double rate() const noexcept { return window_.rate(); }
+  void restart() noexcept;
+
+ private:
+  static constexpr int kPatience = 1000;  // [ticks], our choice: the client's own UDP timeout
+
+  CommandWindow window_;
+  int lost_{0};
+  bool begun_{false};
+};
+
+}  // namespace franka_sim

@@ -1,0 +1,37 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/tick.h>
+
+#include <array>
+#include <cstddef>
+
+namespace franka_sim {
+
+/// First-order low-pass over N signals sampled once a tick, with the gain of fci.md 4.3.
+/// Real-time safe; one thread.
+template <std::size_t N>
+class LowPass {
+ public:
+  /// @param cutoff [Hz], positive
+  explicit LowPass(double cutoff = kSignalCutoff) noexcept
+      : gain_(kTick / (kTick + 1.0 / (2.0 * 3.14159265358979323846 * cutoff))) {}
+
+  const std::array<double, N>& update(const std::array<double, N>& input) noexcept {
+    for (std::size_t i = 0; i < N; i++) {
+      output_[i] = gain_ * input[i] + (1.0 - gain_) * output_[i];
+    }
+    return output_;
+  }
+
+  const std::array<double, N>& output() const noexcept { return output_; }
+  double gain() const noexcept { return gain_; }
+  void restart() noexcept { output_.fill(0.0); }
+
+ private:
+  double gain_;
+  std::array<double, N> output_{};
+};
+
+}  // namespace franka_sim

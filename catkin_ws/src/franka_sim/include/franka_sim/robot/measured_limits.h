@@ -1,0 +1,35 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/limits.h>
+#include <franka_core/robot_state.h>
+#include <franka_sim/robot/error_flag.h>
+
+#include <array>
+#include <optional>
+
+namespace franka_sim {
+
+/// What holds of the measured arm in every mode in which it is driven (decision 14). Bounds of what
+/// is commanded are the motion generators' matter; these lie 5 % and more above them, so that an
+/// arm which follows well is not stopped.
+/// @param O_dP_EE measured twist of EE in O [m/s, rad/s]
+/// @returns the first error of: tau_J_range_violation (|tau_J| above 1.2 times the motors' range),
+/// joint_position_limits_violation (0.005 rad beyond), joint_velocity_violation (1.05 times),
+/// cartesian velocity (1.05 times that of the translation), power_limit_violation (kPowerLimit).
+/// Real-time safe.
+std::optional<ErrorFlag> measuredViolation(const franka_core::ArmLimits& limits,
+                                           const franka_core::RobotState& state,
+                                           const std::array<double, 6>& O_dP_EE) noexcept;
+
+/// Sum of |tau_J dq| over the joints [W]. The data sheet gives the arm's highest electrical power
+/// as about 350 W; what the joints give mechanically cannot be more (our choice).
+constexpr double kPowerLimit = 350.0;
+
+/// Whether a joint stands 0.005 rad or more beyond its limits, which only the user can mend.
+/// Real-time safe.
+bool beyondJointLimits(const franka_core::ArmLimits& limits,
+                       const std::array<double, 7>& q) noexcept;
+
+}  // namespace franka_sim

@@ -1,0 +1,49 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/motion/joint_motion.h>
+#include <franka_sim/robot/motion/motion_limits.h>
+
+#include <array>
+#include <cstddef>
+
+namespace franka_sim {
+
+/// Moves the joints to a target that may change at any time (protocol 10's asynchronous motions).
+///
+/// Each joint alone runs the time-optimal motion under its limits of velocity and acceleration,
+/// exact to the tick; the mean over four ticks of it is what the arm gets, which keeps the jerk
+/// limit as well (four ticks are 2 ddq_max / dddq_max for both arms) and ends exactly on the
+/// target. Where the arm's velocity limit shrinks towards a joint's end, so does the speed.
+/// Real-time safe; one thread.
+class AsyncJointGenerator {
+ public:
+  /// At rest at q [rad]. @param maximum_velocity positive [rad/s]; cut to the arm's limits.
+  void start(const std::array<double, 7>& q,
+             const std::array<double, 7>& maximum_velocity) noexcept;
+  /// Where to go [rad]; finite, and reachable from position() within the limits (MotionGenerator).
+  void setTarget(const std::array<double, 7>& target) noexcept { target_ = target; }
+  /// Brakes instead of going on to the target, and stays there.
+  void stop() noexcept { stopping_ = true; }
+  /// One tick (1 ms) on.
+  void step(const MotionLimits& limits) noexcept;
+
+  /// Neither the motion nor its mean moves any more.
+  bool atRest() const noexcept;
+  const JointSample& sample() const noexcept { return sample_; }
+  /// Where the motion is [rad], before the mean over the last ticks.
+  const std::array<double, 7>& position() const noexcept { return q_; }
+
+ private:
+  static constexpr std::size_t kWindow = 4;
+
+  std::array<double, 7> target_{}, maximum_velocity_{};
+  std::array<double, 7> q_{}, dq_{};                      // before the mean
+  std::array<std::array<double, 7>, kWindow> history_{};  // of q_, a ring
+  std::size_t newest_{0};
+  JointSample sample_;
+  bool stopping_{false};
+};
+
+}  // namespace franka_sim

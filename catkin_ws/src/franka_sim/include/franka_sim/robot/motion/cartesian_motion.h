@@ -1,0 +1,62 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/motion/motion_limits.h>
+#include <franka_sim/robot/transforms.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// The elbow's joint (the third) at one tick; derivatives by backward differences.
+struct ElbowSample {
+  double q3{0.0}, dq3{0.0}, ddq3{0.0}, dddq3{0.0};  ///< [rad], [rad/s], ...
+};
+
+/// The end effector in O at one tick, derivatives by backward differences over 1 ms.
+struct CartesianSample {
+  Transform pose{};               ///< O_T_EE
+  std::array<double, 6> twist{};  ///< [m/s, rad/s]
+  std::array<double, 6> acceleration{}, jerk{};
+  ElbowSample elbow;
+};
+
+/// A commanded elbow.
+struct ElbowCommand {
+  bool valid{false};              ///< false: stays where it was commanded last
+  std::array<double, 2> elbow{};  ///< q3 [rad] and the sign of the elbow, +1 or -1
+};
+
+/// A motion of the end effector and of the elbow as it is commanded, and the judge of its next
+/// step; see JointMotion for how. Speeds, accelerations and jerks are judged by the norms of their
+/// linear and of their angular part, in the stages of decision 14; within a stage translation and
+/// rotation come before the elbow. Real-time safe; one thread.
+class CartesianMotion {
+ public:
+  /// At rest. @param pose O_T_EE @param elbow q3 [rad] and its sign.
+  void start(const Transform& pose, const std::array<double, 2>& elbow) noexcept;
+
+  /// The next commanded pose O_T_EE; kept orthonormalised. The first must be where the motion
+  /// starts, and sets the history to rest there.
+  /// @param sign the elbow's present sign, which a commanded elbow must have.
+  MotionFault takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
+                       const MotionLimits& limits) noexcept;
+  /// The next commanded twist in O [m/s, rad/s], from rest on; the pose follows by integration.
+  MotionFault takeTwist(const std::array<double, 6>& twist, const ElbowCommand& elbow, double sign,
+                        const MotionLimits& limits) noexcept;
+  /// A step without a command: the accelerations stay. Before the first step all stays.
+  MotionFault extrapolate(const MotionLimits& limits) noexcept;
+  /// Whether end effector and elbow could stand still in the next tick.
+  MotionFault checkStop(const MotionLimits& limits) const noexcept;
+
+  const CartesianSample& last() const noexcept { return last_; }
+
+ private:
+  MotionFault checkElbow(const ElbowCommand& elbow, double sign) const noexcept;
+
+  CartesianSample last_;
+  bool started_{false};
+};
+
+}  // namespace franka_sim

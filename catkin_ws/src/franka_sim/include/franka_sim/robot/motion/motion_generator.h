@@ -1,0 +1,98 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+#include <franka_core/robot_state.h>
+#include <franka_sim/robot/motion/async_joint_generator.h>
+#include <franka_sim/robot/motion/brake_trajectory.h>
+#include <franka_sim/robot/motion/cartesian_motion.h>
+#include <franka_sim/robot/motion/inverse_kinematics.h>
+#include <franka_sim/robot/motion/joint_motion.h>
+#include <franka_sim/robot/motion/motion_flag.h>
+#include <franka_sim/robot/motion/motion_limits.h>
+#include <franka_sim/robot/transforms.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// How a motion begins.
+struct MotionStart {
+  franka_core::MotionGeneratorMode mode{franka_core::MotionGeneratorMode::kJointPosition};
+  /// Where the arm was wanted last [rad]; O_T_EE_c and the elbow start at its forward kinematics.
+  std::array<double, 7> q_d{};
+  Transform F_T_EE{franka_core::kIdentityTransform};
+  bool asynchronous{false};                  ///< point to point; joint positions only (protocol 10)
+  std::array<double, 7> maximum_velocity{};  ///< of the asynchronous generator [rad/s]
+};
+
+enum class MotionStartResult {
+  kStarted,
+  kSingular,         ///< a Cartesian motion cannot start here (decision 12)
+  kInvalidArgument,  ///< not a mode with a generator; asynchronous without joint positions or with
+                     ///< velocities that are not finite and positive; q_d not finite
+};
+
+/// What the robot wants of the arm in this tick: the fields of the same names of
+/// franka_core::RobotState. Poses in O, twists of EE in O [m/s, rad/s], elbow (q3 [rad], sign).
+struct DesiredMotion {
+  std::array<double, 7> q_d{}, dq_d{}, ddq_d{};
+  Transform O_T_EE_d{franka_core::kIdentityTransform}, O_T_EE_c{franka_core::kIdentityTransform};
+  std::array<double, 6> O_dP_EE_d{}, O_dP_EE_c{}, O_ddP_EE_c{};
+  std::array<double, 2> elbow_d{}, elbow_c{}, delbow_c{}, ddelbow_c{};
+  bool near_singularity{false};  ///< inverse kinematics is damped: O_T_EE_d may lag O_T_EE_c
+  bool accelerating{false};      ///< more than a tenth of an acceleration limit, in this tick alone
+};
+
+/// What one tick brought.
+struct MotionStep {
+  MotionFault fault;     ///< the command was refused for this; desired() is that of the tick before
+  bool finished{false};  ///< the client has finished the motion (with a fault: while moving)
+};
+
+/// The robot's motion generators: turns one command a millisecond, or the lack of one, into what
+/// the arm is wanted to do, within the robot's limits.
+///
+/// Commands are judged in stages (decision 14). A lost command is replaced by holding the
+/// acceleration, and what follows from that is judged like a command (fci.md 5.3). After a fault
+/// the motion is over: brake from desired() with BrakeTrajectory and start anew. A finish is
+/// judged as a stop within one tick: a client that is too fast for that raises the flag of the
+/// acceleration or jerk it would take; an asynchronous motion brakes and finishes at rest.
+///
+/// One thread owns it. It neither allocates, locks nor throws, and may run in the 1 kHz loop.
+class MotionGenerator {
+ public:
+  explicit MotionGenerator(const MotionLimits& limits = motionLimitsOfProtocol(5)) noexcept;
+
+  /// Prepares a motion; desired() is at rest at q_d afterwards. Without success nothing changes.
+  MotionStartResult start(const MotionStart& start, const franka_core::ArmModel& model) noexcept;
+
+  /// One tick. @param model as given to start @param command nullptr when none arrived.
+  MotionStep step(const franka_core::RobotCommand* command,
+                  const franka_core::ArmModel& model) noexcept;
+
+  const DesiredMotion& desired() const noexcept { return desired_; }
+  const MotionLimits& limits() const noexcept { return limits_; }
+
+ private:
+  bool isCartesian() const noexcept;
+  MotionFault advanceAsync(const franka_core::RobotCommand* command) noexcept;
+  MotionFault advanceJoints(const franka_core::RobotCommand* command) noexcept;
+  MotionFault advanceCartesian(const franka_core::RobotCommand* command,
+                               const franka_core::ArmModel& model) noexcept;
+  void showJoints(const franka_core::ArmModel& model) noexcept;
+  void showCartesian(const InverseKinematics::Solution& solution) noexcept;
+  void showAcceleration() noexcept;
+
+  MotionLimits limits_;
+  MotionStart start_;
+  JointMotion joints_;         // of joint commands, or after inverse kinematics
+  CartesianMotion cartesian_;  // of Cartesian commands
+  AsyncJointGenerator async_;
+  DesiredMotion desired_;
+  bool solved_{false};     // a Cartesian command has been solved in this motion
+  bool finishing_{false};  // an asynchronous motion shall end when at rest
+};
+
+}  // namespace franka_sim

@@ -1,0 +1,36 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/limits.h>
+#include <franka_sim/robot/motion/motion_flag.h>
+
+#include <array>
+#include <cstddef>
+
+namespace franka_sim {
+
+/// What a robot holds commanded motions to, and how it tells.
+struct MotionLimits {
+  franka_core::ArmLimits arm{franka_core::kFerLimits};
+  bool position_velocity{false};  ///< joint velocity limits shrink towards the joints' ends (FR3)
+  franka_core::PositionVelocityLimits velocity_near_ends{};  ///< read if so
+  bool own_position_flags{true};  ///< 12 and 27 exist; from system 5.7.2 (protocol 9) 0 speaks
+  bool echoes_floats{false};      ///< states go out as 32 bit floats (protocol 10)
+
+  /// Highest and lowest velocity of a joint (0 to 6) that stands at q [rad, rad/s].
+  double highestVelocity(std::size_t joint, double q) const noexcept;
+  double lowestVelocity(std::size_t joint, double q) const noexcept;
+  /// Where a joint can be told to go [rad]: within its limits, and where a velocity is allowed.
+  franka_core::JointRange reach(std::size_t joint) const noexcept;
+  /// Bounds of the elbow's motion; of its two velocities the larger one.
+  franka_core::DerivativeLimits elbow() const noexcept;
+  /// The flag of a joint position out of range, of a joint command or after inverse kinematics.
+  MotionFlag positionFlag(bool solved) const noexcept;
+};
+
+/// The limits of a robot that speaks this protocol (decisions 8 and 25; fci.md 4.2 and 5.5).
+/// Protocol 10 takes the velocity limits of system 5.9, which its clients read from the URDF.
+MotionLimits motionLimitsOfProtocol(unsigned version) noexcept;
+
+}  // namespace franka_sim

@@ -1,0 +1,45 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+
+#include <array>
+#include <string>
+
+namespace franka_sim {
+
+/// Whether the arm can be told to carry such a body: finite, mass not negative, inertia symmetric
+/// without a negative principal moment, within the limits of
+/// franka_core/limits.h. A mass without inertia (a point)
+/// is fine. Real-time safe.
+bool isPayload(const franka_core::Payload& payload) noexcept;
+
+/// What is wrong with it: a sentence with value, limit and unit; empty if nothing is.
+std::string payloadFault(const franka_core::Payload& payload);
+
+/// A frame on the arm is no further from the one it is given in [m] (chosen here).
+constexpr double kMaxFrameDistance = 10.0;
+
+/// Whether it is a rigid transform to a frame that can be on the arm. Real-time safe.
+bool isFrame(const std::array<double, 16>& transform) noexcept;
+
+/// What keeps it from being one, as the end of a sentence that names it; empty if nothing does.
+/// Not real-time safe.
+std::string frameFault(const std::array<double, 16>& transform);
+
+/// Whether all thresholds are finite and not negative. Real-time safe.
+bool areThresholds(const CollisionThresholds& thresholds) noexcept;
+
+/// Whether the robot accepts these stiffnesses: 0 to 14250 Nm/rad (fci.md 5.2). Real-time safe.
+bool isJointStiffness(const std::array<double, 7>& K) noexcept;
+
+/// Likewise: 10 to 3000 N/m, 1 to 300 Nm/rad. Real-time safe.
+bool isCartesianStiffness(const std::array<double, 6>& K) noexcept;
+
+/// @throws std::invalid_argument with a sentence that names the first parameter which makes no
+/// sense.
+void checkParameters(const ControlUnitParameters& parameters);
+
+}  // namespace franka_sim

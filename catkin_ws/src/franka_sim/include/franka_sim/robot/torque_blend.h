@@ -1,0 +1,32 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+namespace franka_sim {
+
+/// Leads the torque from one control law to the next without a step: what the laws differ by at
+/// the switch is added and fades at the torque rate that the robot allows (fci.md 5.5). Real-time
+/// safe; one thread.
+class TorqueBlend {
+ public:
+  /// The law changes before the next `apply`.
+  void lawChanges() noexcept { changing_ = true; }
+  /// The same, where the next law begins with nothing: what it gives then acts at once.
+  void lawStartsFromZero() noexcept {
+    changing_ = false;
+    offset_ = last_;
+  }
+  /// No torque acts (brakes): nothing to lead over from.
+  void restart() noexcept;
+
+  /// @param tau of the present law [Nm] @returns what is to act [Nm]
+  std::array<double, 7> apply(const std::array<double, 7>& tau) noexcept;
+
+ private:
+  bool changing_{false};
+  std::array<double, 7> offset_{}, last_{};
+};
+
+}  // namespace franka_sim

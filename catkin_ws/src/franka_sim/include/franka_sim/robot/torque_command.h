@@ -1,0 +1,37 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+namespace franka_sim {
+
+/// Each torque cut to what its motor can give; not finite values become zero.
+/// @param limit [Nm] Real-time safe.
+std::array<double, 7> saturate(const std::array<double, 7>& tau,
+                               const std::array<double, 7>& limit) noexcept;
+
+/// The torque of external control: the last one commanded, cut to the motors' range and held while
+/// commands are missing (fci.md 5.3). Real-time safe; one thread.
+class TorqueCommand {
+ public:
+  explicit TorqueCommand(const std::array<double, 7>& limit) noexcept : limit_(limit) {}
+
+  /// @param tau without gravity [Nm]; ignored as a whole when any value is not finite
+  /// @returns whether it was taken.
+  bool receive(const std::array<double, 7>& tau) noexcept;
+  /// Whether a step to `tau` exceeds the rate of 1000 Nm/s (tolerance 0.01 Nm/s, decision 14), seen
+  /// both from the last torque as commanded and as it was cut; or is not finite.
+  bool jumps(const std::array<double, 7>& tau) const noexcept;
+  void clear() noexcept {
+    tau_.fill(0.0);
+    asked_.fill(0.0);
+  }
+  const std::array<double, 7>& value() const noexcept { return tau_; }
+
+ private:
+  std::array<double, 7> limit_;
+  std::array<double, 7> tau_{}, asked_{};  // cut, and as commanded
+};
+
+}  // namespace franka_sim

@@ -1,0 +1,171 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Simulated robots on the network, without ROS.
+#include <franka_sim/physics/world.h>
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <deque>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "files.h"
+#include "operator_commands.h"
+#include "options.h"
+#include "served_arm.h"
+#include "shutdown.h"
+#include "viewer.h"
+
+namespace franka_sim {
+namespace {
+
+std::atomic<bool> end_requested{false};  // by a signal
+
+void requestEnd(int /*signal*/) { end_requested = true; }
+
+std::string worldFile(const std::string& name) {
+  std::error_code error;
+  if (name.empty() || std::filesystem::exists(name, error)) {
+    return name;
+  }
+  const std::string file = packageFile("franka_sim", "worlds/" + name);
+  if (file.empty()) {
+    throw std::runtime_error("There is no world '" + name +
+                             "': neither a file nor one of those that come with franka_sim.");
+  }
+  return file;
+}
+
+// Against the wall clock the ticks go before other work, where the system allows it; where not,
+// they are as punctual as the machine's load lets them be.
+void preferThisThread() {
+  constexpr int kPriority = 70;
+  sched_param parameters{};
+  parameters.sched_priority = kPriority;
+  if (sched_setscheduler(0, SCHED_FIFO, &parameters) == 0) {
+    mlockall(MCL_CURRENT | MCL_FUTURE);
+  }
+}
+
+// What is wrong with the world is told where the program was started, and stops its robots.
+class WorldWatch {
+ public:
+  WorldWatch(World& world, const std::vector<fci::SimRobot*>& robots)
+      : world_(world), robots_(robots) {}
+
+  void step() {
+    world_.step();
+    for (const std::string& warning : world_.takeWarnings()) {
+      tell(warning);
+    }
+    const bool before = std::exchange(stopped_, world_.stopped());
+    if (stopped_ && !before) {
+      tell(world_.fault() + " Send the line reset to a control port.");
+      for (fci::SimRobot* robot : robots_) {
+        robot->halt();
+      }
+    }
+  }
+
+ private:
+  static void tell(const std::string& what) {
+    std::fprintf(stderr, "franka_sim: %s\n", what.c_str());
+  }
+
+  World& world_;
+  const std::vector<fci::SimRobot*>& robots_;
+  bool stopped_{false};
+};
+
+void serve(const Options& options) {
+  World world(worldFile(options.world), resolveUri);
+  std::deque<ServedArm> arms;
+  std::vector<fci::SimRobot*> robots;
+  for (const ArmOptions& arm : options.arms) {
+    robots.push_back(&arms.emplace_back(arm, world).robot());
+  }
+  std::mutex mutex;
+  const bool viewed = options.viewer;
+  // Without a window the world belongs to this thread alone.
+  const auto lock = [&mutex, viewed] {
+    return viewed ? std::unique_lock<std::mutex>(mutex) : std::unique_lock<std::mutex>();
+  };
+  WorldWatch watch(world, robots);
+  fci::Host host(
+      [&watch, lock] {
+        const auto locked = lock();
+        watch.step();
+      },
+      options.pace,
+      [&world, lock] {
+        const auto locked = lock();
+        world.prepareStep();
+      });
+  std::atomic<bool> ended{false};
+  Shutdown shutdown(end_requested, ended, std::chrono::duration<double>(options.linger), robots);
+  host.add(shutdown);
+  std::deque<fci::LineServer> lines;
+  for (ServedArm& arm : arms) {
+    host.add(arm.robot());
+    if (arm.options().control_port != 0) {
+      lines.emplace_back(arm.options().ip, arm.options().control_port);
+      addOperatorCommands(lines.back(), {arm.robot(), robots, host, world, ended});
+      host.add(lines.back());
+    }
+  }
+  std::optional<Viewer> viewer;
+  if (viewed) {
+    viewer.emplace(world, mutex);
+  }
+
+  if (!options.pace.lockstep || options.pace.by_clock) {
+    preferThisThread();
+  }
+  for (const ServedArm& arm : arms) {
+    std::printf("A simulated %s waits for clients at %s (protocol %s).\n",
+                arm.options().robot.c_str(), arm.options().ip.c_str(), arm.protocols().c_str());
+  }
+  std::fflush(stdout);
+  for (const ServedArm& arm : arms) {
+    const std::string overlaps = world.describeOverlaps(arm.options().arm_id);
+    if (!overlaps.empty()) {
+      std::fprintf(stderr, "franka_sim: %s Put it elsewhere with --base.\n", overlaps.c_str());
+    }
+  }
+  host.run(ended);
+}
+
+}  // namespace
+}  // namespace franka_sim
+
+int main(int argc, char** argv) {
+  using namespace franka_sim;  // NOLINT: the program's own
+  try {
+    const Options options = readOptions(argc, argv);
+    if (options.help) {
+      std::fputs(kUsage, stdout);
+      return 0;
+    }
+    std::signal(SIGINT, requestEnd);
+    std::signal(SIGTERM, requestEnd);
+    serve(options);
+    return 0;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "franka_sim: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "franka_sim: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,224 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "operator_commands.h"
+
+#include <franka_sim/fci/serving.h>
+#include <franka_sim/physics/sizes.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace franka_sim {
+
+namespace {
+
+using fci::LineServer;
+using fci::toNumber;
+using fci::toSwitch;
+using Words = LineServer::Words;
+
+constexpr double kLongest = 1e6;       // [ticks] of a push
+constexpr std::uint64_t kFall = 1000;  // [ticks] in lock-step, for what was let go to come to rest
+
+std::uint64_t toTicks(const std::string& word) {
+  const double ticks = toNumber(word);
+  if (!(ticks >= 1.0 && ticks <= kLongest) || ticks != std::floor(ticks)) {
+    throw std::invalid_argument("'" + word + "' is no number of milliseconds from 1 to 1000000.");
+  }
+  return static_cast<std::uint64_t>(ticks);
+}
+
+std::array<double, 3> toVector(const Words& words, std::size_t first) {
+  return {toNumber(words.at(first)), toNumber(words.at(first + 1)), toNumber(words.at(first + 2))};
+}
+
+void require(RequestStatus status, const std::string& sentence) {
+  if (status != RequestStatus::kSuccess) {
+    throw std::invalid_argument(sentence);
+  }
+}
+
+void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
+  constexpr std::uint64_t kReaction = 500;  // [ticks] in lock-step, for the arm to react
+  lines.add("user_stop on|off", [&](const Words& words) {
+    robot.unit().setUserStop(toSwitch(words.at(0)));
+    host.letRun(kReaction);
+    return "";
+  });
+  lines.add("guiding on|off", [&](const Words& words) {
+    robot.unit().setGuiding(toSwitch(words.at(0)));
+    host.letRun(kReaction);
+    return "";
+  });
+  lines.add("brakes open|close", [&](const Words& words) {
+    const std::string& what = words.at(0);
+    if (what != "open" && what != "close") {
+      throw std::invalid_argument("'" + what + "' is neither open nor close.");
+    }
+    what == "open" ? robot.unit().openBrakes() : robot.unit().closeBrakes();
+    host.letRun(kReaction);
+    return "";
+  });
+  lines.add("fci on|off", [&](const Words& words) {
+    robot.unit().setFciActive(toSwitch(words.at(0)));
+    robot.serve(true);  // the port opens or closes before the answer goes
+    return "";
+  });
+}
+
+void addLink(LineServer& lines, fci::SimRobot& robot) {
+  lines.add("loss PROBABILITY [SEED]", [&](const Words& words) {
+    robot.link().setLoss(toNumber(words.at(0)), words.size() > 1 ? fci::toSeed(words[1]) : 0);
+    return "";
+  });
+  lines.add("lose COMMANDS", [&](const Words& words) {
+    robot.link().loseNext(static_cast<unsigned>(toTicks(words.at(0))));
+    return "";
+  });
+  lines.add("delay TICKS", [&](const Words& words) {
+    robot.link().setDelay(toNumber(words.at(0)));
+    return "";
+  });
+}
+
+void addWorld(LineServer& lines, fci::Host& host, World& world) {
+  lines.add("push BODY FX FY FZ MILLISECONDS", [&](const Words& words) {
+    const std::uint64_t ticks = toTicks(words.at(4));
+    world.push(words.at(0), toVector(words, 1), {}, ticks);
+    host.letRun(ticks);
+    return "";
+  });
+  lines.add("place BODY X Y Z [QW QX QY QZ]", [&](const Words& words) {
+    Pose pose;
+    pose.position = toVector(words, 1);
+    if (words.size() > 4) {
+      pose.orientation = {toNumber(words.at(4)), toNumber(words.at(5)), toNumber(words.at(6)),
+                          toNumber(words.at(7))};
+    }
+    world.setBodyPose(words.at(0), pose);
+    host.letRun(kFall);
+    return "";
+  });
+  lines.add("where BODY", [&](const Words& words) {
+    const Pose pose = world.bodyPose(words.at(0));
+    char text[128];
+    std::snprintf(text, sizeof(text), "%.9g %.9g %.9g", pose.position[0], pose.position[1],
+                  pose.position[2]);
+    return std::string(text);
+  });
+}
+
+PumpHealth toHealth(const std::string& word) {
+  constexpr std::array<const char*, 4> kNames{"green", "yellow", "orange", "red"};
+  for (std::size_t i = 0; i < kNames.size(); i++) {
+    if (word == kNames[i]) {
+      return static_cast<PumpHealth>(i);
+    }
+  }
+  throw std::invalid_argument("'" + word + "' is none of green, yellow, orange and red.");
+}
+
+void addVacuum(LineServer& lines, VacuumGripperUnit& unit) {
+  lines.add("part on|off", [&unit](const Words& words) {
+    unit.setPart(toSwitch(words.at(0)));
+    return "";
+  });
+  lines.add("pump green|yellow|orange|red", [&unit](const Words& words) {
+    unit.setHealth(toHealth(words.at(0)));
+    return "";
+  });
+}
+
+franka_core::fci::CartesianLimit toWall(const Words& words) {
+  franka_core::fci::CartesianLimit wall;
+  wall.object_frame = franka_core::kIdentityTransform;
+  wall.active = words.at(1) != "off";
+  if (!wall.active) {
+    return wall;
+  }
+  Eigen::Map<Eigen::Matrix4d> frame(wall.object_frame.data());
+  frame.topRightCorner<3, 1>() = Eigen::Vector3d(toVector(words, 1).data());
+  wall.object_world_size = toVector(words, 4);
+  sizes::check(toVector(words, 1), sizes::kFarthest, "m", "The wall's position");
+  sizes::check(wall.object_world_size, sizes::kFarthest, "m", "An edge of the wall");
+  if (words.size() > 7) {
+    const Eigen::Quaterniond turn(toNumber(words.at(7)), toNumber(words.at(8)),
+                                  toNumber(words.at(9)), toNumber(words.at(10)));
+    if (turn.norm() == 0.0) {
+      throw std::invalid_argument("Four zeros are no orientation; 1 0 0 0 turns nothing.");
+    }
+    frame.topLeftCorner<3, 3>() = turn.normalized().toRotationMatrix();
+  }
+  return wall;
+}
+
+void addWalls(LineServer& lines, fci::SimRobot& robot) {
+  lines.add("wall NUMBER off|X Y Z DX DY DZ [QW QX QY QZ]", [&robot](const Words& words) {
+    const double number = toNumber(words.at(0));
+    if (!(number >= 0.0 && number < VirtualWalls::kCount) || number != std::floor(number)) {
+      throw std::invalid_argument("'" + words.at(0) + "' is no number of a wall: 0 to 7.");
+    }
+    require(robot.unit().setVirtualWall(static_cast<std::int32_t>(number), toWall(words)),
+            "The wall was refused: it has a negative edge, or the robot moves.");
+    return "";
+  });
+}
+
+void reset(const Scene& scene) {
+  for (const fci::SimRobot* robot : scene.robots) {
+    if (robot->expectsCommand()) {
+      throw std::invalid_argument("A motion runs; the world is reset between motions only.");
+    }
+  }
+  scene.world.reset();
+  for (fci::SimRobot* robot : scene.robots) {
+    robot->restart();
+    robot->observe();  // what was measured in this tick holds no longer
+  }
+  scene.host.beginAnew();
+}
+
+void addRobot(LineServer& lines, fci::SimRobot& robot, const fci::Host& host, const World& world) {
+  lines.add("load MASS X Y Z", [&robot](const Words& words) {
+    const franka_core::Payload load{toNumber(words.at(0)), toVector(words, 1), {}};
+    fci::setLoad(robot, load);
+    return "";
+  });
+  lines.add("state", [&robot, &world](const Words&) {
+    return fci::describe(robot) + (world.stopped() ? "; " + world.fault() : "");
+  });
+  lines.add(
+      "hash",
+      [&robot](const Words&) {
+        char text[24];
+        std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(robot.hash()));
+        return std::string(text);
+      },
+      [&host] { return host.settled(); });
+}
+
+}  // namespace
+
+void addOperatorCommands(fci::LineServer& lines, const Scene& scene) {
+  addSwitches(lines, scene.robot, scene.host);
+  addLink(lines, scene.robot);
+  addWorld(lines, scene.host, scene.world);
+  addRobot(lines, scene.robot, scene.host, scene.world);
+  addWalls(lines, scene.robot);
+  if (VacuumGripperUnit* vacuum = scene.robot.vacuum()) {
+    addVacuum(lines, *vacuum);
+  }
+  lines.add("reset", [scene](const Words&) {
+    reset(scene);
+    return "";
+  });
+  lines.add("quit", [scene](const Words&) {
+    scene.stop = true;
+    return "";
+  });
+}
+
+}  // namespace franka_sim

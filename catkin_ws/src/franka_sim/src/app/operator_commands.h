@@ -1,0 +1,27 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/fci/line_server.h>
+#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/physics/world.h>
+
+#include <atomic>
+#include <vector>
+
+namespace franka_sim {
+
+/// What the commands act on; all of it outlives the server.
+struct Scene {
+  fci::SimRobot& robot;                       ///< whose control interface it is
+  const std::vector<fci::SimRobot*>& robots;  ///< all, that one among them
+  fci::Host& host;
+  World& world;
+  std::atomic<bool>& stop;
+};
+
+/// Enters the commands of the control interface (docs/franka_sim.md): buttons and switches of the
+/// robot, the quality of its link, and what hands do to the world.
+void addOperatorCommands(fci::LineServer& lines, const Scene& scene);
+
+}  // namespace franka_sim

@@ -1,0 +1,33 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/physics/world.h>
+
+#include <optional>
+#include <string>
+
+#include "options.h"
+
+namespace franka_sim {
+
+/// One arm of franka_sim: put into the world, and on the network.
+class ServedArm {
+ public:
+  /// @param world outlives the arm.
+  /// @throws std::runtime_error with a sentence when a file, the robot's description or the network
+  /// does not allow it.
+  ServedArm(const ArmOptions& options, World& world);
+
+  fci::SimRobot& robot() noexcept { return *robot_; }
+  const ArmOptions& options() const noexcept { return options_; }
+  /// Protocol versions for the user, for example "3 to 5".
+  std::string protocols() const;
+
+ private:
+  ArmOptions options_;
+  std::optional<fci::SimRobot> robot_;
+};
+
+}  // namespace franka_sim

@@ -1,0 +1,41 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/fci/host.h>
+#include <franka_sim/fci/sim_robot.h>
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace franka_sim {
+
+/// Lets clients go first. Whoever ends a robot and its clients at the same time, as roslaunch does,
+/// would otherwise hear from them that they have lost their robot.
+class Shutdown : public fci::Service {
+ public:
+  /// @param asked the end was asked for
+  /// @param ended is set when no client is left, or `patience` after that
+  Shutdown(const std::atomic<bool>& asked, std::atomic<bool>& ended,
+           std::chrono::duration<double> patience, std::vector<fci::SimRobot*> robots)
+      : asked_(asked), ended_(ended), patience_(patience), robots_(std::move(robots)) {}
+
+  void serve() override;
+  void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool hasClients() const;
+
+  const std::atomic<bool>& asked_;
+  std::atomic<bool>& ended_;
+  std::chrono::duration<double> patience_;
+  std::vector<fci::SimRobot*> robots_;
+  std::optional<Clock::time_point> asked_at_;
+};
+
+}  // namespace franka_sim

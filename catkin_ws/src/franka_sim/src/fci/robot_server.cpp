@@ -1,0 +1,348 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <arpa/inet.h>
+#include <franka_sim/fci/robot_server.h>
+
+#include <iterator>
+#include <utility>
+
+namespace franka_sim::fci {
+
+namespace codec = franka_core::fci;
+using codec::CodecError;
+using codec::Command;
+using codec::Status;
+using franka_core::MotionGeneratorMode;
+using franka_core::RobotMode;
+
+namespace {
+
+#if defined(__x86_64__)
+constexpr std::optional<codec::Architecture> kOwnArchitecture = codec::Architecture::kX64;
+#elif defined(__aarch64__)
+constexpr std::optional<codec::Architecture> kOwnArchitecture = codec::Architecture::kArm64;
+#elif defined(__i386__)
+constexpr std::optional<codec::Architecture> kOwnArchitecture = codec::Architecture::kX86;
+#elif defined(__arm__)
+constexpr std::optional<codec::Architecture> kOwnArchitecture = codec::Architecture::kArm;
+#else
+constexpr std::optional<codec::Architecture> kOwnArchitecture;
+#endif
+
+bool isForThisMachine(const codec::LoadModelLibraryRequest& request) noexcept {
+  return kOwnArchitecture == request.architecture &&
+         request.system == codec::OperatingSystem::kLinux;
+}
+
+}  // namespace
+
+RobotServer::RobotServer(RobotServerParameters parameters, ArmRequestHandler& handler)
+    : parameters_(std::move(parameters)),
+      model_library_(
+          std::make_shared<const std::vector<std::uint8_t>>(std::move(parameters_.model_library))),
+      handler_(handler),
+      slot_(parameters_.address, parameters_.port),
+      datagrams_(parameters_.address) {
+  for (const auto& [version, text] : parameters_.urdfs) {
+    urdfs_[version] = std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end());
+  }
+  parameters_.urdfs.clear();
+}
+
+RobotServer::~RobotServer() = default;
+
+void RobotServer::serve(bool stops_only) {
+  collectEnds();
+  datagrams_left_ = kDatagramsAtOnce;
+  slot_.setOpen(handler_.active());
+  if (!handler_.active() && version_ == 0) {
+    slot_.drop();  // nobody yet; a client hears how its motion ends first (publish)
+  }
+  slot_.serve([this, stops_only](Connection& client) { return serveOne(client, stops_only); },
+              [this] { forgetClient(); });
+}
+
+void RobotServer::dropClient() noexcept {
+  slot_.drop();
+  forgetClient();
+}
+
+void RobotServer::forgetClient() noexcept {
+  if (version_ != 0) {
+    handler_.disconnected();
+  }
+  version_ = 0;
+  begun_ = false;
+  answered_ = false;
+  move_.reset();
+  stop_.reset();
+  recovery_.reset();
+  answered_setter_count_ = 0;
+}
+
+Served RobotServer::serveOne(Connection& client, bool stops_only) {
+  codec::Header header;
+  const Bytes stream = client.received();
+  const CodecError framing = codec::nextMessage(stream, codec::kMaxRequestSize, header);
+  if (framing == CodecError::kIncomplete) {
+    return Served::kIncomplete;
+  }
+  if (framing != CodecError::kNone) {
+    return Served::kBroken;  // what follows cannot be told apart any more
+  }
+  // Connect is the same in every version.
+  const std::uint16_t version = version_ == 0 ? parameters_.newest_version : version_;
+  codec::Request request;
+  const CodecError error =
+      codec::decodeRequest(version, {stream.data, header.size}, header, request);
+  const bool stop = error == CodecError::kNone && codec::commandOf(request) == Command::kStopMove;
+  const bool later = stops_only || answered_setter_count_ == kMostAnswered;
+  if (later && version_ != 0 && !stop) {
+    return Served::kHeldBack;
+  }
+  client.consume(header.size);
+  bool goes_on = false;
+  if (error != CodecError::kNone) {
+    goes_on = refuse(header, error);
+  } else if (const auto* connection = std::get_if<codec::ConnectRequest>(&request)) {
+    goes_on = connect(header, *connection);
+  } else {
+    goes_on = version_ != 0 && answer(header, request);
+  }
+  return goes_on ? Served::kDone : Served::kBroken;
+}
+
+bool RobotServer::connect(const codec::Header& header, const codec::ConnectRequest& request) {
+  const bool busy = move_ || stop_ || recovery_ || answered_setter_count_ > 0;
+  const bool fits = !busy && request.version >= parameters_.oldest_version &&
+                    request.version <= parameters_.newest_version;
+  codec::Reply connect_reply;
+  connect_reply.status = fits ? Status::kSuccess : Status::kIncompatibleLibraryVersion;
+  connect_reply.server_version = fits   ? request.version
+                                 : busy ? version_
+                                        : parameters_.newest_version;
+  codec::ReplyMessage message;
+  if (codec::encodeReply(parameters_.newest_version, Command::kConnect, header.command_id,
+                         connect_reply, message) != CodecError::kNone ||
+      !slot_.client()->send(message.bytes())) {
+    return false;
+  }
+  if (fits) {
+    version_ = request.version;
+    slot_.confirm();
+    sockaddr_in peer = slot_.peer();
+    peer.sin_port = htons(request.udp_port);
+    datagrams_.setPeer(peer);
+    begun_ = false;
+    answered_ = false;
+    handler_.connected(version_);
+  }
+  return true;
+}
+
+bool RobotServer::answer(const codec::Header& header, const codec::Request& request) {
+  const Pending pending{codec::commandOf(request), header.command_id};
+  switch (pending.command) {
+    case Command::kLoadModelLibrary: {
+      const bool served = isForThisMachine(std::get<codec::LoadModelLibraryRequest>(request)) &&
+                          !model_library_->empty();
+      return served ? replyWithModel(pending, model_library_) : reply(pending, Status::kError);
+    }
+    case Command::kGetRobotModel: {
+      const Blob* text = urdf();
+      return text == nullptr ? reply(pending, Status::kCommandNotPossibleRejected)
+                             : replyWithModel(pending, *text);
+    }
+    case Command::kGetCartesianLimit:
+      return replyWithWall(pending, std::get<codec::GetCartesianLimitRequest>(request).id);
+    default:
+      break;
+  }
+  const std::optional<Status> status = handler_.handle(request);
+  if (pending.command == Command::kMove && status == Status::kMotionStarted) {
+    move_ = pending;
+    motion_end_.reset();
+    asynchronous_ = std::get<codec::MoveRequest>(request).use_async_motion_generator;
+    first_of_motion_ = message_id_ + 1;
+    begun_ = false;
+    answered_ = false;
+  }
+  if (!status) {
+    (pending.command == Command::kStopMove ? stop_ : recovery_) = pending;
+    return true;
+  }
+  if (pending.command != Command::kMove && answered_setter_count_ < kMostAnswered) {
+    answered_setters_[answered_setter_count_++] = {pending, *status};
+    return true;
+  }
+  return reply(pending, *status);
+}
+
+bool RobotServer::replyToSetters() {
+  bool sent = true;
+  for (std::size_t i = 0; i < answered_setter_count_ && sent; i++) {
+    sent = reply(answered_setters_[i].request, answered_setters_[i].status);
+  }
+  answered_setter_count_ = 0;
+  return sent;
+}
+
+// A request that could be told from others but not understood.
+bool RobotServer::refuse(const codec::Header& header, CodecError error) {
+  const std::optional<Command> command = codec::commandFromNumber(version_, header.command);
+  if (version_ == 0 || !command || error == CodecError::kWrongSize) {
+    return false;
+  }
+  const Status status =
+      *command == Command::kLoadModelLibrary ? Status::kError : Status::kInvalidArgumentRejected;
+  return reply({*command, header.command_id}, status);
+}
+
+bool RobotServer::reply(const Pending& to, Status status) {
+  codec::Reply plain;
+  plain.status = status;
+  codec::ReplyMessage message;
+  return codec::encodeReply(version_, to.command, to.id, plain, message) == CodecError::kNone &&
+         slot_.client()->send(message.bytes());
+}
+
+// Of the connected version: a robot's limits are those that its client knows.
+const Blob* RobotServer::urdf() const noexcept {
+  const auto next = urdfs_.upper_bound(version_);
+  return next == urdfs_.begin() ? nullptr : &std::prev(next)->second;
+}
+
+bool RobotServer::replyWithModel(const Pending& to, const Blob& model) {
+  codec::ReplyMessage head;
+  return codec::encodeModelReplyHead(version_, to.command, to.id, model->size(), head) ==
+             CodecError::kNone &&
+         slot_.client()->send(head.bytes()) && slot_.client()->send(model);
+}
+
+bool RobotServer::replyWithWall(const Pending& to, std::int32_t id) {
+  const std::optional<codec::CartesianLimit> wall = handler_.wall(id);
+  codec::Reply reply;
+  reply.status = wall ? Status::kSuccess : Status::kInvalidArgumentRejected;
+  reply.cartesian_limit = wall.value_or(codec::CartesianLimit{});
+  codec::ReplyMessage message;
+  return codec::encodeReply(version_, to.command, to.id, reply, message) == CodecError::kNone &&
+         slot_.client()->send(message.bytes());
+}
+
+void RobotServer::collectEnds() noexcept {
+  const auto collect = [](std::optional<Status>& where, std::optional<Status> what) {
+    if (what) {
+      where = what;
+    }
+  };
+  collect(motion_end_, handler_.motionEnd());
+  collect(stop_end_, handler_.stopEnd());
+  collect(recovery_end_, handler_.recoveryEnd());
+}
+
+void RobotServer::replyTo(std::optional<Pending>& pending, std::optional<Status>& status) {
+  if (!status) {
+    return;
+  }
+  if (pending && slot_.client() != nullptr && !reply(*pending, *status)) {
+    dropClient();
+  }
+  pending.reset();
+  status.reset();
+}
+
+void RobotServer::publish(std::uint64_t ticks, bool same_moment) {
+  collectEnds();
+  message_id_ += ticks;
+  if (!same_moment) {
+    oldest_of_moment_ = message_id_;
+    answered_ = false;
+  }
+  if (version_ == 0) {
+    motion_end_.reset();
+    stop_end_.reset();
+    recovery_end_.reset();
+    return;
+  }
+  shown_ = handler_.state();
+  shown_.message_id = message_id_;
+  if (codec::encodeState(version_, shown_, state_bytes_) == CodecError::kNone) {
+    datagrams_.send({state_bytes_.data(), codec::stateSize(version_)});
+  }
+  // The client must find the reason of an end in the state before it hears of the end.
+  if (!replyToSetters()) {
+    dropClient();
+  }
+  replyTo(move_, motion_end_);
+  replyTo(stop_, stop_end_);
+  replyTo(recovery_, recovery_end_);
+  if (!handler_.active()) {
+    dropClient();
+  }
+}
+
+void RobotServer::repeat() noexcept {
+  if (version_ != 0) {
+    datagrams_.send({state_bytes_.data(), codec::stateSize(version_)});
+  }
+}
+
+// Each cycle has the command that answers its state, no other; where no answers are due, one that
+// does not stem from an earlier motion.
+bool RobotServer::answersAState(std::uint64_t message_id) const noexcept {
+  return message_id >= (asynchronous() ? first_of_motion_ : oldest_of_moment_) &&
+         message_id <= message_id_;
+}
+
+bool RobotServer::receiveCommand() noexcept {
+  if (version_ == 0) {
+    return false;
+  }
+  codec::CommandBuffer buffer;
+  while (!answered_ && datagrams_left_ > 0) {
+    const std::ptrdiff_t size = datagrams_.receive(buffer.data(), buffer.size());
+    if (size < 0) {
+      return false;
+    }
+    franka_core::RobotCommand command;
+    const CodecError error =
+        static_cast<std::size_t>(size) > buffer.size()
+            ? CodecError::kWrongSize
+            : codec::decodeCommand(version_, {buffer.data(), static_cast<std::size_t>(size)},
+                                   command);
+    const bool read = error == CodecError::kNone || error == CodecError::kNotFinite;
+    if (read && answersAState(command.message_id)) {
+      command_ = command;
+      answered_ = true;
+    } else {
+      datagrams_left_--;
+    }
+  }
+  return answered_;
+}
+
+const franka_core::RobotCommand* RobotServer::takeCommand() noexcept {
+  if (!answered_) {
+    return nullptr;
+  }
+  answered_ = false;
+  if (!expectsCommands()) {
+    return nullptr;
+  }
+  begun_ = true;
+  return &command_;
+}
+
+bool RobotServer::expectsCommands() const noexcept {
+  return version_ != 0 && move_ && handler_.state().robot_mode == RobotMode::kMove;
+}
+
+void RobotServer::addDescriptors(std::vector<pollfd>& fds) const { slot_.addDescriptors(fds); }
+
+void RobotServer::addCommandDescriptor(std::vector<pollfd>& fds) const {
+  if (version_ != 0 && !answered_ && datagrams_left_ > 0) {
+    fds.push_back({datagrams_.descriptor(), POLLIN, 0});
+  }
+}
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,120 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/error_names.h>
+#include <franka_core/fci/texts.h>
+#include <franka_sim/fci/served_models.h>
+#include <franka_sim/fci/serving.h>
+#include <franka_sim/robot/parameter_checks.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace franka_sim::fci {
+
+namespace {
+
+// Force laws of the fingers: gains of the manual (franka_ros.md 9.5).
+constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
+
+// What an FR3's tau_ext_hat_filtered showed of nothing but its model's error (docs/fidelity.md)
+// [Nm].
+constexpr std::array<double, 7> kGravityError{-0.34, -0.39, -0.06, -0.23, -0.05, 0.14, -0.25};
+
+std::string toText(const std::array<double, 7>& values) {
+  std::string text;
+  for (const double value : values) {
+    char number[32];
+    std::snprintf(number, sizeof(number), " %.9g", value);
+    text += number;
+  }
+  return text;
+}
+
+std::string detailOf(const ControlUnit& unit, std::size_t error) {
+  if (error == indexOf(ErrorFlag::kSelfCollision)) {
+    return linksOf(unit.selfCollisionPair());
+  }
+  if (error == indexOf(ErrorFlag::kJointReflex) && unit.jointCollision().happened) {
+    return describeJointCollision(unit.jointCollision());
+  }
+  if (error == indexOf(ErrorFlag::kCartesianReflex) && unit.cartesianCollision().happened) {
+    return describeCartesianCollision(unit.cartesianCollision(), unit.parameters().threshold_frame);
+  }
+  return "";
+}
+
+std::string errorNames(const ControlUnit& unit) {
+  const std::array<bool, franka_core::kErrorCount>& errors = unit.state().errors;
+  std::string text;
+  for (std::size_t i = 0; i < errors.size(); i++) {
+    text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
+    const std::string detail = errors[i] ? detailOf(unit, i) : "";
+    text += detail.empty() ? "" : " (" + detail + ")";
+  }
+  return text.empty() ? " none" : text;
+}
+
+}  // namespace
+
+ProtocolRange protocolsOf(const std::string& robot) noexcept {
+  return robot == "fr3" ? ProtocolRange{6, 10} : ProtocolRange{3, 5};
+}
+
+RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
+                               const franka_core::ArmModel& arm) {
+  RobotServerParameters server;
+  server.address = address;
+  server.oldest_version = protocols.oldest;
+  server.newest_version = protocols.newest;
+  server.model_library = servedLibrary(arm);
+  server.urdfs = {{8, servedUrdf(arm, 8)}, {10, servedUrdf(arm, 10)}};  // decision 8
+  return server;
+}
+
+SimRobot::Hand servedHand(HandPlant& fingers) {
+  SimRobot::Hand hand{&fingers, {}};
+  hand.parameters.gains = {kFingerGains, kFingerGains};
+  return hand;
+}
+
+std::string linksOf(const SelfCollision::Pair& pair) {
+  const auto name = [](int link) {
+    return link == kHandLink ? std::string("hand") : "link" + std::to_string(link);
+  };
+  return name(pair.first) + " and " + name(pair.second);
+}
+
+void setLoad(SimRobot& robot, const franka_core::Payload& load) {
+  switch (robot.unit().setLoad(load)) {
+    case RequestStatus::kSuccess:
+      return;
+    case RequestStatus::kInvalidArgument:
+      throw std::runtime_error("The load was refused. " + payloadFault(load));
+    case RequestStatus::kNotPossible:
+      throw std::runtime_error("The load was refused: a motion runs. End it, then set the load.");
+  }
+}
+
+std::string collisionOf(const ControlUnit& unit, ErrorFlag error) {
+  const std::string detail = detailOf(unit, indexOf(error));
+  return error == ErrorFlag::kSelfCollision ? "its " + detail + " came too close to each other"
+                                            : "it met something, " + detail;
+}
+
+std::array<double, 7> restingNear(const std::array<double, 7>& q,
+                                  const std::array<double, 7>& stiffness) noexcept {
+  std::array<double, 7> rest = q;
+  for (std::size_t i = 0; i < 7; i++) {
+    rest[i] -= stiffness[i] > 0.0 ? kGravityError[i] / stiffness[i] : 0.0;
+  }
+  return rest;
+}
+
+std::string describe(SimRobot& robot) {
+  const franka_core::RobotState& state = robot.unit().state();
+  return std::string(franka_core::fci::modeName(state.robot_mode)) + ", client of protocol " +
+         std::to_string(robot.server().version()) + ", errors" + errorNames(robot.unit()) + ", q" +
+         toText(state.q);
+}
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,192 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/error_names.h>
+#include <franka_sim/fci/serving.h>
+#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/robot/tick.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace franka_sim::fci {
+
+namespace {
+
+constexpr std::uint64_t kHashStart = 14695981039346656037ULL;  // FNV-1a's, 64 bit
+constexpr std::uint64_t kHashPrime = 1099511628211ULL;
+
+/// A joint slower than this stands still: 100 ticks of it are below what the arm's sensors resolve
+/// (our choice).
+constexpr double kRest = 1e-4;  // [rad/s]
+
+std::string addressOf(const RobotServerParameters& parameters) { return parameters.address; }
+
+}  // namespace
+
+SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
+                   const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum)
+    : unit_(unit), arm_(arm), handler_(unit_), server_(server, handler_), hash_(kHashStart) {
+  if (hand) {
+    hand_ = std::make_unique<ServedHand>(addressOf(server), *hand);
+  }
+  if (vacuum) {
+    vacuum_ = std::make_unique<ServedVacuum>(addressOf(server), *vacuum);
+  }
+}
+
+void SimRobot::halt() noexcept {
+  halted_ = !unit_.brakesClosed();
+  unit_.closeBrakes();
+}
+
+void SimRobot::restart() noexcept {
+  unit_.restart();
+  if (std::exchange(halted_, false)) {
+    unit_.openBrakes();
+  }
+  link_.restart();
+  if (hand_) {
+    hand_->unit.restart();
+  }
+  if (vacuum_) {
+    vacuum_->unit.restart();
+  }
+  hashing_ = false;
+  hash_ = kHashStart;
+}
+
+void SimRobot::observe() {
+  constexpr std::array<ErrorFlag, 3> kCollisions{ErrorFlag::kSelfCollision, ErrorFlag::kJointReflex,
+                                                 ErrorFlag::kCartesianReflex};
+  std::array<bool, kCollisions.size()> before{};
+  for (std::size_t i = 0; i < before.size(); i++) {
+    before[i] = unit_.state().errors[indexOf(kCollisions[i])];
+  }
+  unit_.observe(arm_.measure());
+  if (hand_) {
+    // Its state goes out also while time stands still.
+    hand_->unit.observe(hand_->plant.measure());
+  }
+  for (std::size_t i = 0; tell_ && i < before.size(); i++) {
+    if (!before[i] && unit_.state().errors[indexOf(kCollisions[i])]) {
+      tell_(collisionOf(unit_, kCollisions[i]) + " (" +
+            franka_core::kErrorNames[indexOf(kCollisions[i])] + ").");
+    }
+  }
+}
+
+void SimRobot::actuate() {
+  if (!server_.motionHasBegun()) {
+    link_.clear();  // of what belonged to another motion
+  }
+  const franka_core::RobotCommand* command = link_.pass(server_.takeCommand());
+  hashing_ = hashing_ || command != nullptr;
+  if (hashing_) {
+    updateHash();
+  }
+  const std::array<double, 7>& torque = unit_.actuate(command);
+  arm_.setBrakes(unit_.brakesClosed());
+  arm_.applyTorques(torque);
+  if (hand_) {
+    hand_->plant.applyForces(hand_->unit.step(hand_->plant.measure(), kTick));
+  }
+  if (vacuum_) {
+    vacuum_->unit.step(kTick);
+  }
+}
+
+void SimRobot::updateHash() noexcept {
+  franka_core::RobotState state = unit_.state();
+  state.message_id = 0;
+  franka_core::fci::StateBuffer bytes;
+  if (franka_core::fci::encodeState(9, state, bytes) != franka_core::fci::CodecError::kNone) {
+    return;
+  }
+  // Eight bytes at a time; the last ones by themselves.
+  std::size_t i = 0;
+  for (; i + sizeof(std::uint64_t) <= bytes.size(); i += sizeof(std::uint64_t)) {
+    std::uint64_t word;
+    std::memcpy(&word, &bytes[i], sizeof(word));
+    hash_ = (hash_ ^ word) * kHashPrime;
+    hash_ ^= hash_ >> 32U;
+  }
+  for (; i < bytes.size(); i++) {
+    hash_ = (hash_ ^ bytes[i]) * kHashPrime;
+  }
+}
+
+void SimRobot::serve(bool stops_only) {
+  server_.serve(stops_only);
+  if (hand_) {
+    hand_->server.serve(stops_only);
+  }
+  if (vacuum_) {
+    vacuum_->server.serve(stops_only);
+  }
+}
+
+void SimRobot::publish(std::uint64_t ticks, bool same_moment) {
+  server_.publish(ticks, same_moment);
+  publishTools(ticks);
+}
+
+void SimRobot::publishTools(std::uint64_t ticks) {
+  if (hand_) {
+    hand_->server.publish(ticks);
+  }
+  if (vacuum_) {
+    vacuum_->server.publish(ticks);
+  }
+}
+
+void SimRobot::repeat() {
+  if (server_.asynchronous() || server_.receiveCommand()) {
+    server_.repeat();
+  }
+  publishTools(0);
+}
+
+void SimRobot::onRefusal(const ClientSlot::Tell& tell) {
+  server_.onRefusal(tell);
+  if (hand_) {
+    hand_->server.onRefusal(tell);
+  }
+  if (vacuum_) {
+    vacuum_->server.onRefusal(tell);
+  }
+}
+
+bool SimRobot::hasClients() const {
+  return server_.hasClient() || (hand_ && hand_->server.hasClient()) ||
+         (vacuum_ && vacuum_->server.hasClient());
+}
+
+bool SimRobot::settling() const {
+  const franka_core::RobotState& state = unit_.state();
+  if (state.robot_mode == franka_core::RobotMode::kGuiding) {
+    return false;  // nothing brakes an arm that the user leads: it may never come to rest
+  }
+  const bool abandoned =
+      state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
+  return unit_.settling() || abandoned ||
+         std::any_of(state.dq.begin(), state.dq.end(),
+                     [](double v) { return std::abs(v) > kRest; });
+}
+
+bool SimRobot::handBusy() const {
+  return (hand_ && hand_->server.busy()) || (vacuum_ && vacuum_->server.busy());
+}
+
+void SimRobot::addDescriptors(std::vector<pollfd>& fds) const {
+  server_.addDescriptors(fds);
+  if (hand_) {
+    hand_->server.addDescriptors(fds);
+  }
+  if (vacuum_) {
+    vacuum_->server.addDescriptors(fds);
+  }
+}
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,285 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <franka_sim/fci/sockets.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace franka_sim::fci {
+
+namespace {
+
+sockaddr_in toAddress(const std::string& address, std::uint16_t port) {
+  sockaddr_in result{};
+  result.sin_family = AF_INET;
+  result.sin_port = htons(port);
+  if (inet_pton(AF_INET, address.c_str(), &result.sin_addr) != 1) {
+    throw std::runtime_error("'" + address +
+                             "' is not an IPv4 address such as 127.0.0.1; give one that this "
+                             "machine has.");
+  }
+  return result;
+}
+
+void setOption(int fd, int level, int option, int value) noexcept {
+  // Options tune; a system without one still serves.
+  setsockopt(fd, level, option, &value, sizeof(value));
+}
+
+std::runtime_error cannotOpen(const std::string& what, const std::string& address,
+                              std::uint16_t port, int error) {
+  std::string text = "Cannot open " + what + " " + address + ":" + std::to_string(port) + ": " +
+                     std::strerror(error) + ".";
+  if (error == EADDRINUSE) {
+    text +=
+        " Another simulated robot runs there: end it, or give this one an address of its own, "
+        "for example 127.0.0.2.";
+  } else if (error == EADDRNOTAVAIL) {
+    text += " This machine does not have that address; 127.0.0.1 to 127.255.255.254 always work.";
+  }
+  return std::runtime_error(text);
+}
+
+Descriptor bound(int type, const std::string& what, const std::string& address,
+                 std::uint16_t port) {
+  const sockaddr_in name = toAddress(address, port);
+  Descriptor result(::socket(AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!result) {
+    throw cannotOpen(what, address, port, errno);
+  }
+  if (type == SOCK_STREAM) {
+    setOption(result.get(), SOL_SOCKET, SO_REUSEADDR, 1);
+  }
+  if (::bind(result.get(), reinterpret_cast<const sockaddr*>(&name), sizeof(name)) != 0) {
+    throw cannotOpen(what, address, port, errno);
+  }
+  return result;
+}
+
+/// Connections that the system keeps until they are accepted. Where this queue overflows, a client
+/// tries again only after a second.
+constexpr int kBacklog = 1024;
+
+/// A process that can open no more sockets looks again after so long (our choice).
+constexpr std::chrono::milliseconds kExhausted{100};
+
+/// A peer that takes nothing, or vanishes without a word, is given up after so long (our choice).
+constexpr int kSilence = 5000;  // [ms]
+
+/// So many datagrams of others are dropped in one call (our choice).
+constexpr int kMostStrangers = 64;
+
+bool wouldBlock(int error) noexcept { return error == EAGAIN || error == EWOULDBLOCK; }
+
+}  // namespace
+
+bool isAddress(const std::string& text) noexcept {
+  in_addr address{};
+  return inet_pton(AF_INET, text.c_str(), &address) == 1;
+}
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  if (this != &other) {
+    close();
+    fd_ = std::exchange(other.fd_, -1);
+  }
+  return *this;
+}
+
+void Descriptor::close() noexcept {
+  if (fd_ >= 0) {
+    ::close(std::exchange(fd_, -1));
+  }
+}
+
+Listener::Listener(const std::string& address, std::uint16_t port)
+    : socket_(bound(SOCK_STREAM, "the robot's TCP port", address, port)) {
+  if (::listen(socket_.get(), kBacklog) != 0) {
+    throw cannotOpen("the robot's TCP port", address, port, errno);
+  }
+  socklen_t size = sizeof(name_);
+  ::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&name_), &size);
+  port_ = ntohs(name_.sin_port);
+}
+
+void Listener::close() noexcept {
+  if (std::exchange(open_, false)) {
+    ::shutdown(socket_.get(), SHUT_RDWR);
+  }
+}
+
+bool Listener::open() noexcept {
+  if (!open_) {
+    // Fails where the socket still has its name, as it does where the system did not choose it.
+    ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&name_), sizeof(name_));
+    open_ = ::listen(socket_.get(), kBacklog) == 0;
+  }
+  return open_;
+}
+
+Descriptor Listener::accept(sockaddr_in& peer) noexcept {
+  if (!accepts()) {
+    return Descriptor();
+  }
+  socklen_t size = sizeof(peer);
+  Descriptor result(::accept4(socket_.get(), reinterpret_cast<sockaddr*>(&peer), &size,
+                              SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (!result && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
+    exhausted_until_ = std::chrono::steady_clock::now() + kExhausted;
+  }
+  return result;
+}
+
+bool Listener::accepts() const noexcept {
+  return open_ && (exhausted_until_ == std::chrono::steady_clock::time_point{} ||
+                   std::chrono::steady_clock::now() >= exhausted_until_);
+}
+
+Connection::Connection(Descriptor socket) : socket_(std::move(socket)) {
+  setOption(socket_.get(), IPPROTO_TCP, TCP_NODELAY, 1);
+  setOption(socket_.get(), SOL_SOCKET, SO_KEEPALIVE, 1);
+  setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPIDLE, 1);
+  setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPCNT, 3);
+  setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPINTVL, 1);
+  // Keepalive says nothing while something is on its way to the peer.
+  setOption(socket_.get(), IPPROTO_TCP, TCP_USER_TIMEOUT, kSilence);
+}
+
+bool Connection::receive() noexcept {
+  while (open() && filled_ < kCapacity) {
+    const ssize_t size = ::recv(socket_.get(), buffer_ + filled_, kCapacity - filled_, 0);
+    if (size > 0) {
+      filled_ += static_cast<std::size_t>(size);
+    } else if (size < 0 && errno == EINTR) {
+      continue;
+    } else {
+      return size < 0 && wouldBlock(errno);
+    }
+  }
+  return open();
+}
+
+bool Connection::peerHasClosed() const noexcept {
+  pollfd state{socket_.get(), POLLRDHUP, 0};
+  return ::poll(&state, 1, 0) > 0;  // also for a connection that was reset
+}
+
+void Connection::consume(std::size_t size) noexcept {
+  filled_ -= size;
+  std::memmove(buffer_, buffer_ + size, filled_);
+}
+
+// @returns false once the peer has vanished; `done` grows by what the system has taken.
+bool Connection::write(Bytes message, std::size_t& done) noexcept {
+  while (done < message.size) {
+    const ssize_t size =
+        ::send(socket_.get(), message.data + done, message.size - done, MSG_NOSIGNAL);
+    if (size >= 0) {
+      done += static_cast<std::size_t>(size);
+    } else if (wouldBlock(errno)) {
+      return true;
+    } else if (errno != EINTR) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Connection::send(Bytes message) {
+  std::size_t done = 0;
+  if (!hasUnsent() && !write(message, done)) {
+    return false;
+  }
+  if (done < message.size) {
+    unsent_.push_back({std::make_shared<const std::vector<std::uint8_t>>(
+                           message.data + done, message.data + message.size),
+                       0});
+  }
+  return true;
+}
+
+bool Connection::send(const Blob& bytes) {
+  std::size_t done = 0;
+  if (!hasUnsent() && !write({bytes->data(), bytes->size()}, done)) {
+    return false;
+  }
+  if (done < bytes->size()) {
+    unsent_.push_back({bytes, done});
+  }
+  return true;
+}
+
+bool Connection::flush() noexcept {
+  while (hasUnsent()) {
+    Unsent& next = unsent_.front();
+    if (!write({next.bytes->data(), next.bytes->size()}, next.sent)) {
+      return false;
+    }
+    if (next.sent < next.bytes->size()) {
+      return true;
+    }
+    unsent_.erase(unsent_.begin());
+  }
+  return true;
+}
+
+std::size_t Connection::unsentBytes() const noexcept {
+  std::size_t size = 0;
+  for (const Unsent& unsent : unsent_) {
+    size += unsent.bytes->size() - unsent.sent;
+  }
+  return size;
+}
+
+void Connection::reset() noexcept {
+  const linger at_once{1, 0};
+  setsockopt(socket_.get(), SOL_SOCKET, SO_LINGER, &at_once, sizeof(at_once));
+  close();
+}
+
+Datagrams::Datagrams(const std::string& address)
+    : socket_(bound(SOCK_DGRAM, "a UDP socket at", address, 0)) {}
+
+void Datagrams::setPeer(const sockaddr_in& peer) noexcept {
+  peer_ = peer;
+  ::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&peer_), sizeof(peer_));
+  // What an earlier peer has left behind must not cost this one a datagram.
+  int error = 0;
+  socklen_t size = sizeof(error);
+  ::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size);
+}
+
+void Datagrams::send(Bytes datagram) noexcept {
+  ::sendto(socket_.get(), datagram.data, datagram.size, MSG_NOSIGNAL | MSG_DONTWAIT,
+           reinterpret_cast<const sockaddr*>(&peer_), sizeof(peer_));
+}
+
+std::ptrdiff_t Datagrams::receive(std::uint8_t* buffer, std::size_t capacity) noexcept {
+  for (int i = 0; i < kMostStrangers; i++) {
+    sockaddr_in from{};
+    socklen_t size = sizeof(from);
+    const ssize_t received = ::recvfrom(socket_.get(), buffer, capacity, MSG_TRUNC | MSG_DONTWAIT,
+                                        reinterpret_cast<sockaddr*>(&from), &size);
+    if (received < 0) {
+      // A peer that has closed its port is reported once in between.
+      if (errno == EINTR || errno == ECONNREFUSED) {
+        continue;
+      }
+      return -1;
+    }
+    if (from.sin_addr.s_addr == peer_.sin_addr.s_addr && from.sin_port == peer_.sin_port) {
+      return received;
+    }
+  }
+  return -1;
+}
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,64 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/compile.h"
+
+#include <cstring>
+#include <stdexcept>
+
+#include "physics/kept_files.h"
+
+namespace franka_sim::physics {
+namespace {
+
+constexpr const char* kFileName = "merged.xml";
+
+/// MuJoCo's own handler prints and writes MUJOCO_LOG.TXT into the current folder, from inside the
+/// loop.
+void ignoreWarning(const char* /*message*/) {}
+
+/// Files in memory that a text may name.
+class Files {
+ public:
+  Files() { mj_defaultVFS(files_.get()); }
+  ~Files() { mj_deleteVFS(files_.get()); }
+  Files(const Files&) = delete;
+  Files& operator=(const Files&) = delete;
+  mjVFS* get() { return files_.get(); }
+
+ private:
+  /// The struct holds a table of two thousand file names: too large for a stack.
+  std::unique_ptr<mjVFS> files_{new mjVFS};
+};
+
+}  // namespace
+
+ModelPtr compile(const std::string& mjcf, const std::string& what) {
+  mju_user_warning = ignoreWarning;
+  Files files;
+  if (mj_makeEmptyFileVFS(files.get(), kFileName, static_cast<int>(mjcf.size())) != 0) {
+    throw std::runtime_error(what + ": there is not enough memory to compile it.");
+  }
+  std::memcpy(files.get()->filedata[mj_findFileVFS(files.get(), kFileName)], mjcf.data(),
+              mjcf.size());
+  try {
+    lendKeptFiles(mjcf, files.get());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(what + ": " + error.what());
+  }
+  char error[1000] = "";
+  ModelPtr model(mj_loadXML(kFileName, files.get(), error, sizeof error));
+  if (!model) {
+    throw std::runtime_error(what + ": MuJoCo refuses it: " + error);
+  }
+  return model;
+}
+
+DataPtr makeData(const mjModel& model) {
+  DataPtr data(mj_makeData(&model));
+  if (!data) {
+    throw std::runtime_error("There is not enough memory for the state of the simulated world.");
+  }
+  return data;
+}
+
+}  // namespace franka_sim::physics

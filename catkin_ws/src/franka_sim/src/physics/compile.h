@@ -1,0 +1,28 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <string>
+
+namespace franka_sim::physics {
+
+struct ModelDeleter {
+  void operator()(mjModel* model) const noexcept { mj_deleteModel(model); }
+};
+struct DataDeleter {
+  void operator()(mjData* data) const noexcept { mj_deleteData(data); }
+};
+using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
+using DataPtr = std::unique_ptr<mjData, DataDeleter>;
+
+/// Compiles an MJCF text whose files are all named by absolute paths.
+/// @param what names the text in errors, e.g. "World file /tmp/x.xml".
+/// @throws std::runtime_error "<what>: MuJoCo refuses it: ...".
+ModelPtr compile(const std::string& mjcf, const std::string& what);
+/// @throws std::runtime_error when there is not enough memory.
+DataPtr makeData(const mjModel& model);
+
+}  // namespace franka_sim::physics

@@ -1,0 +1,167 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/gl_context.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/osmesa.h>
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <vector>
+
+namespace franka_sim::physics {
+namespace {
+
+void* load(const char* library) {
+  // Never unloaded: drivers leave threads and handlers behind.
+  void* handle = dlopen(library, RTLD_NOW | RTLD_GLOBAL);
+  if (handle == nullptr) {
+    throw std::runtime_error(std::string(library) + " cannot be loaded");
+  }
+  return handle;
+}
+
+template <typename Function>
+Function find(void* library, const char* name) {
+  auto function = reinterpret_cast<Function>(dlsym(library, name));
+  if (function == nullptr) {
+    throw std::runtime_error(std::string(name) + " is missing in the library");
+  }
+  return function;
+}
+
+class EglContext final : public GlContext {
+ public:
+  EglContext() : library_(load("libEGL.so.1")) {
+    openDisplay();
+    createContext();
+    makeCurrent();
+  }
+  ~EglContext() override {
+    call<decltype(&eglMakeCurrent)>("eglMakeCurrent")(display_, EGL_NO_SURFACE, EGL_NO_SURFACE,
+                                                      EGL_NO_CONTEXT);
+    call<decltype(&eglDestroyContext)>("eglDestroyContext")(display_, context_);
+  }
+  void makeCurrent() override {
+    // The API is bound per thread.
+    call<decltype(&eglBindAPI)>("eglBindAPI")(EGL_OPENGL_API);
+    if (call<decltype(&eglMakeCurrent)>("eglMakeCurrent")(display_, EGL_NO_SURFACE, EGL_NO_SURFACE,
+                                                          context_) != EGL_TRUE) {
+      throw std::runtime_error("EGL cannot make its context current");
+    }
+  }
+  std::string name() const override { return "EGL"; }
+
+ private:
+  template <typename Function>
+  Function call(const char* name) const {
+    return find<Function>(library_, name);
+  }
+
+  void openDisplay() {
+    const auto address = call<decltype(&eglGetProcAddress)>("eglGetProcAddress");
+    const auto platformDisplay =
+        reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(address("eglGetPlatformDisplayEXT"));
+    if (platformDisplay != nullptr) {
+      display_ = platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    }
+    if (display_ == EGL_NO_DISPLAY ||
+        call<decltype(&eglInitialize)>("eglInitialize")(display_, nullptr, nullptr) != EGL_TRUE) {
+      throw std::runtime_error("EGL has no surfaceless display");
+    }
+  }
+
+  void createContext() {
+    call<decltype(&eglBindAPI)>("eglBindAPI")(EGL_OPENGL_API);
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
+    EGLConfig config{};
+    EGLint count = 0;
+    call<decltype(&eglChooseConfig)>("eglChooseConfig")(display_, wanted, &config, 1, &count);
+    context_ = call<decltype(&eglCreateContext)>("eglCreateContext")(
+        display_, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
+    if (context_ == EGL_NO_CONTEXT) {
+      throw std::runtime_error("EGL gives no OpenGL context");
+    }
+  }
+
+  void* library_;
+  EGLDisplay display_{EGL_NO_DISPLAY};
+  EGLContext context_{EGL_NO_CONTEXT};
+};
+
+class OsMesaContext final : public GlContext {
+ public:
+  OsMesaContext() : library_(load("libOSMesa.so.8")), buffer_(4 * kSize * kSize) {
+    const int attributes[] = {OSMESA_FORMAT,
+                              OSMESA_RGBA,
+                              OSMESA_DEPTH_BITS,
+                              24,
+                              OSMESA_STENCIL_BITS,
+                              8,
+                              OSMESA_PROFILE,
+                              OSMESA_COMPAT_PROFILE,
+                              0,
+                              0};
+    context_ = find<decltype(&OSMesaCreateContextAttribs)>(library_, "OSMesaCreateContextAttribs")(
+        attributes, nullptr);
+    if (context_ == nullptr) {
+      throw std::runtime_error("OSMesa gives no OpenGL context");
+    }
+    makeCurrent();
+  }
+  ~OsMesaContext() override {
+    find<decltype(&OSMesaDestroyContext)>(library_, "OSMesaDestroyContext")(context_);
+  }
+  void makeCurrent() override {
+    if (find<decltype(&OSMesaMakeCurrent)>(library_, "OSMesaMakeCurrent")(
+            context_, buffer_.data(), GL_UNSIGNED_BYTE, kSize, kSize) != GL_TRUE) {
+      throw std::runtime_error("OSMesa cannot make its context current");
+    }
+  }
+  std::string name() const override { return "OSMesa"; }
+
+ private:
+  static constexpr int kSize = 64;  ///< of the window; pictures go to a framebuffer object
+
+  void* library_;
+  std::vector<unsigned char> buffer_;
+  OSMesaContext context_{nullptr};
+};
+
+template <typename Context>
+std::unique_ptr<GlContext> attempt(const char* name, std::string* problems) {
+  try {
+    return std::make_unique<Context>();
+  } catch (const std::runtime_error& error) {
+    *problems += std::string(problems->empty() ? "" : "; ") + name + ": " + error.what();
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<GlContext> makeGlContext() {
+  const char* variable = std::getenv("FRANKA_SIM_RENDERER");
+  const std::string asked = variable == nullptr ? "" : variable;
+  if (!asked.empty() && asked != "egl" && asked != "osmesa") {
+    throw std::runtime_error("The environment variable FRANKA_SIM_RENDERER is '" + asked +
+                             "'; it can be egl or osmesa.");
+  }
+  std::string problems;
+  std::unique_ptr<GlContext> context;
+  if (asked != "osmesa") {
+    context = attempt<EglContext>("EGL", &problems);
+  }
+  if (!context && asked != "egl") {
+    context = attempt<OsMesaContext>("OSMesa", &problems);
+  }
+  if (!context) {
+    throw std::runtime_error("No pictures can be drawn (" + problems +
+                             "); install the packages libegl1 and libgl1-mesa-dri, or libosmesa6.");
+  }
+  return context;
+}
+
+}  // namespace franka_sim::physics

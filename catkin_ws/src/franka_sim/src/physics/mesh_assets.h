@@ -1,0 +1,26 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/world.h>
+
+#include <string>
+#include <vector>
+
+#include "physics/mesh_loader.h"
+
+namespace franka_sim::physics {
+
+/// What to draw for a robot's mesh URI: the parts that the mesh installer made of it (one OBJ per
+/// material, listed in `meshes/mujoco/visual/<name>/index.yaml`), the file itself (binary STL,
+/// OBJ), or what `loadMeshToDraw` makes of it, which takes longer. Empty when it cannot be read:
+/// the caller shows something simpler.
+std::vector<MeshPart> visualParts(const std::string& uri, const ResourceResolver& resolve);
+
+/// The file to collide with: itself (binary STL, OBJ) or what `loadMeshToCollide` makes of it.
+/// @throws std::runtime_error with a sentence starting with `where` when it cannot be found or
+/// read.
+std::string collisionFile(const std::string& uri, const ResourceResolver& resolve,
+                          const std::string& where);
+
+}  // namespace franka_sim::physics

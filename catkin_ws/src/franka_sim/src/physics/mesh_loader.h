@@ -1,0 +1,46 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace franka_sim::physics {
+
+/// A file MuJoCo can read, with its colour when the source has one.
+struct MeshPart {
+  std::string file;
+  std::optional<std::array<double, 4>> rgba;
+};
+
+/// What of a mesh file is wanted.
+struct MeshSource {
+  std::string file;  ///< path
+  Eigen::Vector3d scale{Eigen::Vector3d::Ones()};
+  std::string submesh;  ///< empty: all of it
+  bool center{false};   ///< moved so that its bounding box has its middle at the origin
+};
+
+struct DrawnMesh {
+  std::vector<MeshPart> parts;  ///< one a colour
+  bool is_textured{false};      ///< pictures on it are left out
+};
+
+struct SolidMesh {
+  std::string file;
+  bool is_convex{true};  ///< else its convex hull is what others touch
+};
+
+/// A mesh file of any kind assimp knows, made ready for MuJoCo and kept in memory (kept_files.h); a
+/// file that has not changed is read once. Any thread.
+/// @throws std::runtime_error with a sentence that names the file and what is wrong.
+DrawnMesh loadMeshToDraw(const MeshSource& source);
+/// The same to collide with: the outermost points of all colours, of which MuJoCo takes the hull. A
+/// flat mesh gets a body behind its front.
+/// @throws std::runtime_error also when the mesh has no extent to speak of.
+SolidMesh loadMeshToCollide(const MeshSource& source);
+
+}  // namespace franka_sim::physics

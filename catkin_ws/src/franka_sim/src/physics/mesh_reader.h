@@ -1,0 +1,26 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "physics/triangle_mesh.h"
+
+namespace franka_sim::physics {
+
+struct MeshFile {
+  std::vector<TriangleMesh> parts;  ///< one a colour, at least one
+  bool is_textured{false};          ///< colours come from pictures, which nobody draws
+};
+
+/// Reads a mesh file by Debian's assimp (Collada, STL, OBJ and most others), as Gazebo and rviz do:
+/// transforms of nodes are applied, Collada's <unit> counts and its <up_axis> does not; the numbers
+/// of other kinds are metres. Any thread; may take seconds for large files.
+/// @param submesh when not empty, only the nodes or geometries of this name
+/// @param center puts the middle of the bounding box at the origin
+/// @throws std::runtime_error with a sentence that names the file and what is wrong.
+MeshFile readMeshFile(const std::string& file, const std::string& submesh = "",
+                      bool center = false);
+
+}  // namespace franka_sim::physics

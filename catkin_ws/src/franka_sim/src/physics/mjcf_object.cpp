@@ -1,0 +1,181 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/mjcf_object.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "physics/compile.h"
+#include "physics/mjcf_files.h"
+#include "physics/xml_util.h"
+
+namespace franka_sim::physics {
+namespace {
+
+using tinyxml2::XMLElement;
+
+void checkSections(const XMLElement& root, const std::string& title) {
+  for (auto* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string section = e->Name();
+    bool known = section == "compiler";
+    for (const char* allowed : {"asset", "worldbody", "contact", "equality"}) {
+      known = known || section == allowed;
+    }
+    if (!known) {
+      throw std::runtime_error(title + ": its section <" + section +
+                               "> would change the whole world; an object may have <asset>, "
+                               "<worldbody>, <contact> and <equality>.");
+    }
+  }
+}
+
+void checkAngles(const XMLElement& root, double unit, const std::string& title) {
+  bool radian = false;
+  for (auto* e = root.FirstChildElement("compiler"); e != nullptr;
+       e = e->NextSiblingElement("compiler")) {
+    radian = radian || optional(*e, "angle") == "radian";
+    for (auto* a = e->FirstAttribute(); a != nullptr; a = a->Next()) {
+      const std::string name = a->Name();
+      if (name != "angle" && name != "meshdir" && name != "texturedir") {
+        throw std::runtime_error(title + ": the compiler setting '" + name +
+                                 "' would change the whole world; remove it.");
+      }
+    }
+  }
+  if (radian != (unit == 1)) {
+    throw std::runtime_error(title + ": its angles are in " + (radian ? "radians" : "degrees") +
+                             ", those of the world file in " + (radian ? "degrees" : "radians") +
+                             "; write the object with <compiler angle=\"" +
+                             (radian ? "degree" : "radian") + "\"/>.");
+  }
+}
+
+void nameBodies(XMLElement* parent, const std::string& prefix, const std::string& title,
+                int* count) {
+  for (auto* e = parent->FirstChildElement("body"); e != nullptr;
+       e = e->NextSiblingElement("body")) {
+    if (optional(*e, "mocap") == "true") {
+      throw std::runtime_error(title +
+                               ": bodies moved from outside (mocap) belong into the world "
+                               "file.");
+    }
+    if (e->Attribute("name") == nullptr) {
+      const int nth = (*count)++;
+      e->SetAttribute("name",
+                      (nth == 0 ? prefix : prefix + "/body_" + std::to_string(nth)).c_str());
+    }
+    nameBodies(e, prefix, title, count);
+  }
+}
+
+Eigen::Isometry3d isometry(const Pose& pose, const std::string& title) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.translation() = Eigen::Map<const Eigen::Vector3d>(pose.position.data());
+  const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
+                                pose.orientation[3]);
+  if (!result.translation().allFinite() || !(std::abs(turn.norm() - 1) < 1e-3)) {
+    throw std::runtime_error(title +
+                             ": its pose is not made of finite numbers and a unit "
+                             "quaternion.");
+  }
+  result.linear() = turn.normalized().matrix();
+  return result;
+}
+
+/// Compiled alone, so that errors are the object's own and every way of writing a pose is known.
+void place(MjcfObject* object, const Eigen::Isometry3d& pose, const std::string& title) {
+  const ModelPtr model = compile(toText(object->document), title);
+  XMLElement* worldbody = object->document.RootElement()->FirstChildElement("worldbody");
+  bool any = false;
+  for (auto* e = worldbody != nullptr ? worldbody->FirstChildElement() : nullptr; e != nullptr;
+       e = e->NextSiblingElement()) {
+    if (std::string(e->Name()) != "body") {
+      throw std::runtime_error(title + ": its <" + e->Name() +
+                               "> stands outside of a <body>; put it into one.");
+    }
+    any = true;
+    const int id = mj_name2id(model.get(), mjOBJ_BODY, e->Attribute("name"));
+    const double* q = model->body_quat + 4 * id;
+    Eigen::Isometry3d own = Eigen::Isometry3d::Identity();
+    own.translation() = Eigen::Map<const Eigen::Vector3d>(model->body_pos + 3 * id);
+    own.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().matrix();
+    for (const char* attribute : {"pos", "quat", "euler", "axisangle", "xyaxes", "zaxis"}) {
+      e->DeleteAttribute(attribute);
+    }
+    setPose(e, pose * own);
+  }
+  if (!any) {
+    throw std::runtime_error(title + ": there is no body in it.");
+  }
+}
+
+void readMjcf(const std::string& text, double angle_unit, const std::string& title,
+              MjcfObject* object) {
+  if (object->document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS ||
+      object->document.RootElement() == nullptr) {
+    throw std::runtime_error(title + ": it is not well-formed XML: " + object->document.ErrorStr());
+  }
+  XMLElement* root = object->document.RootElement();
+  if (std::string(root->Name()) == "body") {
+    tinyxml2::XMLDocument lone;
+    object->document.DeepCopy(&lone);
+    object->document.Clear();
+    root = append(&object->document, "mujoco");
+    append(root, "compiler")->SetAttribute("angle", angle_unit == 1 ? "radian" : "degree");
+    append(root, "worldbody")->InsertEndChild(lone.RootElement()->DeepClone(&object->document));
+  } else if (std::string(root->Name()) != "mujoco") {
+    throw std::runtime_error(title + ": its root element is <" + root->Name() +
+                             ">; an object is an SDF model (<sdf>), MJCF (<mujoco>) or a <body>.");
+  }
+  checkSections(*root, title);
+  checkAngles(*root, angle_unit, title);
+  makeFilesAbsolute(root, "");
+  int bodies = 0, geoms = 0;
+  for (auto* e = root->FirstChildElement("worldbody"); e != nullptr;
+       e = e->NextSiblingElement("worldbody")) {
+    nameBodies(e, object->name, title, &bodies);
+    nameGeoms(e, object->name, &geoms);
+  }
+  XMLElement* worldbody = root->FirstChildElement("worldbody");
+  XMLElement* first = worldbody != nullptr ? worldbody->FirstChildElement("body") : nullptr;
+  if (first != nullptr && object->name != first->Attribute("name")) {
+    object->aliases.push_back({object->name, first->Attribute("name")});
+  }
+}
+
+}  // namespace
+
+void nameGeoms(XMLElement* body, const std::string& prefix, int* count) {
+  for (auto* e = body->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string kind = e->Name();
+    if (kind == "geom" && e->Attribute("name") == nullptr) {
+      e->SetAttribute("name", (prefix + "/geom_" + std::to_string((*count)++)).c_str());
+    } else if (kind == "body") {
+      nameGeoms(e, prefix, count);
+    }
+  }
+}
+
+std::shared_ptr<const MjcfObject> readObject(const std::string& name, const std::string& text,
+                                             const Pose& pose, double angle_unit,
+                                             const ResourceResolver& resolve) {
+  const std::string title = "Object '" + name + "'";
+  if (name.empty()) {
+    throw std::runtime_error("An object needs a name.");
+  }
+  auto object = std::make_shared<MjcfObject>();
+  object->name = name;
+  if (looksLikeSdf(text)) {
+    SdfScene scene = readSdf(text, "", title, resolve, name);
+    object->aliases = writeSdf(&scene, angle_unit, false, &object->document).aliases;
+    object->unsupported = scene.unsupported;
+    int geoms = 0;
+    nameGeoms(object->document.RootElement()->FirstChildElement("worldbody"), name, &geoms);
+  } else {
+    readMjcf(text, angle_unit, title, object.get());
+  }
+  place(object.get(), isometry(pose, title), title);
+  return object;
+}
+
+}  // namespace franka_sim::physics

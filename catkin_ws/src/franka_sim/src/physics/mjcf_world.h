@@ -1,0 +1,66 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "physics/mjcf_object.h"
+#include "physics/mjcf_robot.h"
+#include "physics/robot_model.h"
+
+namespace franka_sim::physics {
+
+/// A world file (MJCF or SDF) and the objects put into it later, ready for robots to be merged in:
+/// includes expanded, file names absolute, the physics settings of this simulator set, geoms named,
+/// and compiled once as a check. Does not change once made.
+class MjcfWorld {
+ public:
+  /// @param file path of the MJCF or SDF; empty: ground, light and sky.
+  /// @param resolve finds what SDF files name by package:// and model://
+  /// @throws std::runtime_error naming the file and what is wrong.
+  explicit MjcfWorld(const std::string& file, ResourceResolver resolve = {});
+
+  /// The same with one object more or less. @throws std::runtime_error with a sentence
+  std::unique_ptr<MjcfWorld> with(const std::string& object, const std::string& text,
+                                  const Pose& pose) const;
+  std::unique_ptr<MjcfWorld> without(const std::string& object) const;
+
+  /// The world with robots as MJCF text. @param visuals shapes to look at for the robots.
+  /// @throws std::runtime_error as writeRobot, or when a robot's names are taken by the world.
+  std::string merge(const std::vector<const RobotModel*>& robots, bool visuals) const;
+
+  /// "World file <path>" or "The built-in world".
+  const std::string& title() const noexcept { return title_; }
+  const std::vector<WorldGeom>& geoms() const noexcept { return geoms_; }
+  std::vector<std::string> objects() const;
+  /// Further names of bodies.
+  std::vector<BodyAlias> aliases() const;
+  /// What the file, or an object, asks for and nobody simulates.
+  std::set<std::string> unsupported(const std::string& object) const;
+
+ private:
+  MjcfWorld(const MjcfWorld& other, std::vector<std::shared_ptr<const MjcfObject>> objects);
+  void load(const std::string& file);
+  void loadSdf(const std::string& text, const std::string& folder);
+  void normalise(const std::string& folder);
+  void compose(tinyxml2::XMLDocument* document) const;
+  void inspect();
+  void rankFrictions(tinyxml2::XMLElement* root) const;
+
+  std::string title_;
+  ResourceResolver resolve_;
+  tinyxml2::XMLDocument document_;
+  std::vector<std::shared_ptr<const MjcfObject>> objects_;
+  std::vector<BodyAlias> aliases_;
+  std::set<std::string> unsupported_;
+  double angle_unit_{1};
+  std::vector<WorldGeom> geoms_;
+  bool has_priorities_{false};  ///< the author decided which geom's friction counts
+};
+
+}  // namespace franka_sim::physics

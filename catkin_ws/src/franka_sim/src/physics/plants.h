@@ -1,0 +1,108 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/joint_drive.h>
+#include <franka_sim/robot/plant.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <string>
+
+#include "physics/motor_side.h"
+
+namespace franka_sim::physics {
+
+/// Where a joint with one degree of freedom lives in the present model.
+struct JointSlot {
+  int qpos{-1}, dof{-1};
+  int brake{-1};  ///< equality, -1: it has none
+};
+
+/// What plants look at; replaced as a whole when the model is compiled anew.
+struct PlantView {
+  mjModel* model{nullptr};
+  mjData* data{nullptr};
+  MotorSide* motor_side{nullptr};
+};
+
+/// The seven joints of an arm in MuJoCo's arrays.
+class MujocoArm final : public ArmPlant {
+ public:
+  MujocoArm(const PlantView* view, std::array<std::string, 7> joints);
+
+  ArmMeasurement measure() const noexcept override;
+  void applyTorques(const std::array<double, 7>& tau) noexcept override;
+  void setBrakes(bool closed) noexcept override;
+
+  const std::array<std::string, 7>& joints() const noexcept { return joints_; }
+  using Slots = std::array<JointSlot, 7>;
+  /// After the model was compiled anew.
+  void bind(const Slots& slots) noexcept { slots_ = slots; }
+  /// Writes brakes into the model as they were; for models compiled anew.
+  void restoreBrakes() noexcept;
+  /// A joint was put elsewhere: closed brakes hold it there.
+  void jointWasMoved(const std::string& joint) noexcept;
+  /// Brakes open, no torque.
+  void reset() noexcept;
+
+ private:
+  void writeBrake(std::size_t joint) noexcept;
+
+  const PlantView* view_;
+  std::array<std::string, 7> joints_;
+  std::array<JointSlot, 7> slots_{};
+  bool brakes_closed_{false};
+  std::array<double, 7> brake_positions_{};
+};
+
+/// The two fingers of a hand in MuJoCo's arrays.
+class MujocoHand final : public HandPlant {
+ public:
+  MujocoHand(const PlantView* view, std::array<std::string, 2> joints);
+
+  HandMeasurement measure() const noexcept override;
+  void applyForces(const std::array<double, 2>& force) noexcept override;
+
+  const std::array<std::string, 2>& joints() const noexcept { return joints_; }
+  using Slots = std::array<JointSlot, 2>;
+  void bind(const Slots& slots) noexcept { slots_ = slots; }
+
+ private:
+  const PlantView* view_;
+  std::array<std::string, 2> joints_;
+  std::array<JointSlot, 2> slots_{};
+};
+
+/// A joint of another device in MuJoCo's arrays. Positions are followed as brakes hold theirs.
+class MujocoDrive final : public JointDrive {
+ public:
+  MujocoDrive(const PlantView* view, std::string joint);
+
+  JointMeasurement measure() const noexcept override;
+  void applyEffort(double effort) noexcept override;
+  void follow(double position) noexcept override;
+
+  const std::array<std::string, 1>& joints() const noexcept { return joint_; }
+  using Slots = std::array<JointSlot, 1>;
+  /// After the model was compiled anew; what is followed is followed on.
+  void bind(const Slots& slots) noexcept;
+  /// The joint was put elsewhere: what is followed is there.
+  void jointWasMoved(const std::string& joint) noexcept;
+  /// No effort, nothing followed.
+  void reset() noexcept;
+  /// Before each physics step of a tick, counted from 1: the target moves in even steps, too.
+  void prepare(int substep, int substeps) noexcept;
+
+ private:
+  void writeTarget() noexcept;
+
+  const PlantView* view_;
+  std::array<std::string, 1> joint_;
+  JointSlot slot_{};
+  bool follows_{false};
+  double last_target_{0},
+      target_{0};  ///< where it was to be at the last tick's end, and at this one's
+};
+
+}  // namespace franka_sim::physics

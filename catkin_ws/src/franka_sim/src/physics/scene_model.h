@@ -1,0 +1,32 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/renderer.h>
+
+#include <string>
+
+#include "physics/compile.h"
+
+namespace franka_sim::physics {
+
+/// The model that is drawn: compiled from a scene's text, put as the scene says. One thread owns
+/// it.
+class SceneModel {
+ public:
+  /// Compiles when the text is another than the last one. @returns whether it did
+  /// @throws std::runtime_error with a sentence when the text does not compile
+  bool load(const std::string& mjcf);
+  /// Puts joints and free bodies where the scene has them, all else at its start.
+  void pose(const Scene& scene);
+
+  mjModel* model() noexcept { return model_.get(); }
+  mjData* data() noexcept { return data_.get(); }
+
+ private:
+  std::string mjcf_;
+  ModelPtr model_;
+  DataPtr data_;
+};
+
+}  // namespace franka_sim::physics

@@ -1,0 +1,36 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/world.h>
+#include <tinyxml2.h>
+
+#include <string>
+
+namespace franka_sim::physics {
+
+/// Finds what SDF texts name: `model://`, `package://`, `file://`, paths relative to the text.
+class SdfFiles {
+ public:
+  SdfFiles(std::string folder, ResourceResolver resolve)
+      : folder_(std::move(folder)), resolve_(std::move(resolve)) {}
+  /// An existing file or folder, or an empty text. @param folder of the text that names it; empty:
+  /// the folder of the main text.
+  std::string find(const std::string& uri, const std::string& folder = "") const;
+
+ private:
+  std::string folder_;
+  ResourceResolver resolve_;
+};
+
+/// Gives an included model what its <include> says of it: name, pose, static, placement_frame,
+/// plugins.
+void takeOver(const tinyxml2::XMLElement& include, tinyxml2::XMLElement* model);
+
+/// The text with `model://sun` and `model://ground_plane`, which every Gazebo has, written out
+/// where no such model is found. @param model_name when not empty, the root's model gets this name.
+/// @throws std::runtime_error when it is not well-formed XML.
+std::string withStandardModels(const std::string& text, const SdfFiles& files,
+                               const std::string& title, const std::string& model_name);
+
+}  // namespace franka_sim::physics

@@ -1,0 +1,39 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <string>
+#include <vector>
+
+#include "physics/sdf_scene.h"
+
+namespace franka_sim::physics {
+
+/// A further name of a body, or of a place in it: SDF's "model::link", or the model itself.
+struct BodyAlias {
+  std::string name, body;
+  Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the body
+};
+
+struct SdfAsMjcf {
+  std::vector<BodyAlias> aliases;
+};
+
+/// Writes a scene as MJCF into an empty document.
+///
+/// A model with one link becomes a body of the model's name, standing where the model stands; the
+/// links of other models become bodies "model::link". Joints and cameras are named with their model
+/// ("model::joint", "model::link::camera"). What is neither static nor held by a joint gets a free
+/// joint. A collision's kp and kd make the contacts of a moving link springs and dampers, where
+/// that is softer than the simulator's own contacts and the other surface is not the more slippery
+/// one (whose settings MuJoCo takes).
+/// @param angle_unit [rad] of the document this goes into
+/// @param surroundings also gravity, sky and ambient light: for worlds
+/// @param resolve for visual meshes
+/// Adds to scene->unsupported meshes that cannot be read.
+SdfAsMjcf writeSdf(SdfScene* scene, double angle_unit, bool surroundings,
+                   tinyxml2::XMLDocument* document);
+
+}  // namespace franka_sim::physics

@@ -1,0 +1,392 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "physics/sdf_files.h"
+#include "physics/sdf_frames.h"
+#include "physics/sdf_scene.h"
+#include "physics/sdf_shapes.h"
+#include "physics/sdf_text.h"
+#include "physics/xml_util.h"
+
+namespace franka_sim::physics {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr double kNoLimit = 1e15;  ///< SDF writes "unlimited" as 1e16
+/// Of the sum of the moments of inertia: rounding in the text.
+constexpr double kInertiaTolerance = 1e-6;
+
+/// Calls `act` for each child of a name.
+template <typename Act>
+void forEach(const XMLElement& parent, const char* name, Act act) {
+  for (const XMLElement* child = parent.FirstChildElement(name); child != nullptr;
+       child = child->NextSiblingElement(name)) {
+    act(*child);
+  }
+}
+
+Eigen::Vector3d toVector(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
+
+std::array<double, 3> rgb(const std::array<double, 4>& colour) {
+  return {colour[0], colour[1], colour[2]};
+}
+
+/// A model that is being read: where it stands, and what its poses refer to.
+struct Place {
+  std::string name;  ///< with the models around it
+  const SdfFrames& frames;
+  Eigen::Isometry3d pose;  ///< in the world
+  bool is_static;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string title) : title_(std::move(title)) {}
+
+  SdfScene take() { return std::move(scene_); }
+
+  void readWorld(const XMLElement& world) {
+    const SdfFrames frames(world, title_);
+    scene_.gravity = {0, 0, -9.8};
+    const std::vector<double> gravity = childNumbers(world, "gravity", {0, 0, -9.8}, title_);
+    std::copy(gravity.begin(), gravity.end(), scene_.gravity.begin());
+    forEach(world, "model", [&](const XMLElement& model) { readTopModel(model, frames); });
+    forEach(world, "light",
+            [&](const XMLElement& light) { readLight(light, frames.poseOf(light, ""), -1); });
+    const XMLElement* look = world.FirstChildElement("scene");
+    const XMLElement& scene = look == nullptr ? world : *look;  // a world has no colours of its own
+    scene_.ambient = rgb(readColour(scene, "ambient", {0.4, 0.4, 0.4, 1}, title_));
+    scene_.background = rgb(readColour(scene, "background", {0.7, 0.7, 0.7, 1}, title_));
+    forEach(world, "actor",
+            [&](const XMLElement& actor) { note("actor '" + optional(actor, "name") + "'"); });
+    forEach(world, "population", [&](const XMLElement& population) {
+      note("population '" + optional(population, "name") + "'");
+    });
+    notePlugins(world, "the world");
+    const XMLElement* wind = world.FirstChildElement("wind");
+    if (wind != nullptr &&
+        !toVector(childNumbers(*wind, "linear_velocity", {0, 0, 0}, title_)).isZero(0)) {
+      note("wind");
+    }
+  }
+
+  /// @param frames of what stands around it
+  void readTopModel(const XMLElement& model, const SdfFrames& frames) {
+    const std::string name = required(model, "name", title_);
+    const Place place{name, frames.model(name), frames.pose(name), false};
+    scene_.models.push_back({name, place.pose, {}, isTrue(model, "self_collide")});
+    readModel(model, place);
+  }
+
+ private:
+  void note(const std::string& what) { scene_.unsupported.insert(what); }
+
+  void notePlugins(const XMLElement& element, const std::string& of) {
+    forEach(element, "plugin", [&](const XMLElement& plugin) {
+      note("plugin '" + optional(plugin, "name") + "' of " + of);
+    });
+  }
+
+  void readModel(const XMLElement& model, Place place) {
+    place.is_static = place.is_static || isTrue(model, "static");
+    if (!place.is_static && model.FirstChildElement("link") == nullptr &&
+        model.FirstChildElement("model") == nullptr) {
+      throw std::runtime_error(title_ + ": model '" + place.name + "' needs at least one link.");
+    }
+    forEach(model, "link", [&](const XMLElement& link) { readLink(link, place); });
+    forEach(model, "model", [&](const XMLElement& inner) {
+      const std::string name = required(inner, "name", title_);
+      readModel(inner, {place.name + "::" + name, place.frames.model(name),
+                        place.pose * place.frames.pose(name), place.is_static});
+    });
+    forEach(model, "joint", [&](const XMLElement& joint) { readJoint(joint, place); });
+    notePlugins(model, "model '" + place.name + "'");
+    if (model.FirstChildElement("gripper") != nullptr) {
+      note("<gripper> of model '" + place.name + "'");
+    }
+  }
+
+  UrdfInertial readInertial(const XMLElement& link, const std::string& name) const {
+    UrdfInertial result;
+    result.mass = 1;
+    result.com = Eigen::Vector3d::Zero();
+    result.inertia = Eigen::Matrix3d::Identity();
+    const XMLElement* element = link.FirstChildElement("inertial");
+    if (element == nullptr) {
+      return result;
+    }
+    const std::string where = title_ + ": link '" + name + "'";
+    result.mass = childNumbers(*element, "mass", {1}, where)[0];
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Identity();
+    if (const XMLElement* inertia = element->FirstChildElement("inertia")) {
+      const auto entry = [&](const char* entry_name, double fallback) {
+        return childNumbers(*inertia, entry_name, {fallback}, where)[0];
+      };
+      moments.diagonal() << entry("ixx", 1), entry("iyy", 1), entry("izz", 1);
+      moments(0, 1) = moments(1, 0) = entry("ixy", 0);
+      moments(0, 2) = moments(2, 0) = entry("ixz", 0);
+      moments(1, 2) = moments(2, 1) = entry("iyz", 0);
+    }
+    const Eigen::Vector3d principal = moments.selfadjointView<Eigen::Upper>().eigenvalues();
+    if (!(result.mass > 0) || !(principal.minCoeff() >= 0) ||
+        principal.sum() * (1 + kInertiaTolerance) < 2 * principal.maxCoeff()) {
+      throw std::runtime_error(where + ": no body has this mass and these moments of inertia.");
+    }
+    const Eigen::Isometry3d pose = writtenPose(*element, where);
+    result.com = pose.translation();
+    result.inertia = pose.linear() * moments * pose.linear().transpose();
+    return result;
+  }
+
+  void readLink(const XMLElement& link, const Place& place) {
+    const std::string own_name = required(link, "name", title_);
+    SdfLink result;
+    result.name = place.name + "::" + own_name;
+    result.model = scene_.models.back().name;
+    result.is_static = place.is_static;
+    result.pose = place.pose * place.frames.pose(own_name);
+    result.inertial = readInertial(link, result.name);
+    forEach(link, "collision", [&](const XMLElement& collision) {
+      const std::string name = optional(collision, "name");
+      const std::string what = "collision '" + name + "' of '" + result.name + "'";
+      if (auto shape = readShape(collision, what, &scene_.unsupported)) {
+        shape->name = name;
+        shape->pose = place.frames.poseIn(collision, own_name) * shape->pose;
+        shape->surface = readSurface(collision, what, &scene_.unsupported);
+        result.collisions.push_back(*shape);
+      }
+    });
+    forEach(link, "visual", [&](const XMLElement& visual) {
+      const std::string name = optional(visual, "name");
+      const std::string what = "visual '" + name + "' of '" + result.name + "'";
+      if (auto shape = readShape(visual, what, &scene_.unsupported)) {
+        shape->name = name;
+        shape->pose = place.frames.poseIn(visual, own_name) * shape->pose;
+        shape->rgba = readMaterial(visual, what, &scene_.unsupported);
+        shape->opacity = 1 - childNumbers(visual, "transparency", {0}, what)[0];
+        result.visuals.push_back(*shape);
+      }
+    });
+    const int index = static_cast<int>(scene_.links.size());
+    scene_.links.push_back(result);
+    scene_.models.back().links.push_back(index);
+    index_[result.name] = index;
+    forEach(link, "light", [&](const XMLElement& light) {
+      readLight(light, place.frames.poseIn(light, own_name), index);
+    });
+    forEach(link, "sensor", [&](const XMLElement& sensor) {
+      readSensor(sensor, place.frames.poseIn(sensor, own_name), index);
+    });
+    noteOfLink(link, result.name);
+  }
+
+  void noteOfLink(const XMLElement& link, const std::string& name) {
+    if (!isTrue(link, "gravity", true)) {
+      note("<gravity>false</gravity> of link '" + name + "'");
+    }
+    if (isTrue(link, "enable_wind")) {
+      note("wind on link '" + name + "'");
+    }
+    if (link.FirstChildElement("particle_emitter") != nullptr) {
+      note("particle emitters of link '" + name + "'");
+    }
+  }
+
+  /// @param pose in the link
+  void readSensor(const XMLElement& sensor, const Eigen::Isometry3d& pose, int link) {
+    const std::string name =
+        scene_.links[static_cast<std::size_t>(link)].name + "::" + optional(sensor, "name");
+    const XMLElement* camera = sensor.FirstChildElement("camera");
+    if (camera == nullptr) {
+      note("sensor '" + name + "' of type " + optional(sensor, "type"));
+      return;
+    }
+    SdfCamera result;
+    result.name = name;
+    result.link = link;
+    result.pose = pose * writtenPose(*camera, title_ + ": camera '" + name + "'");
+    result.horizontal_view = childNumbers(*camera, "horizontal_fov", {1.047}, name)[0];
+    if (const XMLElement* image = camera->FirstChildElement("image")) {
+      result.width = static_cast<int>(childNumbers(*image, "width", {320}, name)[0]);
+      result.height = static_cast<int>(childNumbers(*image, "height", {240}, name)[0]);
+    }
+    const double rate = childNumbers(sensor, "update_rate", {0}, name)[0];
+    result.rate = rate > 0 ? rate : result.rate;
+    scene_.cameras.push_back(result);
+  }
+
+  /// @param pose in the link, or in the world
+  void readLight(const XMLElement& light, const Eigen::Isometry3d& pose, int link) {
+    SdfLight result;
+    result.name = optional(light, "name");
+    const std::string where = title_ + ": light '" + result.name + "'";
+    result.link = link;
+    const std::string kind = optional(light, "type");
+    result.kind = kind == "directional" ? SdfLight::Kind::kDirectional
+                  : kind == "spot"      ? SdfLight::Kind::kSpot
+                                        : SdfLight::Kind::kPoint;
+    result.position = pose.translation();
+    const Eigen::Vector3d along = toVector(childNumbers(light, "direction", {0, 0, -1}, where));
+    result.direction = pose.linear() * along.normalized();
+    result.diffuse = rgb(readColour(light, "diffuse", {1, 1, 1, 1}, where));
+    result.specular = rgb(readColour(light, "specular", {0.1, 0.1, 0.1, 1}, where));
+    result.attenuation = {1, 1, 0};  // SDF's
+    if (const XMLElement* attenuation = light.FirstChildElement("attenuation")) {
+      result.attenuation = {childNumbers(*attenuation, "constant", {1}, where)[0],
+                            childNumbers(*attenuation, "linear", {1}, where)[0],
+                            childNumbers(*attenuation, "quadratic", {0}, where)[0]};
+    }
+    const XMLElement* spot = light.FirstChildElement("spot");
+    result.cutoff = spot == nullptr ? 0 : childNumbers(*spot, "outer_angle", {0}, where)[0] / 2;
+    result.shadows = isTrue(light, "cast_shadows");
+    scene_.lights.push_back(result);
+  }
+
+  /// @param frame that a joint names
+  int linkOf(const std::string& frame, const Place& place, const std::string& joint) const {
+    if (frame.empty()) {
+      throw std::runtime_error(title_ + ": joint '" + joint + "' needs a <parent> and a <child>.");
+    }
+    try {
+      const std::string link = place.frames.linkOf(frame);
+      return link == "world" ? -1 : index_.at(place.name + "::" + link);
+    } catch (const std::exception&) {
+      throw std::runtime_error(title_ + ": joint '" + joint + "' names '" + frame +
+                               "', and there is no such link or frame.");
+    }
+  }
+
+  void readJoint(const XMLElement& joint, const Place& place) {
+    SdfJoint result;
+    const std::string own_name = required(joint, "name", title_);
+    result.name = place.name + "::" + own_name;
+    result.parent = linkOf(childText(joint, "parent"), place, result.name);
+    result.child = linkOf(childText(joint, "child"), place, result.name);
+    result.position = (place.pose * place.frames.pose(own_name)).translation();
+    const std::string kind = optional(joint, "type");
+    if (kind == "revolute" || kind == "continuous") {
+      result.kind = SdfJoint::Kind::kHinge;
+    } else if (kind == "prismatic") {
+      result.kind = SdfJoint::Kind::kSlide;
+    } else if (kind == "ball") {
+      result.kind = SdfJoint::Kind::kBall;
+    } else if (kind != "fixed") {
+      note("the type of joint '" + result.name + "' (it is held fixed)");
+    }
+    if (result.kind == SdfJoint::Kind::kHinge || result.kind == SdfJoint::Kind::kSlide) {
+      const XMLElement* axis = joint.FirstChildElement("axis");
+      if (axis == nullptr) {
+        throw std::runtime_error(title_ + ": joint '" + result.name + "' needs an <axis>.");
+      }
+      readAxis(*axis, place, own_name, &result);
+      if (kind == "continuous") {
+        result.limits.reset();
+      }
+    }
+    if (result.child < 0 || isChild(result.child)) {
+      note("joint '" + result.name + "', which closes a loop");
+      return;
+    }
+    scene_.joints.push_back(result);
+  }
+
+  bool isChild(int link) const {
+    return std::any_of(scene_.joints.begin(), scene_.joints.end(),
+                       [link](const SdfJoint& joint) { return joint.child == link; });
+  }
+
+  void readAxis(const XMLElement& axis, const Place& place, const std::string& own_name,
+                SdfJoint* joint) const {
+    const std::string where = title_ + ": joint '" + joint->name + "'";
+    const Eigen::Vector3d xyz = toVector(childNumbers(axis, "xyz", {0, 0, 1}, where));
+    if (xyz.isZero(0)) {
+      throw std::runtime_error(where + ": the <axis> 0 0 0 has no direction.");
+    }
+    const XMLElement* written = axis.FirstChildElement("xyz");
+    const std::string frame = written == nullptr ? "" : optional(*written, "expressed_in");
+    const Eigen::Isometry3d in_model = place.frames.pose(frame.empty() ? own_name : frame);
+    joint->axis = place.pose.linear() * in_model.linear() * xyz.normalized();
+    if (const XMLElement* dynamics = axis.FirstChildElement("dynamics")) {
+      joint->damping = childNumbers(*dynamics, "damping", {0}, where)[0];
+      joint->friction = childNumbers(*dynamics, "friction", {0}, where)[0];
+      joint->stiffness = childNumbers(*dynamics, "spring_stiffness", {0}, where)[0];
+      joint->reference = childNumbers(*dynamics, "spring_reference", {0}, where)[0];
+    }
+    if (const XMLElement* limit = axis.FirstChildElement("limit")) {
+      readLimits(*limit, where, joint);
+    }
+  }
+
+  void readLimits(const XMLElement& limit, const std::string& where, SdfJoint* joint) const {
+    const double far = joint->kind == SdfJoint::Kind::kHinge ? 1e3 : 1e6;
+    const auto bound = [&](const char* name, double none) {
+      // "inf" is not a number that a pose could hold, but it is a limit.
+      const bool infinite = childText(limit, name).find("inf") != std::string::npos;
+      return infinite ? none : childNumbers(limit, name, {none}, where)[0];
+    };
+    const double lower = bound("lower", -2 * kNoLimit), upper = bound("upper", 2 * kNoLimit);
+    if (lower > -kNoLimit || upper < kNoLimit) {
+      joint->limits = {lower > -kNoLimit ? lower : -far, upper < kNoLimit ? upper : far};
+    }
+  }
+
+  std::string title_;
+  SdfScene scene_;
+  std::map<std::string, int> index_;
+};
+
+}  // namespace
+
+bool looksLikeSdf(const std::string& text) {
+  std::size_t at = 0;
+  while ((at = text.find('<', at)) != std::string::npos) {
+    if (text.compare(at, 4, "<!--") == 0) {
+      at = text.find("-->", at);
+    } else if (text[at + 1] != '?' && text[at + 1] != '!') {
+      return text.compare(at, 4, "<sdf") == 0 || text.compare(at, 7, "<gazebo") == 0;
+    }
+    at = at == std::string::npos ? at : at + 1;
+  }
+  return false;
+}
+
+SdfScene readExpandedSdf(const std::string& text, const std::string& title, bool world) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error(title + ": it is not well-formed XML: " + document.ErrorStr());
+  }
+  const XMLElement& root = *document.RootElement();
+  int worlds = 0;
+  forEach(root, "world", [&worlds](const XMLElement&) { ++worlds; });
+  const XMLElement* model = root.FirstChildElement("model");
+  Reader reader(title);
+  if (world && worlds == 1) {
+    reader.readWorld(*root.FirstChildElement("world"));
+  } else if (model != nullptr && (worlds == 0 || !world)) {
+    const SdfFrames frames(root, title);
+    reader.readTopModel(*model, frames);
+  } else if (world) {
+    throw std::runtime_error(title + ": an SDF world file must hold one <world>; this one holds " +
+                             std::to_string(worlds) + ".");
+  } else {
+    throw std::runtime_error(title + ": there is no <model> in the SDF text.");
+  }
+  return reader.take();
+}
+
+SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
+                 const ResourceResolver& resolve, const std::string& model_name) {
+  const SdfFiles files(folder, resolve);
+  return readExpandedSdf(
+      expandSdf(withStandardModels(text, files, title, model_name), files, title), title,
+      model_name.empty());
+}
+
+}  // namespace franka_sim::physics

@@ -1,0 +1,128 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/world.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "physics/mesh_loader.h"
+#include "physics/urdf_robot.h"
+
+namespace franka_sim::physics {
+
+/// How a surface touches others, as far as SDF and MuJoCo have words for it.
+struct SdfSurface {
+  double mu{1};                   ///< Coulomb friction, Gazebo's default
+  std::optional<double> torsion;  ///< torsional friction as a lever [m]
+  std::optional<double> kp, kd;   ///< contact stiffness [N/m] and damping [N s/m]
+  int bitmask{1};                 ///< two surfaces touch where these share a bit
+};
+
+/// What has no colour of its own is drawn so.
+inline constexpr std::array<double, 4> kGrey{{0.7, 0.7, 0.7, 1}};
+
+struct SdfShape {
+  enum class Kind { kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kPlane, kMesh };
+  Kind kind{Kind::kBox};
+  std::string name;
+  Eigen::Vector3d size{Eigen::Vector3d::Zero()};  ///< box: edges; ball: r; cylinder, capsule: r,
+                                                  ///< length; ellipsoid: radii; plane: edges [m]
+  MeshSource mesh;
+  Eigen::Isometry3d pose{
+      Eigen::Isometry3d::Identity()};         ///< in the link; a plane's z is its normal
+  SdfSurface surface;                         ///< of a collision
+  std::optional<std::array<double, 4>> rgba;  ///< of a visual that says one
+  double opacity{1};                          ///< of a visual
+};
+
+struct SdfLight {
+  enum class Kind { kPoint, kSpot, kDirectional };
+  Kind kind{Kind::kPoint};
+  std::string name;
+  int link{-1};  ///< -1: the world
+  Eigen::Vector3d position{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d direction{0, 0, -1};
+  std::array<double, 3> diffuse{{1, 1, 1}}, specular{{0.1, 0.1, 0.1}};
+  std::array<double, 3> attenuation{{1, 0, 0}};  ///< constant, linear, quadratic
+  double cutoff{0.785};                          ///< half angle of a spot [rad]
+  bool shadows{false};
+};
+
+struct SdfCamera {
+  std::string name;
+  int link{-1};
+  Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the link; looks along x, z is up
+  double horizontal_view{1.047};                          ///< [rad]
+  int width{640}, height{480};
+  double rate{30};  ///< [Hz]
+};
+
+struct SdfLink {
+  std::string name;   ///< with its models: "outer::inner::link"
+  std::string model;  ///< outermost model
+  bool is_static{false};
+  Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the world
+  UrdfInertial inertial;
+  std::vector<SdfShape> collisions, visuals;
+};
+
+struct SdfJoint {
+  enum class Kind { kFixed, kHinge, kSlide, kBall };
+  std::string name;
+  Kind kind{Kind::kFixed};
+  int parent{-1}, child{-1};                          ///< links; parent -1: the world
+  Eigen::Vector3d position{Eigen::Vector3d::Zero()};  ///< in the world
+  Eigen::Vector3d axis{Eigen::Vector3d::UnitZ()};     ///< world axes
+  std::optional<std::array<double, 2>> limits;        ///< [rad] or [m]
+  double damping{0}, friction{0}, stiffness{0}, reference{0};
+};
+
+/// An outermost model.
+struct SdfModel {
+  std::string name;
+  Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the world
+  std::vector<int> links;
+  bool self_collide{false};
+};
+
+/// What an SDF text describes, poses resolved into the world.
+struct SdfScene {
+  std::array<double, 3> gravity{{0, 0, -9.81}};
+  std::vector<SdfModel> models;
+  std::vector<SdfLink> links;
+  std::vector<SdfJoint> joints;
+  std::vector<SdfLight> lights;
+  std::vector<SdfCamera> cameras;
+  std::array<double, 3> ambient{{0.4, 0.4, 0.4}};
+  std::optional<std::array<double, 3>> background;
+  std::set<std::string> unsupported;  ///< what the text asks for and nobody simulates
+};
+
+/// Whether a text's root element is <sdf> (or an old <gazebo>).
+bool looksLikeSdf(const std::string& text);
+
+/// Reads an SDF text with a world in it, or with one model. Where Debian has sdformat (Debian 12),
+/// that library checks the text and writes out includes; elsewhere `expandByTinyXml` does.
+///
+/// Included models and meshes are looked for by `resolve`, next to the file, in the folders of
+/// GAZEBO_MODEL_PATH, SDF_PATH and GAZEBO_RESOURCE_PATH; `model://sun` and `model://ground_plane`
+/// are there in any case. Settings of Gazebo's own solver (<physics>, min_depth, max_vel,
+/// max_contacts and the like) mean nothing to MuJoCo and are passed over; everything else that has
+/// no counterpart is named in `unsupported`.
+/// @param title names the text in errors
+/// @param model_name empty: a world (or a lone model in the place of one) is read; else the text's
+/// one model, under this name
+/// @throws std::runtime_error with a sentence: what is wrong with the text, no world in the text.
+SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
+                 const ResourceResolver& resolve, const std::string& model_name = "");
+
+/// The same for a text of sdf_text.h. @param world whether a world is read, or a model.
+SdfScene readExpandedSdf(const std::string& text, const std::string& title, bool world);
+
+}  // namespace franka_sim::physics

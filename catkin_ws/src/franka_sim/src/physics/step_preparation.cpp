@@ -1,0 +1,98 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/step_preparation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace franka_sim::physics {
+namespace {
+
+template <typename T>
+void keep(std::vector<T>& values, const T* from) noexcept {
+  std::copy_n(from, values.size(), values.begin());
+}
+
+// Bits are not compared but numbers, for zeros of either sign do the same.
+template <typename T>
+bool same(const std::vector<T>& values, const T* others) noexcept {
+  return std::equal(values.begin(), values.end(), others);
+}
+
+std::optional<StepFault> findFault(const mjtNum* values, int count,
+                                   StepFault::Where where) noexcept {
+  for (int i = 0; i < count; ++i) {
+    if (!(std::abs(values[i]) <= mjMAXVAL)) {
+      return StepFault{where, i, values[i]};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<StepFault> findFault(const mjModel& model, const mjData& data) noexcept {
+  const auto position = findFault(data.qpos, model.nq, StepFault::Where::kPosition);
+  return position ? position : findFault(data.qvel, model.nv, StepFault::Where::kVelocity);
+}
+
+// What mj_step2 does, but for its reset of a world with wrong accelerations. Merged models have the
+// Euler integrator.
+std::optional<StepFault> finishStep(const mjModel& model, mjData* data) noexcept {
+  mj_fwdActuation(&model, data);
+  mj_fwdAcceleration(&model, data);
+  mj_fwdConstraint(&model, data);
+  mj_sensorAcc(&model, data);
+  if (const auto fault = findFault(data->qacc, model.nv, StepFault::Where::kAcceleration)) {
+    return fault;
+  }
+  mj_Euler(&model, data);
+  return std::nullopt;
+}
+
+}  // namespace
+
+void StepPreparation::fit(const mjModel& model) {
+  ready_ = false;
+  qpos_.resize(model.nq);
+  unit_qpos_.resize(model.nq);
+  qvel_.resize(model.nv);
+  eq_data_.resize(mjNEQDATA * model.neq);
+  eq_active_.resize(model.neq);
+  gravity_.resize(3);
+}
+
+bool StepPreparation::isFor(const mjModel& model, const mjData& data) const noexcept {
+  return ready_ && same(qpos_, data.qpos) && same(qvel_, data.qvel) &&
+         same(eq_data_, model.eq_data) && same(eq_active_, model.eq_active) &&
+         same(gravity_, model.opt.gravity);
+}
+
+void StepPreparation::prepare(const mjModel& model, mjData* data) noexcept {
+  if (isFor(model, *data) || findFault(model, *data)) {
+    return;
+  }
+  keep(qpos_, data->qpos);
+  keep(qvel_, data->qvel);
+  keep(eq_data_, model.eq_data);
+  keep(eq_active_, model.eq_active);
+  keep(gravity_, model.opt.gravity);
+  mj_step1(&model, data);
+  // Until the step is taken nobody is to see that it was prepared.
+  keep(unit_qpos_, data->qpos);
+  std::copy(qpos_.begin(), qpos_.end(), data->qpos);
+  ready_ = true;
+}
+
+std::optional<StepFault> StepPreparation::step(const mjModel& model, mjData* data) noexcept {
+  if (isFor(model, *data)) {
+    std::copy(unit_qpos_.begin(), unit_qpos_.end(), data->qpos);
+  } else {
+    if (const auto fault = findFault(model, *data)) {
+      return fault;
+    }
+    mj_step1(&model, data);
+  }
+  ready_ = false;
+  return finishStep(model, data);
+}
+
+}  // namespace franka_sim::physics

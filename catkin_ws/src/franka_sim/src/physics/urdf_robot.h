@@ -1,0 +1,71 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace franka_sim::physics {
+
+/// The shape of a visual or collision element, lengths in [m].
+struct UrdfGeometry {
+  enum class Shape { kBox, kCylinder, kSphere, kMesh };
+  Shape shape{Shape::kBox};
+  Eigen::Vector3d size{Eigen::Vector3d::Zero()};  ///< box: edges; cylinder: r, length; sphere: r
+  std::string mesh;                               ///< URI
+  Eigen::Vector3d scale{Eigen::Vector3d::Ones()};
+  Eigen::Isometry3d origin{Eigen::Isometry3d::Identity()};  ///< in the link frame
+  std::optional<std::array<double, 4>> rgba;                ///< visuals with a material
+};
+
+struct UrdfInertial {
+  double mass{0};                                    ///< [kg]
+  Eigen::Vector3d com{Eigen::Vector3d::Zero()};      ///< link frame [m]
+  Eigen::Matrix3d inertia{Eigen::Matrix3d::Zero()};  ///< about com, link axes [kg m^2]
+};
+
+struct UrdfLink {
+  std::string name;
+  std::optional<UrdfInertial> inertial;
+  std::vector<UrdfGeometry> collisions, visuals;
+  std::optional<double> friction;  ///< mu of the <gazebo reference> element
+  int parent_joint{-1};            ///< index in UrdfRobot::joints, -1 for the root
+  std::vector<int> child_joints;   ///< in the order of the file
+};
+
+struct UrdfJoint {
+  enum class Type { kFixed, kRevolute, kContinuous, kPrismatic };
+  std::string name;
+  Type type{Type::kFixed};
+  int parent{-1}, child{-1};                                ///< indices in UrdfRobot::links
+  Eigen::Isometry3d origin{Eigen::Isometry3d::Identity()};  ///< child link in parent link at q = 0
+  Eigen::Vector3d axis{Eigen::Vector3d::UnitX()};           ///< unit, child link frame
+  double lower{0}, upper{0};                                ///< [rad] or [m]; revolute, prismatic
+  std::string mimic;                                        ///< leading joint, empty: none
+  double mimic_multiplier{1}, mimic_offset{0};
+  double damping{0}, friction{0};  ///< of <dynamics> [Nm s/rad|N s/m], [Nm|N]
+};
+
+/// What physics needs of a URDF: a checked tree of links and joints.
+struct UrdfRobot {
+  std::string name;
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+  int root{-1};
+  bool self_collide{true};  ///< <self_collide> of the <gazebo> element without a reference
+
+  /// Index of a link or joint, -1 when unknown.
+  int link(const std::string& link_name) const noexcept;
+  int joint(const std::string& joint_name) const noexcept;
+};
+
+/// Reads a URDF text.
+/// @throws std::runtime_error with a sentence that names the robot, the element and what is wrong:
+/// XML errors, duplicate names, unknown links, two roots or parents, loops, unsupported joint
+/// types, numbers that are none, limits in the wrong order, inertias that are not positive.
+UrdfRobot readUrdf(const std::string& text, const std::string& robot_name);
+
+}  // namespace franka_sim::physics

@@ -1,0 +1,254 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/sizes.h>
+#include <franka_sim/physics/world.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "physics/world_impl.h"
+
+namespace franka_sim {
+namespace {
+
+Eigen::Vector3d vector(const std::array<double, 3>& values) {
+  return Eigen::Map<const Eigen::Vector3d>(values.data());
+}
+
+std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+template <std::size_t N>
+std::array<std::string, N> jointNames(const physics::RobotModel& robot, const std::string& prefix,
+                                      const char* what) {
+  std::array<std::string, N> names;
+  for (std::size_t i = 0; i < N; ++i) {
+    names[i] = prefix + std::to_string(i + 1);
+    if (!robot.moves(names[i])) {
+      throw std::runtime_error("Robot '" + robot.description.name + "' has no " + what +
+                               " here: there is no moving joint '" + names[i] + "' in its URDF.");
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+World::World(const std::string& file, ResourceResolver resolve)
+    : impl_(std::make_unique<Impl>(file, std::move(resolve))) {}
+
+World::~World() = default;
+
+void World::addRobot(const RobotDescription& robot) {
+  const std::string whose = " of the robot '" + robot.name + "'";
+  sizes::check(robot.base.position, sizes::kFarthest, "m", "The position" + whose);
+  for (const auto& [joint, position] : robot.initial_positions) {
+    sizes::check(position, sizes::kFarthest, "m or rad",
+                 "The initial position of joint '" + joint + "'" + whose);
+  }
+  const auto present = robots();
+  if (std::find(present.begin(), present.end(), robot.name) != present.end()) {
+    throw std::runtime_error("There is already a robot '" + robot.name +
+                             "' in the simulated world; give the new one another name.");
+  }
+  auto added = std::make_unique<physics::RobotModel>(physics::buildRobot(robot));
+  for (const physics::UrdfLink& link : added->urdf.links) {
+    if (link.name != "world" && impl_->frames.count(link.name) > 0) {
+      throw std::runtime_error("Robot '" + robot.name + "' brings a link '" + link.name +
+                               "', and the simulated world has a body of that name already; give "
+                               "the robot another arm_id.");
+    }
+  }
+  for (const physics::UrdfJoint& joint : added->urdf.joints) {
+    if (joint.type != physics::UrdfJoint::Type::kFixed && impl_->has(joint.name)) {
+      throw std::runtime_error("Robot '" + robot.name + "' brings a joint '" + joint.name +
+                               "', and the simulated world has a joint of that name already; give "
+                               "the robot another arm_id.");
+    }
+  }
+  std::vector<std::unique_ptr<physics::RobotModel>> all = impl_->copyRobots();
+  all.push_back(std::move(added));
+  impl_->rebuild(&all);
+}
+
+void World::removeRobot(const std::string& name) {
+  impl_->robot(name);
+  std::vector<std::unique_ptr<physics::RobotModel>> rest;
+  for (const auto& robot : impl_->robots) {
+    if (robot->description.name != name) {
+      rest.push_back(std::make_unique<physics::RobotModel>(*robot));
+    }
+  }
+  impl_->rebuild(&rest);
+}
+
+std::vector<std::string> World::robots() const {
+  std::vector<std::string> names;
+  for (const auto& robot : impl_->robots) {
+    names.push_back(robot->description.name);
+  }
+  return names;
+}
+
+ArmPlant& World::arm(const std::string& robot, const std::string& arm_id) {
+  const auto names = jointNames<7>(impl_->robot(robot), arm_id + "_joint", "arm");
+  auto& arm = impl_->arms[robot + "/" + arm_id];
+  if (!arm) {
+    arm = std::make_unique<physics::MujocoArm>(&impl_->view, names);
+    physics::MujocoArm::Slots slots;
+    for (std::size_t i = 0; i < 7; ++i) {
+      slots[i] = impl_->slot(names[i]);
+    }
+    arm->bind(slots);
+  }
+  return *arm;
+}
+
+HandPlant& World::hand(const std::string& robot, const std::string& arm_id) {
+  const auto names = jointNames<2>(impl_->robot(robot), arm_id + "_finger_joint", "hand");
+  auto& hand = impl_->hands[robot + "/" + arm_id];
+  if (!hand) {
+    hand = std::make_unique<physics::MujocoHand>(&impl_->view, names);
+    hand->bind({impl_->slot(names[0]), impl_->slot(names[1])});
+  }
+  return *hand;
+}
+
+JointDrive& World::drive(const std::string& robot, const std::string& joint) {
+  if (!impl_->robot(robot).moves(joint)) {
+    throw std::runtime_error("The robot '" + robot + "' has no joint '" + joint + "' that moves.");
+  }
+  auto& drive = impl_->drives[joint];
+  if (!drive) {
+    drive = std::make_unique<physics::MujocoDrive>(&impl_->view, joint);
+    drive->bind({impl_->slot(joint)});
+  }
+  return *drive;
+}
+
+bool World::hasHand(const std::string& robot, const std::string& arm_id) const {
+  const physics::RobotModel& model = impl_->robot(robot);
+  return model.moves(arm_id + "_finger_joint1") && model.moves(arm_id + "_finger_joint2");
+}
+
+void World::step() noexcept { impl_->step(); }
+
+void World::prepareStep() noexcept { impl_->prepareStep(); }
+
+std::uint64_t World::ticks() const noexcept { return impl_->ticks; }
+
+double World::time() const noexcept { return static_cast<double>(impl_->ticks) * kTick; }
+
+void World::reset() { impl_->reset(); }
+
+std::array<double, 3> World::gravity() const {
+  const double* g = impl_->model->opt.gravity;
+  return {g[0], g[1], g[2]};
+}
+
+Pose World::bodyPose(const std::string& body) const {
+  const Eigen::Isometry3d pose = impl_->pose(impl_->frame(body));
+  const Eigen::Quaterniond turn(pose.linear());
+  return {array(pose.translation()), {turn.w(), turn.x(), turn.y(), turn.z()}};
+}
+
+void World::setBodyPose(const std::string& body, const Pose& pose) {
+  const int joint = impl_->freeJoint(body);
+  impl_->requireRuns();
+  sizes::check(pose.position, sizes::kFarthest, "m", "The position for body '" + body + "'");
+  const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
+                                pose.orientation[3]);
+  if (!(std::abs(turn.norm() - 1) < 1e-3)) {
+    throw std::runtime_error("The orientation for body '" + body + "' is no unit quaternion.");
+  }
+  const Frame frame = impl_->frame(body);
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.translation() = vector(pose.position);
+  place.linear() = turn.normalized().matrix();
+  const bool is_body = frame.pose.matrix().isIdentity(0);
+  place = is_body ? place : place * frame.pose.inverse();
+  double* qpos = impl_->data->qpos + impl_->model->jnt_qposadr[joint];
+  Eigen::Vector3d::Map(qpos) = place.translation();
+  const Eigen::Quaterniond unit =
+      is_body ? turn.normalized() : Eigen::Quaterniond(place.linear()).normalized();
+  qpos[3] = unit.w();
+  qpos[4] = unit.x();
+  qpos[5] = unit.y();
+  qpos[6] = unit.z();
+  mju_zero(impl_->data->qvel + impl_->model->jnt_dofadr[joint], 6);
+  impl_->kinematics_fresh = false;
+}
+
+JointMeasurement World::joint(const std::string& joint) const {
+  const physics::JointSlot slot = impl_->slot(joint);
+  return {impl_->data->qpos[slot.qpos], impl_->data->qvel[slot.dof],
+          impl_->motor_side.torque(slot.dof)};
+}
+
+void World::setJointPosition(const std::string& joint, double position) {
+  const physics::JointSlot slot = impl_->slot(joint);
+  const int id = mj_name2id(impl_->model.get(), mjOBJ_JOINT, joint.c_str());
+  impl_->requireRuns();
+  sizes::check(position, sizes::kFarthest, "m or rad", "The position for joint '" + joint + "'");
+  const double* range = impl_->model->jnt_range + 2 * id;
+  if (impl_->model->jnt_limited[id] && (position < range[0] || position > range[1])) {
+    throw std::runtime_error("Joint '" + joint + "' cannot be put at " + std::to_string(position) +
+                             ", its stops are at " + std::to_string(range[0]) + " and " +
+                             std::to_string(range[1]) + ".");
+  }
+  impl_->data->qpos[slot.qpos] = position;
+  impl_->data->qvel[slot.dof] = 0;
+  impl_->kinematics_fresh = false;
+  for (auto& [key, arm] : impl_->arms) {
+    arm->jointWasMoved(joint);
+  }
+  for (auto& [key, drive] : impl_->drives) {
+    drive->jointWasMoved(joint);
+  }
+}
+
+void World::push(const std::string& body, const std::array<double, 3>& force,
+                 const std::array<double, 3>& torque, std::uint64_t ticks) {
+  const Frame frame = impl_->frame(body);
+  impl_->requireRuns();
+  sizes::check(force, sizes::kStrongest, "N", "The force on body '" + body + "'");
+  sizes::check(torque, sizes::kStrongest, "Nm", "The torque on body '" + body + "'");
+  if (ticks > 0) {
+    impl_->pushes.push_back(
+        {body, frame.body, frame.pose.translation(), vector(force), vector(torque), ticks});
+  }
+}
+
+void World::pushAt(const std::string& body, const std::array<double, 3>& point,
+                   const std::array<double, 3>& force, std::uint64_t ticks) {
+  const Frame frame = impl_->frame(body);
+  impl_->requireRuns();
+  sizes::check(point, sizes::kFarthest, "m", "The point of the push");
+  sizes::check(force, sizes::kStrongest, "N", "The force on body '" + body + "'");
+  if (ticks > 0) {
+    const Frame origin{frame.body, Eigen::Isometry3d::Identity()};
+    impl_->pushes.push_back({body, frame.body, impl_->pose(origin).inverse() * vector(point),
+                             vector(force), Eigen::Vector3d::Zero(), ticks});
+  }
+}
+
+std::vector<Contact> World::contacts() const {
+  std::vector<Contact> result;
+  for (const GeomContact& contact : impl_->contacts()) {
+    result.push_back({impl_->geom_links[contact.geom1], impl_->geom_links[contact.geom2],
+                      contact.position, contact.force});
+  }
+  return result;
+}
+
+std::uint64_t World::stateHash() const noexcept { return impl_->hash(); }
+
+std::string World::mjcf(bool visuals) const {
+  std::vector<const physics::RobotModel*> robots;
+  for (const auto& robot : impl_->robots) {
+    robots.push_back(robot.get());
+  }
+  return impl_->world->merge(robots, visuals);
+}
+
+}  // namespace franka_sim

@@ -1,0 +1,152 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// World: what is wrong with it.
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+#include "physics/world_impl.h"
+
+namespace franka_sim {
+namespace {
+
+using physics::StepFault;
+
+/// Bodies that rest on each other give way by less (chosen here).
+constexpr double kOverlap = 1e-3;  // [m]
+
+std::string quoted(const mjModel& model, int type, int id) {
+  const char* name = mj_id2name(&model, type, id);
+  return name != nullptr ? "'" + std::string(name) + "'" : "without a name";
+}
+
+int jointOf(const mjModel& model, const StepFault& fault) {
+  if (fault.where != StepFault::Where::kPosition) {
+    return model.dof_jntid[fault.index];
+  }
+  int joint = 0;
+  while (joint + 1 < model.njnt && model.jnt_qposadr[joint + 1] <= fault.index) {
+    ++joint;
+  }
+  return joint;
+}
+
+std::string sentence(const mjModel& model, const StepFault& fault, double time) {
+  const int joint = jointOf(model, fault);
+  const int type = model.jnt_type[joint];
+  const bool single = type == mjJNT_HINGE || type == mjJNT_SLIDE;
+  const std::string owner = single ? "joint " + quoted(model, mjOBJ_JOINT, joint)
+                                   : "body " + quoted(model, mjOBJ_BODY, model.jnt_bodyid[joint]);
+  const char* const quantity = fault.where == StepFault::Where::kPosition   ? "position"
+                               : fault.where == StepFault::Where::kVelocity ? "velocity"
+                                                                            : "acceleration";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                " reached %g in SI units at %.3f s. The world stands still until it is reset.",
+                fault.value, time);
+  return std::string("The physics diverged: the ") + quantity + " of " + owner + text;
+}
+
+}  // namespace
+
+const std::string& World::Impl::faultText() {
+  if (fault && fault_text.empty()) {
+    fault_text = sentence(*model, *fault, static_cast<double>(ticks) * kTick);
+  }
+  return fault_text;
+}
+
+void World::Impl::requireRuns() {
+  if (fault) {
+    throw std::runtime_error(faultText());
+  }
+}
+
+void World::Impl::forgetFaults() noexcept {
+  fault.reset();
+  fault_text.clear();
+  warned = {};
+}
+
+bool World::stopped() const noexcept { return impl_->fault.has_value(); }
+
+std::string World::fault() const { return impl_->faultText(); }
+
+std::vector<std::string> World::takeWarnings() {
+  struct Kind {
+    mjtWarning number;
+    const char* sentence;
+  };
+  static constexpr Kind kKinds[] = {
+      {mjWARN_INERTIA,
+       "A body's inertia is close to singular: the physics is inexact. Give bodies that move "
+       "masses [kg] and inertias [kg m^2] of real ones."},
+      {mjWARN_CONTACTFULL,
+       "There are more contacts than the world has room for, and some have no effect. Raise "
+       "nconmax in <size> of the world file."},
+      {mjWARN_CNSTRFULL,
+       "There are more constraints (contacts, limits, friction) than the world has room for, and "
+       "some have no effect. Raise njmax in <size> of the world file."},
+      {mjWARN_BADCTRL, "An actuator's command is not finite or too large: all actuators are off."},
+  };
+  std::vector<std::string> news;
+  for (const Kind& kind : kKinds) {
+    bool& warned = impl_->warned[kind.number];
+    if (!warned && impl_->data->warning[kind.number].number > 0) {
+      warned = true;
+      news.emplace_back(kind.sentence);
+    }
+  }
+  return news;
+}
+
+std::vector<Overlap> World::overlaps(const std::string& robot) const {
+  const physics::RobotModel& own = impl_->robot(robot);
+  const auto owned = [&own](const std::string& link) {
+    return std::any_of(own.urdf.links.begin(), own.urdf.links.end(),
+                       [&link](const physics::UrdfLink& candidate) {
+                         return candidate.name != "world" && candidate.name == link;
+                       });
+  };
+  const mjModel& model = *impl_->model;
+  const physics::DataPtr data(mj_copyData(nullptr, &model, impl_->data.get()));
+  mj_fwdPosition(&model, data.get());
+  std::vector<Overlap> result;
+  for (int c = 0; c < data->ncon; ++c) {
+    const mjContact& contact = data->contact[c];
+    std::string link = impl_->geom_links[contact.geom1], body = impl_->geom_links[contact.geom2];
+    if (owned(body)) {
+      std::swap(link, body);
+    }
+    if (contact.dist > -kOverlap || !owned(link) || owned(body)) {
+      continue;
+    }
+    const auto same = std::find_if(result.begin(), result.end(), [&](const Overlap& other) {
+      return other.link == link && other.body == body;
+    });
+    if (same == result.end()) {
+      result.push_back({link, body, -contact.dist});
+    } else {
+      same->depth = std::max(same->depth, -contact.dist);
+    }
+  }
+  return result;
+}
+
+std::string World::describeOverlaps(const std::string& robot) const {
+  std::string list;
+  for (const Overlap& overlap : overlaps(robot)) {
+    char depth[48];
+    std::snprintf(depth, sizeof depth, " by %.0f mm", 1e3 * overlap.depth);
+    list += (list.empty() ? "" : ", ") + overlap.link + " and " +
+            (overlap.body.empty() ? "the ground or another fixed shape" : overlap.body) + depth;
+  }
+  return list.empty() ? list
+                      : "The robot '" + robot +
+                            "' begins within other bodies, which will push it: " + list + ".";
+}
+
+}  // namespace franka_sim

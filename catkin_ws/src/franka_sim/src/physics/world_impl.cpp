@@ -1,0 +1,362 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/world_impl.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "physics/state_carry.h"
+
+namespace franka_sim {
+
+using physics::JointSlot;
+using physics::RobotModel;
+
+namespace {
+
+constexpr std::size_t kExpectedPushes = 64;
+
+std::string nameOf(const mjModel& model, int type, int id) {
+  const char* name = mj_id2name(&model, type, id);
+  return name != nullptr ? name : "";
+}
+
+Eigen::Isometry3d poseOf(const mjData& data, int body) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = Eigen::Map<const Eigen::Vector3d>(data.xpos + 3 * body);
+  const double* q = data.xquat + 4 * body;
+  pose.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  return pose;
+}
+
+}  // namespace
+
+World::Impl::Impl(const std::string& file, ResourceResolver resolve)
+    : world(std::make_unique<physics::MjcfWorld>(file, std::move(resolve))) {
+  pushes.reserve(kExpectedPushes);
+  std::vector<std::unique_ptr<RobotModel>> none;
+  rebuild(&none);
+}
+
+void World::Impl::placeInitially(const mjModel& m, mjData* d,
+                                 const std::vector<std::unique_ptr<RobotModel>>& all) const {
+  for (const auto& robot : all) {
+    for (const physics::UrdfJoint& joint : robot->urdf.joints) {
+      const int id = mj_name2id(&m, mjOBJ_JOINT, joint.name.c_str());
+      if (joint.type != physics::UrdfJoint::Type::kFixed && id >= 0) {
+        d->qpos[m.jnt_qposadr[id]] = robot->initialPosition(joint);
+      }
+    }
+  }
+}
+
+std::vector<std::unique_ptr<RobotModel>> World::Impl::copyRobots() const {
+  std::vector<std::unique_ptr<RobotModel>> copies;
+  for (const auto& robot : robots) {
+    copies.push_back(std::make_unique<RobotModel>(*robot));
+  }
+  return copies;
+}
+
+void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
+                          std::unique_ptr<physics::MjcfWorld> new_world) {
+  faultText();  // while the model that it speaks of is there
+  const physics::MjcfWorld& merged = new_world ? *new_world : *world;
+  std::vector<const RobotModel*> list;
+  for (const auto& robot : *candidates) {
+    list.push_back(robot.get());
+  }
+  const std::string title =
+      list.empty() ? merged.title()
+                   : merged.title() + " with robot '" + list.back()->description.name + "'";
+  physics::ModelPtr new_model = physics::compile(merged.merge(list, false), title);
+  if (set_gravity) {
+    std::copy(set_gravity->begin(), set_gravity->end(), new_model->opt.gravity);
+  }
+  physics::DataPtr new_data = physics::makeData(*new_model);
+  mj_resetData(new_model.get(), new_data.get());
+  placeInitially(*new_model, new_data.get(), *candidates);
+  std::map<std::string, double> torques;
+  if (model) {
+    physics::carryState(*model, *data, *new_model, new_data.get());
+    for (int j = 0; j < model->njnt; ++j) {
+      torques[nameOf(*model, mjOBJ_JOINT, j)] = motor_side.torque(model->jnt_dofadr[j]);
+    }
+  }
+  // Nothing below throws but for lack of memory.
+  robots.swap(*candidates);
+  if (new_world) {
+    world = std::move(new_world);
+  }
+  ++generation;
+  model.swap(new_model);
+  data.swap(new_data);
+  index();
+  for (const auto& [joint, torque] : torques) {
+    const int id = mj_name2id(model.get(), mjOBJ_JOINT, joint.c_str());
+    if (id >= 0) {
+      motor_side.setTorque(model->jnt_dofadr[id], torque);
+    }
+  }
+}
+
+void World::Impl::index() {
+  visual_mjcf.clear();
+  warned = {};
+  view = {model.get(), data.get(), &motor_side};
+  kinematics_fresh = false;
+  kept_qpos.assign(model->nq, 0.0);
+  preparation.fit(*model);
+  contacts_kept = false;
+  kept_contacts.reserve(model->nconmax);
+  frames.clear();
+  for (int b = 0; b < model->nbody; ++b) {
+    frames[nameOf(*model, mjOBJ_BODY, b)] = {b, Eigen::Isometry3d::Identity()};
+  }
+  for (const physics::BodyAlias& alias : world->aliases()) {
+    const auto body = frames.find(alias.body);
+    if (body != frames.end()) {
+      frames.insert({alias.name, {body->second.body, body->second.pose * alias.pose}});
+    }
+  }
+  for (const auto& robot : robots) {
+    for (const physics::Segment& segment : robot->segments) {
+      const int body =
+          mj_name2id(model.get(), mjOBJ_BODY, robot->urdf.links[segment.link].name.c_str());
+      for (const auto& [link, pose] : segment.links) {
+        frames[robot->urdf.links[link].name] = {body, pose};
+      }
+    }
+  }
+  geom_links.clear();
+  for (int g = 0; g < model->ngeom; ++g) {
+    const std::string link = physics::linkOfGeom(nameOf(*model, mjOBJ_GEOM, g));
+    const auto found = frames.find(link);
+    const bool is_link = found != frames.end() && found->second.body == model->geom_bodyid[g];
+    geom_links.push_back(is_link ? link : nameOf(*model, mjOBJ_BODY, model->geom_bodyid[g]));
+  }
+  std::vector<int> brake_dofs(model->neq, -1);
+  for (int e = 0; e < model->neq; ++e) {
+    const std::string name = nameOf(*model, mjOBJ_EQUALITY, e);
+    const int joint = model->eq_type[e] == mjEQ_JOINT ? model->eq_obj1id[e] : -1;
+    if (joint >= 0 && name == physics::brakeName(nameOf(*model, mjOBJ_JOINT, joint))) {
+      brake_dofs[e] = model->jnt_dofadr[joint];
+    }
+  }
+  motor_side.prepare(*model, std::move(brake_dofs));
+  motor_side.reset(*data);
+  bindPlants();
+  const auto gone = [this](const Push& push) { return frames.count(push.body_name) == 0; };
+  pushes.erase(std::remove_if(pushes.begin(), pushes.end(), gone), pushes.end());
+  for (Push& push : pushes) {
+    push.body = frames[push.body_name].body;
+  }
+}
+
+void World::Impl::bindPlants() {
+  const auto bind = [this](auto* plants) {
+    for (auto it = plants->begin(); it != plants->end();) {
+      auto& plant = *it->second;
+      if (!has(plant.joints()[0])) {
+        it = plants->erase(it);
+        continue;
+      }
+      typename std::decay_t<decltype(plant)>::Slots slots;
+      for (std::size_t i = 0; i < slots.size(); ++i) {
+        slots[i] = slot(plant.joints()[i]);
+      }
+      plant.bind(slots);
+      ++it;
+    }
+  };
+  bind(&arms);
+  bind(&hands);
+  bind(&drives);
+  for (auto& [key, arm] : arms) {
+    arm->restoreBrakes();
+  }
+}
+
+bool World::Impl::has(const std::string& joint) const noexcept {
+  return mj_name2id(model.get(), mjOBJ_JOINT, joint.c_str()) >= 0;
+}
+
+JointSlot World::Impl::slot(const std::string& joint) const {
+  const int id = mj_name2id(model.get(), mjOBJ_JOINT, joint.c_str());
+  if (id < 0) {
+    throw std::runtime_error("There is no joint '" + joint + "' in the simulated world.");
+  }
+  if (model->jnt_type[id] != mjJNT_HINGE && model->jnt_type[id] != mjJNT_SLIDE) {
+    throw std::runtime_error("Joint '" + joint + "' has more than one degree of freedom.");
+  }
+  return {model->jnt_qposadr[id], model->jnt_dofadr[id],
+          mj_name2id(model.get(), mjOBJ_EQUALITY, physics::brakeName(joint).c_str())};
+}
+
+Frame World::Impl::frame(const std::string& body) const {
+  const auto found = frames.find(body);
+  if (body.empty() || found == frames.end()) {
+    throw std::runtime_error("There is no body '" + body + "' in the simulated world.");
+  }
+  return found->second;
+}
+
+int World::Impl::freeJoint(const std::string& body) const {
+  const Frame found = frame(body);
+  const int joint = model->body_jntnum[found.body] > 0 ? model->body_jntadr[found.body] : -1;
+  if (joint < 0 || model->jnt_type[joint] != mjJNT_FREE) {
+    throw std::runtime_error("Body '" + body +
+                             "' is not free to move; it cannot be put elsewhere.");
+  }
+  return joint;
+}
+
+const RobotModel& World::Impl::robot(const std::string& name) const {
+  for (const auto& robot : robots) {
+    if (robot->description.name == name) {
+      return *robot;
+    }
+  }
+  throw std::runtime_error("There is no robot '" + name + "' in the simulated world.");
+}
+
+void World::Impl::checkNewBody(const std::string& body, const std::string& of) const {
+  if (frames.count(body) > 0) {
+    throw std::runtime_error(of + " cannot be put into the simulated world: there is a body '" +
+                             body + "' already; choose another name.");
+  }
+}
+
+void World::Impl::updateKinematics() noexcept {
+  // A step leaves the poses of the state before it.
+  if (kinematics_fresh) {
+    return;
+  }
+  // mj_kinematics normalises quaternions in place; the future must not depend on who looked.
+  std::copy_n(data->qpos, model->nq, kept_qpos.begin());
+  mj_kinematics(model.get(), data.get());
+  std::copy_n(kept_qpos.begin(), model->nq, data->qpos);
+  kinematics_fresh = true;
+}
+
+Eigen::Isometry3d World::Impl::pose(const Frame& frame) {
+  updateKinematics();
+  return poseOf(*data, frame.body) * frame.pose;
+}
+
+void World::Impl::applyPushes() noexcept {
+  kinematics_fresh = false;
+  updateKinematics();
+  mju_zero(data->xfrc_applied, 6 * model->nbody);
+  for (const Push& push : pushes) {
+    // MuJoCo takes forces at the centre of mass.
+    const Eigen::Vector3d point = poseOf(*data, push.body) * push.point;
+    const Eigen::Map<const Eigen::Vector3d> com(data->xipos + 3 * push.body);
+    double* wrench = data->xfrc_applied + 6 * push.body;
+    Eigen::Map<Eigen::Vector3d>(wrench) += push.force;
+    Eigen::Map<Eigen::Vector3d>(wrench + 3) += push.torque + (point - com).cross(push.force);
+  }
+}
+
+void World::Impl::retirePushes() noexcept {
+  for (Push& push : pushes) {
+    --push.ticks_left;
+  }
+  const auto over = [](const Push& push) { return push.ticks_left == 0; };
+  pushes.erase(std::remove_if(pushes.begin(), pushes.end(), over), pushes.end());
+  if (pushes.empty()) {
+    mju_zero(data->xfrc_applied, 6 * model->nbody);
+  }
+}
+
+void World::Impl::stop(const physics::StepFault& why) noexcept {
+  fault = why;
+  mju_zero(data->qvel, model->nv);
+  mju_zero(data->qfrc_applied, model->nv);
+  data->ncon = 0;
+  pushes.clear();
+  motor_side.reset(*data);
+  preparation.drop();
+  kinematics_fresh = false;
+  contacts_kept = false;
+}
+
+void World::Impl::step() noexcept {
+  if (fault) {
+    return;
+  }
+  motor_side.startTick(*model, *data);
+  for (int substep = 0; substep < kSubsteps; ++substep) {
+    if (!pushes.empty()) {
+      applyPushes();
+    }
+    for (auto& [joint, drive] : drives) {
+      drive->prepare(substep + 1, kSubsteps);
+    }
+    if (const auto why = preparation.step(*model, data.get())) {
+      stop(*why);
+      return;
+    }
+    motor_side.addSubstep(*model, *data);
+  }
+  motor_side.finishTick(*model, *data, kSubsteps, kTick);
+  if (!pushes.empty()) {
+    retirePushes();
+  }
+  kinematics_fresh = false;
+  contacts_kept = false;
+  ++ticks;
+}
+
+void World::Impl::prepareStep() noexcept {
+  if (fault) {
+    return;
+  }
+  contacts();
+  contacts_kept = true;
+  preparation.prepare(*model, data.get());
+  kinematics_fresh = true;
+}
+
+const std::vector<GeomContact>& World::Impl::contacts() noexcept {
+  if (contacts_kept) {
+    return kept_contacts;
+  }
+  kept_contacts.clear();
+  for (int c = 0; c < data->ncon; ++c) {
+    const mjContact& contact = data->contact[c];
+    if (contact.efc_address < 0) {
+      continue;
+    }
+    double local[6];
+    mj_contactForce(model.get(), data.get(), c, local);
+    GeomContact& kept = kept_contacts.emplace_back();
+    kept.geom1 = contact.geom1;
+    kept.geom2 = contact.geom2;
+    std::copy_n(contact.pos, 3, kept.position.begin());
+    // Rows of `frame` are the contact's axes; the first points from geom 1 to geom 2.
+    mju_rotVecMatT(kept.force.data(), local, contact.frame);
+  }
+  return kept_contacts;
+}
+
+void World::Impl::reset() {
+  mj_resetData(model.get(), data.get());
+  placeInitially(*model, data.get(), robots);
+  for (auto& [key, arm] : arms) {
+    arm->reset();
+  }
+  for (auto& [joint, drive] : drives) {
+    drive->reset();
+  }
+  pushes.clear();
+  forgetFaults();
+  motor_side.reset(*data);
+  preparation.drop();
+  contacts_kept = false;
+  kinematics_fresh = false;
+  ticks = 0;
+}
+
+}  // namespace franka_sim

@@ -1,0 +1,113 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/world.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "physics/compile.h"
+#include "physics/mjcf_world.h"
+#include "physics/motor_side.h"
+#include "physics/plants.h"
+#include "physics/step_preparation.h"
+
+namespace franka_sim {
+
+/// A force at a point fixed to a body, for a number of ticks.
+struct Push {
+  std::string body_name;  ///< to find the body again in a new model
+  int body;
+  Eigen::Vector3d point;          ///< MuJoCo body frame [m]
+  Eigen::Vector3d force, torque;  ///< world axes [N] [Nm]
+  std::uint64_t ticks_left;
+};
+
+/// A contact in a step, with the force that acted on the second geom.
+struct GeomContact {
+  int geom1, geom2;
+  std::array<double, 3> position, force;  ///< world axes [m] [N]
+};
+
+/// A link or body by its name: a MuJoCo body and the fixed pose in it.
+struct Frame {
+  int body;
+  Eigen::Isometry3d pose;
+};
+
+struct World::Impl {
+  Impl(const std::string& file, ResourceResolver resolve);
+
+  // World file with objects, and robots, in the order they came.
+  std::unique_ptr<physics::MjcfWorld> world;
+  std::vector<std::unique_ptr<physics::RobotModel>> robots;
+  std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms;      ///< "<robot>/<arm_id>"
+  std::map<std::string, std::unique_ptr<physics::MujocoHand>> hands;    ///< "<robot>/<arm_id>"
+  std::map<std::string, std::unique_ptr<physics::MujocoDrive>> drives;  ///< by the joint's name
+
+  // The merged model and its state.
+  physics::ModelPtr model;
+  physics::DataPtr data;
+  physics::MotorSide motor_side;
+  physics::PlantView view;
+  std::map<std::string, Frame> frames;
+  std::vector<std::string> geom_links;  ///< per geom, the link or body shown in contacts
+  std::vector<Push> pushes;
+  std::uint64_t ticks{0};
+  physics::StepPreparation preparation;
+  // Contacts of the last step, once those of the step to come have taken their place in the data.
+  bool contacts_kept{false};
+  std::vector<GeomContact> kept_contacts;
+  bool kinematics_fresh{false};
+  std::vector<double> kept_qpos;            ///< room for a copy, so that looking allocates nothing
+  std::optional<physics::StepFault> fault;  ///< the world stands still because of it
+  std::string fault_text;                   ///< its sentence; written when first asked for
+  std::array<bool, mjNWARNING> warned{};    ///< MuJoCo's warnings that were taken
+  std::string visual_mjcf;                  ///< for pictures; written when first asked for
+
+  /// The model number: snapshots hold for one.
+  std::uint64_t generation{0};
+  std::optional<std::array<double, 3>> set_gravity;  ///< other than the world file's
+
+  /// The merged model of the given robots with the present state carried over by name. Strong
+  /// guarantee. @param new_world takes the place of the present one, unless null
+  void rebuild(std::vector<std::unique_ptr<physics::RobotModel>>* candidates,
+               std::unique_ptr<physics::MjcfWorld> new_world = nullptr);
+  /// Copies of the present robots, to build candidates from.
+  std::vector<std::unique_ptr<physics::RobotModel>> copyRobots() const;
+  /// @throws std::runtime_error when a body of that name is there
+  void checkNewBody(const std::string& body, const std::string& of) const;
+  void step() noexcept;
+  void prepareStep() noexcept;
+  const std::vector<GeomContact>& contacts() noexcept;  ///< of the last step
+  const std::string& faultText();
+  void requireRuns();  ///< throws the fault's sentence
+  void forgetFaults() noexcept;
+  void reset();
+  std::uint64_t hash() const noexcept;
+
+  physics::JointSlot slot(const std::string& joint) const;  ///< throws
+  Frame frame(const std::string& body) const;               ///< throws
+  int freeJoint(const std::string& body) const;             ///< joint id; throws
+  Eigen::Isometry3d pose(const Frame& frame);
+  void updateKinematics() noexcept;
+  bool has(const std::string& joint) const noexcept;
+  const physics::RobotModel& robot(const std::string& name) const;  ///< throws
+
+ private:
+  void placeInitially(const mjModel& m, mjData* d,
+                      const std::vector<std::unique_ptr<physics::RobotModel>>& all) const;
+  void index();
+  void bindPlants();
+  void stop(const physics::StepFault& why) noexcept;
+  void applyPushes() noexcept;
+  void retirePushes() noexcept;
+};
+
+}  // namespace franka_sim

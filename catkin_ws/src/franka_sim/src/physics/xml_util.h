@@ -1,0 +1,54 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <Eigen/Geometry>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace franka_sim::physics {
+
+/// Shortest text of numbers that reads back to the same doubles, separated by blanks.
+std::string toText(const double* values, std::size_t count);
+std::string toText(std::initializer_list<double> values);
+std::string toText(const Eigen::Vector3d& vector);
+/// w x y z, as MuJoCo wants it.
+std::string toText(const Eigen::Quaterniond& quaternion);
+
+/// Reads numbers separated by white space. Independent of the locale.
+/// @throws std::runtime_error "<where>: ..." when one is no finite number.
+std::vector<double> toNumbers(const std::string& text, const std::string& where);
+
+/// The attribute's numbers; `fallback` when the attribute is missing.
+/// @throws std::runtime_error when it does not hold exactly `fallback.size()` finite numbers.
+std::vector<double> numbers(const tinyxml2::XMLElement& element, const char* attribute,
+                            const std::vector<double>& fallback, const std::string& where);
+/// The attribute's one number. @throws std::runtime_error when it is missing or no finite number.
+double number(const tinyxml2::XMLElement& element, const char* attribute, const std::string& where);
+/// The attribute's text. @throws std::runtime_error when missing or empty.
+std::string required(const tinyxml2::XMLElement& element, const char* attribute,
+                     const std::string& where);
+/// The attribute's text, empty when missing.
+std::string optional(const tinyxml2::XMLElement& element, const char* attribute);
+
+/// The text of a child element, empty when there is none.
+std::string childText(const tinyxml2::XMLElement& element, const char* name);
+/// Whether a child element says true or 1; `fallback` when there is none.
+bool isTrue(const tinyxml2::XMLElement& element, const char* name, bool fallback = false);
+/// The numbers in a child element; `fallback` when there is none.
+/// @throws std::runtime_error when it does not hold exactly `fallback.size()` finite numbers.
+std::vector<double> childNumbers(const tinyxml2::XMLElement& element, const char* name,
+                                 const std::vector<double>& fallback, const std::string& where);
+
+/// Appends a child element and returns it.
+tinyxml2::XMLElement* append(tinyxml2::XMLNode* parent, const char* name);
+/// Sets position and quaternion attributes, leaving out what is the identity.
+void setPose(tinyxml2::XMLElement* element, const Eigen::Isometry3d& pose);
+
+/// Printed document.
+std::string toText(const tinyxml2::XMLDocument& document);
+
+}  // namespace franka_sim::physics

@@ -1,0 +1,65 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/collision.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace franka_sim {
+
+namespace {
+
+std::string against(const Collision& collision, const char* quantity, const char* unit) {
+  char text[120];
+  std::snprintf(text, sizeof(text), "external %s %.4g %s, upper threshold %.4g %s", quantity,
+                collision.value, unit, collision.threshold, unit);
+  return text;
+}
+
+}  // namespace
+
+template <std::size_t N>
+Collision worstOf(const std::array<double, N>& values,
+                  const std::array<double, N>& upper) noexcept {
+  Collision worst;
+  for (std::size_t i = 0; i < N; i++) {
+    const double value = std::abs(values[i]);
+    // Ratios, multiplied out: a threshold may be 0.
+    if (value > upper[i] &&
+        (!worst.happened || value * worst.threshold > std::abs(worst.value) * upper[i])) {
+      worst = {true, i, values[i], upper[i]};
+    }
+  }
+  return worst;
+}
+
+template <std::size_t N>
+std::array<double, N> above(const std::array<double, N>& values,
+                            const std::array<double, N>& thresholds) noexcept {
+  std::array<double, N> flags{};
+  for (std::size_t i = 0; i < N; i++) {
+    flags[i] = std::abs(values[i]) > thresholds[i] ? 1.0 : 0.0;
+  }
+  return flags;
+}
+
+std::string describeJointCollision(const Collision& collision) {
+  return "joint " + std::to_string(collision.index + 1) + ": " + against(collision, "torque", "Nm");
+}
+
+std::string describeCartesianCollision(const Collision& collision, ThresholdFrame frame) {
+  static constexpr const char* kAxes[] = {"x", "y", "z"};
+  const std::string axis = std::string(kAxes[collision.index % 3]) +
+                           (frame == ThresholdFrame::kBase ? " of O" : " of K");
+  return collision.index < 3 ? "along " + axis + ": " + against(collision, "force", "N")
+                             : "about " + axis + ": " + against(collision, "torque", "Nm");
+}
+
+template Collision worstOf(const std::array<double, 6>&, const std::array<double, 6>&) noexcept;
+template Collision worstOf(const std::array<double, 7>&, const std::array<double, 7>&) noexcept;
+template std::array<double, 6> above(const std::array<double, 6>&,
+                                     const std::array<double, 6>&) noexcept;
+template std::array<double, 7> above(const std::array<double, 7>&,
+                                     const std::array<double, 7>&) noexcept;
+
+}  // namespace franka_sim

@@ -1,0 +1,35 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/force_watch.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace franka_sim {
+
+namespace {
+
+constexpr double kTolerance = 10.0;  // [Nm]
+constexpr int kPatience = 100;       // [ticks]
+
+}  // namespace
+
+std::optional<ErrorFlag> ForceWatch::update(const std::array<double, 7>& tau_ext,
+                                            const std::array<double, 7>& achieved,
+                                            const std::array<double, 7>& desired,
+                                            const std::array<double, 7>& range) noexcept {
+  bool misses = false;
+  for (std::size_t i = 0; i < 7; i++) {
+    if (std::abs(tau_ext[i]) > range[i]) {
+      return ErrorFlag::kForceControlSafety;
+    }
+    misses = misses || std::abs(achieved[i] - desired[i]) > kTolerance;
+  }
+  missed_ = misses ? missed_ + 1 : 0;
+  if (missed_ >= kPatience) {
+    return ErrorFlag::kForceTolerance;
+  }
+  return std::nullopt;
+}
+
+}  // namespace franka_sim

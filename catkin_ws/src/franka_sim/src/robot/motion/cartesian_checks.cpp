@@ -1,0 +1,211 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/motion/cartesian_checks.h"
+
+#include <franka_core/arm_model.h>
+#include <franka_sim/robot/tick.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "robot/motion/as_echoed.h"
+#include "robot/motion/rotations.h"
+
+namespace franka_sim {
+
+namespace {
+
+using Eigen::Vector3d;
+using Derivative = std::array<double, 6>;
+using Matrix = Eigen::Map<const Eigen::Matrix4d>;
+using MutableMatrix = Eigen::Map<Eigen::Matrix4d>;
+
+// A client's rate limiter shortens an acceleration that would leave the sphere of allowed speeds,
+// in one tick if it must, and so beyond the jerk limit. A rate-limited client is never aborted, so
+// the same is right here. What its margins (lost packets, 99 % of the rotation limits) may cost:
+constexpr double kSpeedMargin = 0.005;  // [s]: acceleration times this is kept free
+constexpr double kSpeedShare = 0.985;
+constexpr double kBrakingShare = 0.999;
+constexpr double kElbowMargin = 1e-3;  // [rad/s]
+// Floats leave a rotation a little skew, which turns the direction of a small acceleration.
+constexpr double kAccelerationNoise = 5e-4;   // [m/s^2], [rad/s^2]
+constexpr double kMostDirectionNoise = 0.01;  // [rad]
+
+Vector3d part(const Derivative& values, std::size_t first) noexcept {
+  return {values[first], values[first + 1], values[first + 2]};
+}
+
+// How much speed fits in a direction until the sphere of radius highest ends.
+double roomFor(const Vector3d& direction, const Vector3d& velocity, double highest) noexcept {
+  const double along = direction.dot(velocity);
+  const double square = along * along - velocity.squaredNorm() + highest * highest;
+  return std::sqrt(std::max(square, 0.0)) - along;
+}
+
+// How far the ray along a direction, from a length on, stays from a point.
+double distanceToRay(const Vector3d& direction, double from, const Vector3d& point) noexcept {
+  const double nearest = std::max(from, direction.dot(point));
+  return (nearest * direction - point).norm();
+}
+
+// Whether the acceleration is one within the jerk limit, shortened because speed ends; beyond the
+// sphere the limiter turns it round.
+bool isShortened(const CartesianSample& step, const CartesianSample& last, std::size_t first,
+                 const franka_core::DerivativeLimits& limits) noexcept {
+  const Vector3d acceleration = part(step.acceleration, first);
+  const Vector3d before = part(last.acceleration, first);
+  const Vector3d velocity = part(last.twist, first);
+  const double size = acceleration.norm();
+  const double highest = kSpeedShare * (limits.velocity - kSpeedMargin * limits.acceleration);
+  if (!(size > 0.0)) {
+    return velocity.norm() >= highest;
+  }
+  const Vector3d direction = acceleration / size;
+  const double gain = limits.jerk / limits.acceleration;
+  const double reach = limits.jerk * kTick;
+  const double noise = std::min(kAccelerationNoise / size, kMostDirectionNoise) * limits.velocity;
+  const double least = gain * (roomFor(direction, velocity, highest) - noise) * kBrakingShare;
+  const double hardest = gain * (noise - roomFor(-direction, velocity, highest)) / kBrakingShare;
+  return (size >= least && distanceToRay(direction, size, before) <= reach) ||
+         (size <= hardest && distanceToRay(-direction, 0.0, before) <= reach);
+}
+
+bool positionFails(const ElbowSample& step, const ElbowSample& last,
+                   const MotionLimits& limits) noexcept {
+  return !(step.q3 <= std::max(limits.arm.q_max[2], last.q3) &&
+           step.q3 >= std::min(limits.arm.q_min[2], last.q3));
+}
+
+template <typename Bound>
+bool anyFails(const Derivative& values, const MotionLimits& limits, Bound bound) noexcept {
+  return !(part(values, 0).norm() <= bound(limits.arm.translation)) ||
+         !(part(values, 3).norm() <= bound(limits.arm.rotation));
+}
+
+bool jerkFails(const CartesianSample& step, const CartesianSample& last, std::size_t first,
+               const franka_core::DerivativeLimits& limits) noexcept {
+  return !(part(step.jerk, first).norm() <= limits.jerk) && !isShortened(step, last, first, limits);
+}
+
+// The same for the elbow: it may brake as hard as the limiter's law asks of one that comes close to
+// the limiter's speed.
+bool elbowBrakes(const ElbowSample& step, const ElbowSample& last,
+                 const franka_core::DerivativeLimits& limiter) noexcept {
+  const double towards = step.dddq3 < 0.0 ? 1.0 : -1.0;
+  const double room = limiter.velocity - kElbowMargin - towards * last.dq3;
+  const double hardest = limiter.jerk / limiter.acceleration * room;
+  return towards * step.ddq3 >= hardest - (1.0 - kBrakingShare) * std::abs(hardest);
+}
+
+bool elbowJerks(const ElbowSample& step, const ElbowSample& last,
+                const MotionLimits& limits) noexcept {
+  return !(std::abs(step.dddq3) <= limits.arm.elbow.jerk) &&
+         !elbowBrakes(step, last, limits.arm.elbow);
+}
+
+void moveElbow(const ElbowSample& last, double q3, ElbowSample& step) noexcept {
+  step.q3 = q3;
+  step.dq3 = (q3 - last.q3) / kTick;
+  step.ddq3 = (step.dq3 - last.dq3) / kTick;
+  step.dddq3 = (step.ddq3 - last.ddq3) / kTick;
+}
+
+void differentiate(const CartesianSample& last, CartesianSample& step) noexcept {
+  for (std::size_t i = 0; i < 6; i++) {
+    step.acceleration[i] = (step.twist[i] - last.twist[i]) / kTick;
+    step.jerk[i] = (step.acceleration[i] - last.acceleration[i]) / kTick;
+  }
+}
+
+// The pose one tick further at a twist in O.
+Transform moved(const Transform& pose, const Derivative& twist) noexcept {
+  const Matrix from(pose.data());
+  Transform result = franka_core::kIdentityTransform;
+  MutableMatrix to(result.data());
+  const Eigen::Matrix3d turned = rotationFrom(part(twist, 3) * kTick) * from.topLeftCorner<3, 3>();
+  to.topLeftCorner<3, 3>() = orthonormalised(turned);
+  to.topRightCorner<3, 1>() = from.topRightCorner<3, 1>() + part(twist, 0) * kTick;
+  return result;
+}
+
+}  // namespace
+
+MotionFault judge(const CartesianSample& step, const CartesianSample& last,
+                  const MotionLimits& limits) noexcept {
+  using Bounds = franka_core::DerivativeLimits;
+  const Bounds elbow = limits.elbow();
+  if (positionFails(step.elbow, last.elbow, limits)) {
+    return MotionFlag::kElbowLimit;
+  }
+  if (anyFails(step.twist, limits, [](const Bounds& b) { return b.velocity; })) {
+    return MotionFlag::kCartesianVelocity;
+  }
+  if (!(std::abs(step.elbow.dq3) <= elbow.velocity)) {
+    return MotionFlag::kElbowLimit;
+  }
+  if (anyFails(step.acceleration, limits, [](const Bounds& b) { return b.acceleration; })) {
+    return MotionFlag::kCartesianAcceleration;
+  }
+  if (!(std::abs(step.elbow.ddq3) <= elbow.acceleration)) {
+    return MotionFlag::kElbowLimit;
+  }
+  if (jerkFails(step, last, 0, limits.arm.translation) ||
+      jerkFails(step, last, 3, limits.arm.rotation)) {
+    return MotionFlag::kCartesianJerk;
+  }
+  if (elbowJerks(step.elbow, last.elbow, limits)) {
+    return MotionFlag::kElbowLimit;
+  }
+  return {};
+}
+
+CartesianSample stepToPose(const CartesianSample& last, const Transform& pose, double q3) noexcept {
+  const Matrix from(last.pose.data());
+  const Matrix to(pose.data());
+  CartesianSample step;
+  step.pose = pose;
+  Eigen::Map<Vector3d>(step.twist.data()) =
+      (to.topRightCorner<3, 1>() - from.topRightCorner<3, 1>()) / kTick;
+  const Eigen::Matrix3d turn = to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose();
+  Eigen::Map<Vector3d>(step.twist.data() + 3) = vectorOf(turn) / kTick;
+  differentiate(last, step);
+  moveElbow(last.elbow, q3, step.elbow);
+  return step;
+}
+
+CartesianSample stepByTwist(const CartesianSample& last, const Derivative& twist,
+                            double q3) noexcept {
+  CartesianSample step;
+  step.twist = twist;
+  step.pose = moved(last.pose, twist);
+  differentiate(last, step);
+  moveElbow(last.elbow, q3, step.elbow);
+  return step;
+}
+
+CartesianSample stepByAcceleration(const CartesianSample& last) noexcept {
+  CartesianSample step;
+  step.acceleration = last.acceleration;
+  for (std::size_t i = 0; i < 6; i++) {
+    step.twist[i] = last.twist[i] + last.acceleration[i] * kTick;
+  }
+  step.pose = moved(last.pose, step.twist);
+  step.elbow.ddq3 = last.elbow.ddq3;
+  step.elbow.dq3 = last.elbow.dq3 + last.elbow.ddq3 * kTick;
+  step.elbow.q3 = last.elbow.q3 + step.elbow.dq3 * kTick;
+  return step;
+}
+
+CartesianSample asEchoed(const CartesianSample& sample) noexcept {
+  CartesianSample seen = sample;
+  seen.pose = asEchoed(sample.pose);
+  seen.twist = asEchoed(sample.twist);
+  seen.acceleration = asEchoed(sample.acceleration);
+  seen.elbow.q3 = asEchoed(sample.elbow.q3);
+  seen.elbow.dq3 = asEchoed(sample.elbow.dq3);
+  seen.elbow.ddq3 = asEchoed(sample.elbow.ddq3);
+  return seen;
+}
+
+}  // namespace franka_sim

@@ -1,0 +1,31 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/motion/joint_motion.h>
+#include <franka_sim/robot/motion/motion_limits.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// Which flag speaks for which stage, and how far the jerk may go.
+struct JointFlags {
+  MotionFlag position, velocity, acceleration, jerk;
+  double jerk_factor;
+};
+
+/// The first stage, position to jerk, that a step fails.
+/// @param last the sample before it.
+MotionFault judge(const JointSample& step, const JointSample& last, const JointFlags& flags,
+                  const MotionLimits& limits) noexcept;
+
+/// The step from last to positions [rad], or by velocities [rad/s].
+JointSample stepToPositions(const JointSample& last, const std::array<double, 7>& q) noexcept;
+JointSample stepByVelocities(const JointSample& last, const std::array<double, 7>& dq) noexcept;
+/// The step that keeps the acceleration.
+JointSample stepByAcceleration(const JointSample& last) noexcept;
+/// A history as a client saw it in states of 32 bit floats.
+JointSample asEchoed(const JointSample& sample) noexcept;
+
+}  // namespace franka_sim

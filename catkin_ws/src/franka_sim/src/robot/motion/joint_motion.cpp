@@ -1,0 +1,125 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/motion/joint_motion.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "robot/motion/joint_checks.h"
+
+namespace franka_sim {
+
+namespace {
+
+constexpr double kStartTolerance = 1e-3;  // [rad] (decision 13)
+// How much harder than commanded joints those may jerk that follow a Cartesian command (our
+// choice). Steps from one acceleration limit to the other are 4 times the jerk limit, so that any
+// factor above would leave the flag without a meaning.
+constexpr double kSolvedJerkFactor = 3.5;
+
+JointFlags commanded(const MotionLimits& limits) noexcept {
+  return {limits.positionFlag(false), MotionFlag::kJointVelocity, MotionFlag::kJointAcceleration,
+          MotionFlag::kJointJerk, 1.0};
+}
+
+JointFlags solved(const MotionLimits& limits) noexcept {
+  return {limits.positionFlag(true), MotionFlag::kSolvedJointVelocity,
+          MotionFlag::kSolvedJointAcceleration, MotionFlag::kSolvedJointJerk, kSolvedJerkFactor};
+}
+
+bool allFinite(const std::array<double, 7>& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+using Step = JointSample (*)(const JointSample&, const std::array<double, 7>&);
+
+// Fails only what fails against both histories; the exact one names the flag.
+MotionFault judgeBoth(Step make, const std::array<double, 7>& command, const JointSample& last,
+                      const MotionLimits& limits) noexcept {
+  const JointFlags flags = commanded(limits);
+  const MotionFault fault = judge(make(last, command), last, flags, limits);
+  if (!fault || !limits.echoes_floats) {
+    return fault;
+  }
+  const JointSample seen = asEchoed(last);
+  return judge(make(seen, command), seen, flags, limits) ? fault : MotionFault{};
+}
+
+}  // namespace
+
+void JointMotion::start(const std::array<double, 7>& q) noexcept {
+  last_ = JointSample{};
+  last_.q = q;
+  started_ = false;
+}
+
+MotionFault JointMotion::takePositions(const std::array<double, 7>& q_c,
+                                       const MotionLimits& limits) noexcept {
+  if (!allFinite(q_c)) {
+    return MotionFlag::kJointVelocity;  // no velocity leads there
+  }
+  JointSample step = stepToPositions(last_, q_c);
+  if (!started_) {
+    for (std::size_t i = 0; i < 7; i++) {
+      if (std::abs(q_c[i] - last_.q[i]) > kStartTolerance) {
+        return MotionFlag::kJointStartPose;
+      }
+    }
+    step = JointSample{};
+    step.q = q_c;
+  }
+  const MotionFault fault = started_ ? judgeBoth(stepToPositions, q_c, last_, limits)
+                                     : judge(step, last_, commanded(limits), limits);
+  if (!fault) {
+    last_ = step;
+    started_ = true;
+  }
+  return fault;
+}
+
+MotionFault JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
+                                        const MotionLimits& limits) noexcept {
+  if (!allFinite(dq_c)) {
+    return MotionFlag::kJointVelocity;
+  }
+  const MotionFault fault = judgeBoth(stepByVelocities, dq_c, last_, limits);
+  if (!fault) {
+    last_ = stepByVelocities(last_, dq_c);
+    started_ = true;
+  }
+  return fault;
+}
+
+MotionFault JointMotion::takeSolved(const std::array<double, 7>& q, bool first,
+                                    const MotionLimits& limits) noexcept {
+  JointSample step = stepToPositions(last_, q);
+  if (first) {
+    step = JointSample{};
+    step.q = q;
+  }
+  const MotionFault fault = judge(step, last_, solved(limits), limits);
+  if (!fault) {
+    last_ = step;
+    started_ = true;
+  }
+  return fault;
+}
+
+MotionFault JointMotion::extrapolate(const MotionLimits& limits) noexcept {
+  if (!started_) {
+    return {};
+  }
+  const JointSample step = stepByAcceleration(last_);
+  const MotionFault fault = judge(step, last_, commanded(limits), limits);
+  if (!fault) {
+    last_ = step;
+  }
+  return fault;
+}
+
+MotionFault JointMotion::checkStop(const MotionLimits& limits) const noexcept {
+  return judge(stepByVelocities(last_, {}), last_, commanded(limits), limits);
+}
+
+}  // namespace franka_sim

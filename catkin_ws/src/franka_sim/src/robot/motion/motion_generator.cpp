@@ -1,0 +1,230 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/limits.h>
+#include <franka_sim/robot/motion/motion_generator.h>
+#include <franka_sim/robot/tick.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace franka_sim {
+
+namespace {
+
+using franka_core::ArmFrame;
+using franka_core::ArmModel;
+using franka_core::MotionGeneratorMode;
+using Joints = std::array<double, 7>;
+using Twist = std::array<double, 6>;
+
+constexpr double kAcceleratingShare = 0.1;  // of an acceleration limit (decision 15)
+constexpr double kEcho = 1e-6;  // [rad] that a position may lose on its way to the client and back
+
+bool allFinite(const Joints& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool allPositive(const Joints& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
+}
+
+double elbowSign(const Joints& q) noexcept { return q[3] >= franka_core::kElbowFlip ? 1.0 : -1.0; }
+
+std::array<double, 2> elbowOf(const Joints& q) noexcept { return {{q[2], elbowSign(q)}}; }
+
+Twist twistOf(const std::array<double, 42>& jacobian, const Joints& dq) noexcept {
+  Twist twist;
+  Eigen::Map<Eigen::Matrix<double, 6, 1>>(twist.data()) =
+      Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data())
+          .lazyProduct(Eigen::Map<const Eigen::Matrix<double, 7, 1>>(dq.data()));
+  return twist;
+}
+
+double norm(const Twist& twist, std::size_t first) noexcept {
+  return Eigen::Map<const Eigen::Vector3d>(twist.data() + first).norm();
+}
+
+bool isCartesianMode(MotionGeneratorMode mode) noexcept {
+  return mode == MotionGeneratorMode::kCartesianPosition ||
+         mode == MotionGeneratorMode::kCartesianVelocity;
+}
+
+bool isJointMode(MotionGeneratorMode mode) noexcept {
+  return mode == MotionGeneratorMode::kJointPosition || mode == MotionGeneratorMode::kJointVelocity;
+}
+
+bool isPossible(const MotionStart& start) noexcept {
+  if (!allFinite(start.q_d)) {
+    return false;
+  }
+  if (start.asynchronous) {
+    return start.mode == MotionGeneratorMode::kJointPosition && allFinite(start.maximum_velocity) &&
+           allPositive(start.maximum_velocity);
+  }
+  return isJointMode(start.mode) || isCartesianMode(start.mode);
+}
+
+}  // namespace
+
+MotionGenerator::MotionGenerator(const MotionLimits& limits) noexcept : limits_(limits) {}
+
+bool MotionGenerator::isCartesian() const noexcept { return isCartesianMode(start_.mode); }
+
+MotionStartResult MotionGenerator::start(const MotionStart& start, const ArmModel& model) noexcept {
+  if (!isPossible(start)) {
+    return MotionStartResult::kInvalidArgument;
+  }
+  if (isCartesianMode(start.mode) &&
+      InverseKinematics::isSingular(start.q_d, start.F_T_EE, model)) {
+    return MotionStartResult::kSingular;
+  }
+  start_ = start;
+  solved_ = false;
+  finishing_ = false;
+  joints_.start(start.q_d);
+  async_.start(start.q_d, start.maximum_velocity);
+  desired_ = DesiredMotion{};
+  showJoints(model);
+  cartesian_.start(desired_.O_T_EE_c, desired_.elbow_c);
+  return MotionStartResult::kStarted;
+}
+
+MotionStep MotionGenerator::step(const franka_core::RobotCommand* command,
+                                 const ArmModel& model) noexcept {
+  MotionStep result;
+  const bool asked = command != nullptr && command->motion_generation_finished;
+  if (start_.asynchronous) {
+    if (asked) {
+      async_.stop();
+      finishing_ = true;
+    }
+    // What ends the motion is no target: genuine clients leave its numbers zero.
+    result.fault = advanceAsync(finishing_ ? nullptr : command);
+    result.finished = finishing_ && async_.atRest();
+  } else {
+    result.fault = isCartesian() ? advanceCartesian(command, model) : advanceJoints(command);
+    result.finished = asked;
+    if (asked && !result.fault) {
+      result.fault = isCartesian() ? cartesian_.checkStop(limits_) : joints_.checkStop(limits_);
+    }
+  }
+  if (!result.fault && !isCartesian()) {
+    showJoints(model);
+  }
+  return result;
+}
+
+MotionFault MotionGenerator::advanceAsync(const franka_core::RobotCommand* command) noexcept {
+  if (command != nullptr) {
+    if (!allFinite(command->q_c)) {
+      return MotionFlag::kJointVelocity;  // no velocity leads there
+    }
+    Joints target;
+    for (std::size_t i = 0; i < 7; i++) {
+      // Where the arm is it may stay, and from beyond its reach it may come back.
+      const double here = async_.position()[i];
+      const franka_core::JointRange reach = limits_.reach(i);
+      const double highest = std::max(reach.highest, here);
+      const double lowest = std::min(reach.lowest, here);
+      if (command->q_c[i] > highest + kEcho || command->q_c[i] < lowest - kEcho) {
+        return limits_.positionFlag(false);
+      }
+      target[i] = std::min(std::max(command->q_c[i], lowest), highest);
+    }
+    async_.setTarget(target);
+  }
+  async_.step(limits_);
+  joints_.follow(async_.sample());
+  return {};
+}
+
+MotionFault MotionGenerator::advanceJoints(const franka_core::RobotCommand* command) noexcept {
+  if (command == nullptr) {
+    return joints_.extrapolate(limits_);
+  }
+  return start_.mode == MotionGeneratorMode::kJointPosition
+             ? joints_.takePositions(command->q_c, limits_)
+             : joints_.takeVelocities(command->dq_c, limits_);
+}
+
+MotionFault MotionGenerator::advanceCartesian(const franka_core::RobotCommand* command,
+                                              const ArmModel& model) noexcept {
+  MotionFault fault;
+  if (command == nullptr) {
+    fault = cartesian_.extrapolate(limits_);
+  } else {
+    const ElbowCommand elbow{command->valid_elbow, command->elbow_c};
+    const double sign = elbowSign(desired_.q_d);
+    fault = start_.mode == MotionGeneratorMode::kCartesianPosition
+                ? cartesian_.takePose(command->O_T_EE_c, elbow, sign, limits_)
+                : cartesian_.takeTwist(command->O_dP_EE_c, elbow, sign, limits_);
+  }
+  const bool waiting = command == nullptr && !solved_;
+  if (fault || waiting) {
+    return fault;
+  }
+  const CartesianSample& wanted = cartesian_.last();
+  const InverseKinematics::Solution solution =
+      InverseKinematics::solve(desired_.q_d, wanted.pose, wanted.elbow.q3, start_.F_T_EE, model);
+  fault = joints_.takeSolved(solution.q, !solved_, limits_);
+  if (!fault) {
+    solved_ = true;
+    showCartesian(solution);
+  }
+  return fault;
+}
+
+void MotionGenerator::showJoints(const ArmModel& model) noexcept {
+  const JointSample& sample = joints_.last();
+  const Twist before = desired_.O_dP_EE_c;
+  desired_.q_d = sample.q;
+  desired_.dq_d = sample.dq;
+  desired_.ddq_d = sample.ddq;
+  desired_.O_T_EE_c = model.pose(ArmFrame::kEndEffector, sample.q, start_.F_T_EE);
+  desired_.O_T_EE_d = desired_.O_T_EE_c;
+  desired_.O_dP_EE_c =
+      twistOf(model.zeroJacobian(ArmFrame::kEndEffector, sample.q, start_.F_T_EE), sample.dq);
+  desired_.O_dP_EE_d = desired_.O_dP_EE_c;
+  for (std::size_t i = 0; i < 6; i++) {
+    desired_.O_ddP_EE_c[i] = (desired_.O_dP_EE_c[i] - before[i]) / kTick;
+  }
+  desired_.elbow_c = elbowOf(sample.q);
+  desired_.elbow_d = desired_.elbow_c;
+  desired_.delbow_c = {{sample.dq[2], 0.0}};
+  desired_.ddelbow_c = {{sample.ddq[2], 0.0}};
+  showAcceleration();
+}
+
+void MotionGenerator::showCartesian(const InverseKinematics::Solution& solution) noexcept {
+  const JointSample& sample = joints_.last();
+  const CartesianSample& commanded = cartesian_.last();
+  desired_.q_d = sample.q;
+  desired_.dq_d = sample.dq;
+  desired_.ddq_d = sample.ddq;
+  desired_.O_T_EE_c = commanded.pose;
+  desired_.O_dP_EE_c = commanded.twist;
+  desired_.O_ddP_EE_c = commanded.acceleration;
+  desired_.O_T_EE_d = solution.O_T_EE;
+  desired_.O_dP_EE_d = twistOf(solution.jacobian, sample.dq);
+  desired_.elbow_d = elbowOf(sample.q);
+  desired_.elbow_c = {{commanded.elbow.q3, elbowSign(sample.q)}};
+  desired_.delbow_c = {{commanded.elbow.dq3, 0.0}};
+  desired_.ddelbow_c = {{commanded.elbow.ddq3, 0.0}};
+  desired_.near_singularity = solution.near_singularity;
+  showAcceleration();
+}
+
+void MotionGenerator::showAcceleration() noexcept {
+  const franka_core::ArmLimits& arm = limits_.arm;
+  bool accelerating =
+      norm(desired_.O_ddP_EE_c, 0) > kAcceleratingShare * arm.translation.acceleration ||
+      norm(desired_.O_ddP_EE_c, 3) > kAcceleratingShare * arm.rotation.acceleration;
+  for (std::size_t i = 0; i < 7; i++) {
+    accelerating = accelerating || std::abs(desired_.ddq_d[i]) > kAcceleratingShare * arm.ddq[i];
+  }
+  desired_.accelerating = accelerating;
+}
+
+}  // namespace franka_sim

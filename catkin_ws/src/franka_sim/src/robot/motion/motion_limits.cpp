@@ -1,0 +1,63 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/motion/motion_limits.h>
+
+#include <algorithm>
+
+namespace franka_sim {
+
+namespace {
+constexpr unsigned kFirstFr3 = 6;
+constexpr unsigned kFirstOf572 = 9;  // system 5.7.2: flags 12 and 27 are gone
+constexpr unsigned kFirstOf59 = 10;  // system 5.9: floats on the wire, its own limit tables
+}  // namespace
+
+double MotionLimits::highestVelocity(std::size_t joint, double q) const noexcept {
+  const double limit = arm.dq[joint];
+  return position_velocity
+             ? std::min(limit, franka_core::upperVelocityLimit(velocity_near_ends, joint, q))
+             : limit;
+}
+
+double MotionLimits::lowestVelocity(std::size_t joint, double q) const noexcept {
+  const double limit = -arm.dq[joint];
+  return position_velocity
+             ? std::max(limit, franka_core::lowerVelocityLimit(velocity_near_ends, joint, q))
+             : limit;
+}
+
+franka_core::JointRange MotionLimits::reach(std::size_t joint) const noexcept {
+  franka_core::JointRange range{arm.q_min[joint], arm.q_max[joint]};
+  if (position_velocity) {
+    const franka_core::JointRange alive = franka_core::reachOf(velocity_near_ends, joint);
+    range.lowest = std::max(range.lowest, alive.lowest);
+    range.highest = std::min(range.highest, alive.highest);
+  }
+  return range;
+}
+
+franka_core::DerivativeLimits MotionLimits::elbow() const noexcept {
+  franka_core::DerivativeLimits limits = arm.elbow;
+  limits.velocity = std::max(limits.velocity, arm.documented_elbow_velocity);
+  return limits;
+}
+
+MotionFlag MotionLimits::positionFlag(bool solved) const noexcept {
+  if (!own_position_flags) {
+    return MotionFlag::kJointPositionLimits;
+  }
+  return solved ? MotionFlag::kSolvedJointPosition : MotionFlag::kCommandedJointPosition;
+}
+
+MotionLimits motionLimitsOfProtocol(unsigned version) noexcept {
+  MotionLimits limits;
+  limits.arm = franka_core::limitsOfProtocol(version);
+  limits.position_velocity = version >= kFirstFr3;
+  limits.velocity_near_ends = version >= kFirstOf59 ? franka_core::kFr3PositionVelocityLimitsFrom59
+                                                    : franka_core::kFr3PositionVelocityLimits;
+  limits.own_position_flags = version < kFirstOf572;
+  limits.echoes_floats = version >= kFirstOf59;
+  return limits;
+}
+
+}  // namespace franka_sim

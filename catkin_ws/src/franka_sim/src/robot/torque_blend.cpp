@@ -1,0 +1,35 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/tick.h>
+#include <franka_sim/robot/torque_blend.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace franka_sim {
+
+namespace {
+
+constexpr double kStep = 1000.0 * kTick;  // [Nm] per tick
+
+}  // namespace
+
+std::array<double, 7> TorqueBlend::apply(const std::array<double, 7>& tau) noexcept {
+  for (std::size_t i = 0; i < 7; i++) {
+    if (changing_) {
+      offset_[i] = last_[i] - tau[i];
+    }
+    offset_[i] -= std::clamp(offset_[i], -kStep, kStep);
+    last_[i] = tau[i] + offset_[i];
+  }
+  changing_ = false;
+  return last_;
+}
+
+void TorqueBlend::restart() noexcept {
+  changing_ = false;
+  offset_.fill(0.0);
+  last_.fill(0.0);
+}
+
+}  // namespace franka_sim

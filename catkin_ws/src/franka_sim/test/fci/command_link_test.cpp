@@ -1,0 +1,91 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/fci/command_link.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace franka_sim::fci {
+namespace {
+
+/// Sends commands 1 to `count`; the ids that come out, 0 where nothing does.
+std::vector<std::uint64_t> send(CommandLink& link, std::uint64_t count) {
+  std::vector<std::uint64_t> out;
+  for (std::uint64_t id = 1; id <= count; id++) {
+    franka_core::RobotCommand command;
+    command.message_id = id;
+    const franka_core::RobotCommand* arrived = link.pass(&command);
+    out.push_back(arrived == nullptr ? 0 : arrived->message_id);
+  }
+  return out;
+}
+
+TEST(CommandLink, passesEverythingAtFirst) {
+  CommandLink link;
+  EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{1, 2, 3, 4}));
+  EXPECT_EQ(link.pass(nullptr), nullptr);
+}
+
+TEST(CommandLink, delaysByWholeTicks) {
+  CommandLink link;
+  link.setDelay(1);
+  EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{0, 1, 2, 3}));
+  link.setDelay(2);
+  EXPECT_EQ(send(link, 5), (std::vector<std::uint64_t>{0, 0, 1, 2, 3}));
+  // What is under way arrives though nothing follows.
+  EXPECT_EQ(link.pass(nullptr)->message_id, 4U);
+  EXPECT_EQ(link.pass(nullptr)->message_id, 5U);
+  EXPECT_EQ(link.pass(nullptr), nullptr);
+}
+
+TEST(CommandLink, losesTheNextOnes) {
+  CommandLink link;
+  link.loseNext(2);
+  EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{0, 0, 3, 4}));
+}
+
+TEST(CommandLink, forgetsWhatIsUnderWay) {
+  CommandLink link;
+  link.setDelay(2);
+  send(link, 5);
+  link.clear();
+  EXPECT_EQ(link.pass(nullptr), nullptr);
+  EXPECT_EQ(link.pass(nullptr), nullptr);
+  EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{0, 0, 1, 2})) << "the delay stays";
+}
+
+TEST(CommandLink, losesTheSameAgainAfterARestart) {
+  CommandLink link;
+  link.setDelay(1);
+  link.setLoss(0.5, 7);
+  const std::vector<std::uint64_t> first = send(link, 100);
+  link.loseNext(3);
+  link.restart();
+  EXPECT_EQ(send(link, 100), first);
+}
+
+TEST(CommandLink, losesTheShareItIsToldAndTheSameEachTime) {
+  constexpr std::uint64_t kCount = 20000;
+  std::vector<std::uint64_t> first;
+  for (const std::uint64_t seed : {7U, 7U, 8U}) {
+    CommandLink link;
+    link.setLoss(0.1, seed);
+    const std::vector<std::uint64_t> out = send(link, kCount);
+    std::size_t lost = 0;
+    for (const std::uint64_t id : out) {
+      lost += id == 0 ? 1 : 0;
+    }
+    // Five standard deviations of the binomial distribution: 5 sqrt(n p (1 - p)) = 212.
+    EXPECT_NEAR(static_cast<double>(lost), 2000.0, 212.0);
+    if (first.empty()) {
+      first = out;
+    }
+    EXPECT_EQ(out == first, seed == 7U);
+  }
+  CommandLink all;
+  all.setLoss(1.0, 0);
+  EXPECT_EQ(send(all, 3), (std::vector<std::uint64_t>{0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace franka_sim::fci

@@ -1,0 +1,325 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// When a host's time goes on, with a robot that does nothing but count.
+#include <franka_sim/fci/host.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace franka_sim::fci {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+/// A robot in a motion whose client answers some time after each state, or never.
+class CountingRobot : public HostedRobot {
+ public:
+  void observe() override { observed++; }
+  void actuate() override {
+    actuated++;
+    begun = true;
+    answered += moving && receiveCommand() ? 1 : 0;
+  }
+  void serve(bool stops_only) override {
+    served++;
+    if (moves_when_served) {
+      moves_when_served = begun = seen = false;
+      moving = true;
+    }
+    served_all += stops_only ? 0 : 1;
+  }
+  void publish(std::uint64_t ticks, bool same_moment) override {
+    (same_moment ? repeated : published)++;
+    message_ids += ticks;
+    seen = true;
+    if (!same_moment || !begun) {
+      shown_at = Clock::now();
+    }
+  }
+  void repeat() override { repeats++; }
+  bool hasNews() const override { return false; }
+  bool receiveCommand() override { return answers && seen && Clock::now() - shown_at >= delay; }
+  bool expectsCommand() const override { return moving; }
+  bool asynchronous() const override { return at_leisure; }
+  bool motionHasBegun() const override { return begun; }
+  bool settling() const override { return restless; }
+  bool handBusy() const override { return false; }
+  void addCommandDescriptor(std::vector<pollfd>& /*fds*/) const override {}
+  void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
+
+  bool moving{false}, at_leisure{false}, restless{false};
+  bool answers{true};
+  bool moves_when_served{false}, begun{true}, seen{true};
+  milliseconds delay{0};
+  Clock::time_point shown_at;
+  std::uint64_t message_ids{0};
+  int observed{0}, actuated{0}, answered{0}, served{0}, served_all{0}, published{0}, repeated{0},
+      repeats{0};
+};
+
+class HostRules : public ::testing::Test {
+ protected:
+  void use(const Pace& pace) {
+    host.setPace(pace);
+    host.add(robot);
+  }
+  milliseconds timeOf(int ticks) {
+    const Clock::time_point begin = Clock::now();
+    for (int i = 0; i < ticks; i++) {
+      host.tick();
+    }
+    return std::chrono::duration_cast<milliseconds>(Clock::now() - begin);
+  }
+
+  /// Runs until the world stands still, which it does after `due` steps or later.
+  int stepsUntilStill(int due) {
+    std::atomic<bool> stop{false};
+    std::thread running([&] { host.run(stop); });
+    const Clock::time_point deadline = Clock::now() + std::chrono::seconds(10);
+    while (steps < due && Clock::now() < deadline) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    std::this_thread::sleep_for(milliseconds(50));  // in which a world that runs would go on
+    const int ran = steps;
+    stop = true;
+    running.join();
+    return ran;
+  }
+
+  std::atomic<int> steps{0};
+  CountingRobot robot;
+  Host host{[this] { steps++; }, Pace{}};
+};
+
+Pace waiting(bool flows, bool by_clock) {
+  Pace pace;
+  pace.lockstep = true;
+  pace.flows = flows;
+  pace.by_clock = by_clock;
+  pace.patience = milliseconds(50);
+  return pace;
+}
+
+TEST_F(HostRules, RealTimeGoesOnWithoutAnAnswer) {
+  // From the clock's start: a host that was held up makes up for it.
+  const Clock::time_point begin = Clock::now();
+  use(Pace{});
+  robot.moving = true;
+  robot.answers = false;
+  timeOf(20);
+  EXPECT_GE(Clock::now() - begin, milliseconds(20));
+  EXPECT_EQ(20, steps);
+  EXPECT_EQ(20, robot.actuated);
+  EXPECT_EQ(0, robot.answered);
+}
+
+TEST_F(HostRules, APatientHostWaitsForEachAnswer) {
+  use(waiting(true, true));
+  robot.moving = true;
+  robot.delay = milliseconds(5);
+  EXPECT_GE(timeOf(20), milliseconds(100));
+  EXPECT_EQ(20, robot.answered);
+}
+
+TEST_F(HostRules, APatientHostIsNoFasterThanTheClock) {
+  const Clock::time_point begin = Clock::now();
+  use(waiting(true, true));
+  robot.moving = true;
+  timeOf(50);
+  EXPECT_GE(Clock::now() - begin, milliseconds(50));
+  EXPECT_EQ(50, robot.answered);
+  robot.moving = false;
+  timeOf(50);
+  EXPECT_GE(Clock::now() - begin, milliseconds(100));
+  EXPECT_EQ(100, robot.published) << "who looks on sees each millisecond";
+}
+
+TEST_F(HostRules, APatientHostGivesUpASilentClientAndWaitsForItAgainWhenItSpeaks) {
+  use(waiting(true, true));
+  robot.moving = true;
+  robot.answers = false;
+  EXPECT_GE(timeOf(1), milliseconds(50));
+  EXPECT_LT(timeOf(20), milliseconds(20 * 50)) << "the silence is waited for once";
+  EXPECT_EQ(0, robot.answered);
+  robot.answers = true;
+  timeOf(2);
+  robot.delay = milliseconds(10);
+  EXPECT_GE(timeOf(3), milliseconds(30));
+}
+
+TEST_F(HostRules, WhoWasGivenUpDoesNotTakeTheOthersTime) {
+  CountingRobot other;
+  use(waiting(true, false));
+  host.add(other);
+  robot.moving = true;
+  robot.answers = false;
+  timeOf(1);
+  other.moving = true;
+  other.delay = milliseconds(5);
+  timeOf(10);
+  EXPECT_EQ(10, other.answered);
+}
+
+TEST_F(HostRules, WhileOneClientIsAwaitedTheOthersSeeThatTheirRobotsAreThere) {
+  CountingRobot answered, resting;
+  Pace pace = waiting(false, false);
+  pace.patience = std::chrono::seconds(100);
+  use(pace);
+  host.add(answered);
+  host.add(resting);
+  robot.moving = answered.moving = true;
+  robot.delay = milliseconds(700);
+  timeOf(1);
+  EXPECT_GE(answered.repeats, 2) << "a client gives up after a second without a state";
+  EXPECT_EQ(0, answered.repeated) << "with a new number its clock would go on";
+  EXPECT_EQ(1, robot.published + robot.repeated) << "it has the state that it is to answer";
+  EXPECT_GE(resting.repeated, 100);
+  EXPECT_EQ(1, steps);
+}
+
+TEST_F(HostRules, TimeInWhichTheHostIsHeldUpIsNotItsClientsSilence) {
+  class Held : public CountingRobot {
+   public:
+    // Another process has the processor while the host looks for an answer.
+    bool receiveCommand() override {
+      if (hold > 0) {
+        hold--;
+        std::this_thread::sleep_for(milliseconds(20));
+      }
+      return CountingRobot::receiveCommand();
+    }
+    int hold{0};
+  } held;
+  host.setPace(waiting(false, false));  // 50 ms of patience
+  host.add(held);
+  held.moving = true;
+  held.hold = 10;
+  held.delay = milliseconds(205);
+  timeOf(1);
+  EXPECT_EQ(1, held.answered);
+}
+
+TEST_F(HostRules, TimeThatFlowsHeedsNoClockBetweenMotions) {
+  use(waiting(true, false));
+  timeOf(5000);
+  EXPECT_EQ(5000, steps);
+  EXPECT_LT(robot.published, 5000) << "states go out at the wall's pace";
+}
+
+TEST_F(HostRules, ATickAtOnceHeedsNoClockButWaitsForTheClient) {
+  Pace slow;
+  slow.factor = 0.001;
+  use(slow);
+  const Clock::time_point begin = Clock::now();
+  host.tickAtOnce();
+  EXPECT_LT(Clock::now() - begin, milliseconds(900));
+  robot.moving = true;
+  robot.delay = milliseconds(20);
+  host.tickAtOnce();
+  EXPECT_EQ(1, robot.answered);
+  EXPECT_EQ(2, steps);
+}
+
+TEST_F(HostRules, InLockStepAnAsynchronousMotionGoesByTheClockAndWaitsForNobody) {
+  Pace pace = waiting(false, false);
+  pace.patience = std::chrono::seconds(100);
+  const Clock::time_point begin = Clock::now();
+  use(pace);
+  robot.moving = robot.at_leisure = true;
+  robot.answers = false;
+  timeOf(51);
+  EXPECT_GE(Clock::now() - begin, milliseconds(50));
+  EXPECT_LT(Clock::now() - begin, pace.patience);
+  EXPECT_EQ(51, robot.published) << "its client sees each millisecond";
+  robot.moving = robot.at_leisure = false;
+  robot.restless = true;
+  timeOf(5000);
+  EXPECT_LT(robot.published, 5000) << "and no clock is heeded any more";
+}
+
+TEST_F(HostRules, AnotherRobotsAnswersAreWaitedForBesideAnAsynchronousMotion) {
+  CountingRobot other;
+  use(waiting(false, false));
+  host.add(other);
+  robot.moving = robot.at_leisure = true;
+  robot.answers = false;
+  other.moving = true;
+  other.delay = milliseconds(5);
+  EXPECT_GE(timeOf(10), milliseconds(50));
+  EXPECT_EQ(10, other.answered);
+}
+
+TEST_F(HostRules, ARobotThatNeverRestsHoldsNobodyBackForEver) {
+  use(waiting(false, false));
+  robot.restless = true;
+  timeOf(1);  // in which the world was still at rest
+  const int before = robot.served_all;
+  timeOf(9000);
+  EXPECT_EQ(before, robot.served_all);
+  timeOf(1100);
+  EXPECT_EQ(before + 1, robot.served_all);
+}
+
+TEST_F(HostRules, AWorldThatStandsStillIsShownWithoutATick) {
+  use(waiting(true, true));
+  host.standStill();
+  EXPECT_EQ(1U, robot.message_ids) << "states of a robot at rest count on";
+  robot.moving = true;
+  host.standStill();
+  EXPECT_EQ(1U, robot.message_ids) << "the clock of a motion stands still";
+  EXPECT_EQ(2, robot.repeated);
+  EXPECT_EQ(2, robot.served);
+  EXPECT_EQ(0, steps);
+  EXPECT_EQ(0, robot.observed);
+}
+
+TEST_F(HostRules, AMotionsFirstStatesCountAllTicksBeforeIt) {
+  use(waiting(false, false));
+  robot.restless = true;
+  timeOf(500);  // of which few are shown
+  robot.moves_when_served = true;
+  for (int i = 0; i < 100000 && !robot.moving; i++) {
+    timeOf(1);
+  }
+  const std::uint64_t before = robot.message_ids;
+  timeOf(1);
+  EXPECT_EQ(before + 1, robot.message_ids) << "the motion's clock would jump";
+}
+
+TEST_F(HostRules, WhoWasRemovedIsLeftAlone) {
+  CountingRobot other;
+  use(waiting(true, false));
+  host.add(other);
+  timeOf(1);
+  host.remove(robot);
+  timeOf(1);
+  EXPECT_EQ(1, robot.observed);
+  EXPECT_EQ(2, other.observed);
+  host.remove(other);
+  EXPECT_TRUE(host.empty());
+  timeOf(1);
+  EXPECT_EQ(3, steps);
+}
+
+TEST_F(HostRules, InLockStepAPushLetsTheWorldRunForItsTimeAndUntilAllRests) {
+  use(waiting(false, false));
+  host.letRun(50);
+  EXPECT_EQ(150, stepsUntilStill(150)) << "50, and 100 for what was set in motion";
+}
+
+TEST_F(HostRules, AWorldThatBeginsAnewRunsAsLongWhateverWasToRunBefore) {
+  use(waiting(false, false));
+  host.letRun(500);
+  timeOf(10);
+  host.beginAnew();
+  EXPECT_EQ(10 + 101, stepsUntilStill(10 + 101));
+}
+
+}  // namespace
+
+}  // namespace franka_sim::fci

@@ -1,0 +1,402 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole simulated robot over real sockets, stepped in lock-step and by the clock.
+#include <franka_sim/fci/host.h>
+#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/physics/world.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "test_client.h"
+
+namespace franka_sim::fci {
+namespace {
+
+namespace codec = franka_core::fci;
+using codec::Command;
+using codec::Status;
+using franka_core::ControllerMode;
+using franka_core::MotionGeneratorMode;
+using franka_core::RobotMode;
+using franka_test::TestClient;
+
+constexpr std::array<double, 7> kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
+
+std::string urdfText() {
+  std::ifstream file(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Does what others ask for, between two ticks.
+class Jobs final : public Service {
+ public:
+  void serve() override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::packaged_task<void()>& job : due_) {
+      job();
+    }
+    due_.clear();
+  }
+  void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
+  void run(std::function<void()> job) {
+    std::packaged_task<void()> task(std::move(job));
+    std::future<void> done = task.get_future();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      due_.push_back(std::move(task));
+    }
+    done.get();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::packaged_task<void()>> due_;
+};
+
+/// A Panda on the network, in a thread of its own.
+class Stage {
+ public:
+  explicit Stage(const Pace& pace) : host_([this] { world_.step(); }, pace) {
+    const std::string urdf = urdfText();
+    RobotDescription description;
+    description.name = "panda";
+    description.urdf = urdf;
+    description.resolve = [](const std::string&) { return std::string(); };
+    ControlUnitParameters unit{franka_core::ArmModel::fromUrdf(urdf, "panda")};
+    for (std::size_t i = 0; i < 7; i++) {
+      const std::string joint = "panda_joint" + std::to_string(i + 1);
+      description.initial_positions[joint] = kReady[i];
+      description.rotor_inertia[joint] = unit.rotor_inertia[i];
+    }
+    unit.end_effector = franka_core::endEffectorFromUrdf(urdf, "panda");
+    behaveAsOverFci(unit, 5);
+    world_.addRobot(description);
+    RobotServerParameters server;
+    server.port = 0;
+    SimRobot::Hand hand{&world_.hand("panda", "panda"), {}, 0};
+    hand.parameters.gains = {FingerGains{100, 0, 1}, FingerGains{100, 0, 1}};
+    robot_ = std::make_unique<SimRobot>(unit, world_.arm("panda", "panda"), server, hand);
+    host_.add(*robot_);
+    host_.add(jobs_);
+    thread_ = std::thread([this] { host_.run(stop_); });
+  }
+  ~Stage() { finish(); }
+  void finish() {
+    stop_ = true;
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+
+  std::uint16_t port() const { return robot_->server().port(); }
+  std::uint16_t gripperPort() const { return robot_->gripperPort(); }
+  /// Only after finish().
+  std::uint64_t hash() const { return robot_->hash(); }
+  std::uint64_t ticks() const { return host_.ticks(); }
+
+  /// Lets the host's thread do something between two ticks, and waits for it.
+  void between(std::function<void(SimRobot&, World&, Host&)> job) {
+    jobs_.run([&] { job(*robot_, world_, host_); });
+  }
+  double width() {
+    double width = 0.0;
+    between([&](SimRobot&, World& world, Host&) {
+      const HandMeasurement hand = world.hand("panda", "panda").measure();
+      width = hand.q[0] + hand.q[1];
+    });
+    return width;
+  }
+
+ private:
+  World world_;
+  std::unique_ptr<SimRobot> robot_;
+  Host host_;
+  Jobs jobs_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+Pace lockStep() {
+  Pace pace;
+  pace.lockstep = true;
+  return pace;
+}
+
+void connect(TestClient& client, std::uint16_t version = 5) {
+  client.connect(version);
+  const auto answer = client.answer(Command::kConnect);
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->reply.status, Status::kSuccess);
+}
+
+/// Starts a motion and drives it as genuine clients do. @returns the last reply's status.
+Status drive(TestClient& client, const codec::MoveRequest& request, int cycles,
+             const std::function<void(int, const franka_core::RobotState& first,
+                                      franka_core::RobotCommand&)>& fill) {
+  client.request(request);
+  auto answer = client.answer(Command::kMove);
+  if (!answer || answer->reply.status != Status::kMotionStarted) {
+    return answer ? answer->reply.status : Status::kError;
+  }
+  auto state = client.state();
+  while (state && state->robot_mode != RobotMode::kMove) {
+    state = client.state();
+  }
+  state = client.state();  // the second that shows the motion is the first to be answered
+  if (!state) {
+    return Status::kError;
+  }
+  const franka_core::RobotState first = *state;
+  for (int cycle = 0; state && state->robot_mode == RobotMode::kMove; cycle++) {
+    franka_core::RobotCommand command;
+    command.message_id = state->message_id;
+    fill(cycle, first, command);
+    command.motion_generation_finished = cycle >= cycles;
+    client.command(command);
+    state = client.state();
+  }
+  answer = client.answer(Command::kMove);
+  return answer ? answer->reply.status : Status::kError;
+}
+
+// Joint 4 out and back by 0.2 rad, at rest at both ends.
+void swing(int cycle, const franka_core::RobotState& first, franka_core::RobotCommand& command) {
+  constexpr int kCycles = 1500;
+  const double x = std::min(cycle, kCycles) / static_cast<double>(kCycles);
+  command.q_c = first.q_d;
+  command.q_c[3] += 0.2 * std::pow(std::sin(M_PI * x), 4);
+}
+
+std::uint64_t hashOfARun(unsigned delays) {
+  Stage stage(lockStep());
+  TestClient client(stage.port());
+  connect(client);
+  std::mt19937 engine(delays);
+  const Status end = drive(
+      client, codec::MoveRequest{}, 1500,
+      [&](int cycle, const franka_core::RobotState& first, franka_core::RobotCommand& command) {
+        if (delays != 0 && engine() % 50 == 0) {
+          std::this_thread::sleep_for(std::chrono::microseconds(engine() % 3000));
+        }
+        swing(cycle, first, command);
+      });
+  EXPECT_EQ(end, Status::kSuccess);
+  // A setter's answer comes when the world has come to rest.
+  client.request(codec::SetLoadRequest{});
+  EXPECT_TRUE(client.answer(Command::kSetLoad));
+  client.close();
+  stage.finish();
+  return stage.hash();
+}
+
+TEST(LockStep, repeatsBitForBitWhateverTheClientsPauses) {
+  const std::uint64_t first = hashOfARun(0);
+  for (unsigned delays = 1; delays <= 4; delays++) {
+    EXPECT_EQ(hashOfARun(delays), first) << delays;
+  }
+}
+
+TEST(LockStep, standsStillWhileNobodyMoves) {
+  Stage stage(lockStep());
+  TestClient client(stage.port());
+  connect(client);
+  const auto first = client.state();
+  ASSERT_TRUE(first);
+  for (int i = 0; i < 200; i++) {
+    const auto next = client.state();
+    ASSERT_TRUE(next);
+    EXPECT_EQ(next->q, first->q);
+  }
+  stage.finish();
+  // The arm came to rest after it was put there, and then time stood still.
+  EXPECT_LT(stage.ticks(), 1500U);
+}
+
+TEST(LockStep, treatsASilentClientAsLost) {
+  Pace pace = lockStep();
+  pace.patience = std::chrono::milliseconds(50);
+  Stage stage(pace);
+  TestClient client(stage.port());
+  connect(client);
+  const auto begin = std::chrono::steady_clock::now();
+  const codec::MoveRequest request;
+  client.request(request);
+  ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+  auto state = client.state();
+  while (state->robot_mode != RobotMode::kMove) {
+    state = client.state();
+  }
+  for (int cycle = 0; cycle < 50; cycle++) {
+    franka_core::RobotCommand command;
+    command.message_id = state->message_id;
+    command.q_c = state->q_d;
+    client.command(command);
+    state = client.state();
+  }
+  // From here on it says nothing.
+  const auto end = client.answer(Command::kMove);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->reply.status, Status::kReflexAborted);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  while (state && state->robot_mode != RobotMode::kReflex) {
+    state = client.state();
+  }
+  ASSERT_TRUE(state);
+  EXPECT_TRUE(state->errors[25]);  // communication_constraints_violation
+}
+
+/// The first state in that mode; nothing when there is none in 20 s.
+std::optional<franka_core::RobotState> stateIn(TestClient& client, RobotMode mode) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  auto state = client.state();
+  while (state && state->robot_mode != mode && std::chrono::steady_clock::now() < deadline) {
+    state = client.state();
+  }
+  return state && state->robot_mode == mode ? state : std::nullopt;
+}
+
+TEST(LockStep, aClientThatDiesBeforeItsFirstCommandLeavesNoMotionBehind) {
+  Stage stage(lockStep());
+  {
+    TestClient client(stage.port());
+    connect(client);
+    client.request(codec::MoveRequest{});
+    ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+  }
+  TestClient next(stage.port());
+  connect(next);
+  const auto state = stateIn(next, RobotMode::kReflex);
+  ASSERT_TRUE(state) << "the robot is left in Move";
+  EXPECT_TRUE(state->errors[25]);  // communication_constraints_violation
+  next.request(codec::AutomaticErrorRecoveryRequest{});
+  const auto recovered = next.answer(Command::kAutomaticErrorRecovery);
+  ASSERT_TRUE(recovered);
+  EXPECT_EQ(recovered->reply.status, Status::kSuccess);
+}
+
+TEST(LockStep, anArmThatCoastsInGuidingKeepsNobodyWaiting) {
+  Stage stage(lockStep());
+  TestClient client(stage.port());
+  connect(client);
+  stage.between([](SimRobot& robot, World& world, Host& host) {
+    robot.unit().setGuiding(true);
+    world.push("panda_link5", {0, 8, 0}, {}, 100);
+    host.letRun(100);
+  });
+  for (int i = 0; i < 3; i++) {
+    client.request(codec::SetLoadRequest{});
+    const auto answer = client.answer(Command::kSetLoad, 20000);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->reply.status, Status::kSuccess);
+  }
+  double fastest = 0.0;
+  std::uint64_t ticks = 0;
+  stage.between([&](SimRobot& robot, World&, Host& host) {
+    for (const double dq : robot.unit().state().dq) {
+      fastest = std::max(fastest, std::abs(dq));
+    }
+    ticks = host.ticks();
+  });
+  EXPECT_GT(fastest, 1e-3) << "the arm has come to rest by itself: this test tells nothing";
+  const auto begin = client.state();
+  ASSERT_TRUE(begin);
+  for (int i = 0; i < 50; i++) {
+    ASSERT_TRUE(client.state());
+  }
+  stage.between([&](SimRobot&, World&, Host& host) { EXPECT_EQ(ticks, host.ticks()); });
+}
+
+TEST(LockStep, aHandWhoseClientDiesFinishesWhatItDoes) {
+  namespace hand = franka_core::fci::gripper;
+  Stage stage(lockStep());
+  {
+    TestClient client(stage.gripperPort());
+    hand::RequestMessage message;
+    hand::encodeRequest(0, hand::ConnectRequest{3, client.udpPort()}, message);
+    ASSERT_TRUE(client.sendBytes(message.data, message.size));
+    hand::encodeRequest(1, hand::MoveRequest{0.06, 0.02}, message);
+    ASSERT_TRUE(client.sendBytes(message.data, message.size));
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (stage.width() < 0.005 && std::chrono::steady_clock::now() < deadline) {
+    }
+  }
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (std::abs(stage.width() - 0.06) > 1e-3 && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_NEAR(stage.width(), 0.06, 1e-3);
+}
+
+TEST(LockStep, stopsAMotionOnDemand) {
+  Stage stage(lockStep());
+  TestClient client(stage.port());
+  connect(client);
+  bool asked = false;
+  const Status end = drive(
+      client, codec::MoveRequest{}, 100000,
+      [&](int cycle, const franka_core::RobotState& first, franka_core::RobotCommand& command) {
+        swing(cycle, first, command);
+        if (cycle == 500 && !asked) {
+          asked = true;
+          client.request(codec::StopMoveRequest{});
+        }
+      });
+  EXPECT_EQ(end, Status::kPreempted);
+  const auto stopped = client.answer(Command::kStopMove);
+  ASSERT_TRUE(stopped);
+  EXPECT_EQ(stopped->reply.status, Status::kSuccess);
+  // In every mode: also when there is nothing to stop.
+  client.request(codec::StopMoveRequest{});
+  EXPECT_TRUE(client.answer(Command::kStopMove));
+}
+
+TEST(RealTime, keepsToTheClock) {
+  Stage stage(Pace{});
+  TestClient client(stage.port());
+  connect(client);
+  const auto first = client.state();
+  const auto begin = std::chrono::steady_clock::now();
+  auto last = first;
+  for (int i = 0; i < 300; i++) {
+    last = client.state();
+    ASSERT_TRUE(last);
+  }
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  EXPECT_EQ(last->message_id - first->message_id, 300U);
+  EXPECT_GT(passed.count(), 0.25);
+  EXPECT_LT(passed.count(), 2.0);  // on a machine that does much else
+}
+
+// On a machine that may stand still for longer than a robot does without commands.
+TEST(RealTime, runsAMotionByTheClockForAPatientRobot) {
+  Pace pace;
+  pace.lockstep = pace.flows = pace.by_clock = true;
+  pace.factor = 0.2;
+  Stage stage(pace);
+  TestClient client(stage.port());
+  connect(client);
+  const auto begin = std::chrono::steady_clock::now();
+  const Status end = drive(
+      client, codec::MoveRequest{}, 300,
+      [](int cycle, const franka_core::RobotState& first, franka_core::RobotCommand& command) {
+        command.q_c = first.q_d;
+        command.q_c[3] += 0.02 * std::pow(std::sin(M_PI * std::min(cycle, 300) / 300.0), 4);
+      });
+  EXPECT_EQ(end, Status::kSuccess);
+  EXPECT_GT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1400));
+}
+
+}  // namespace
+}  // namespace franka_sim::fci

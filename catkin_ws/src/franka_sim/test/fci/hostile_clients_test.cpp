@@ -1,0 +1,336 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What one client, or somebody who is none, can do to the clients of another robot in the same
+// process. What counts is the processor time that the stepping thread spends between two states of
+// the other robot: on a machine that does nothing else it is the delay of those states.
+#include <fcntl.h>
+#include <franka_sim/fci/gripper_server.h>
+#include <franka_sim/fci/host.h>
+#include <franka_sim/fci/line_server.h>
+#include <franka_sim/fci/vacuum_server.h>
+
+#include <algorithm>
+#include <atomic>
+#include <ctime>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "robot_server_fixture.h"
+
+namespace franka_sim::fci {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kTicks = 300;
+constexpr double kWorstDelay = 0.02;  // [s]
+constexpr double kMostMemory = 30.0;  // [MB] more than before
+constexpr std::size_t kModelSize = 100000;
+
+double processorTime() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double residentMegabytes() {
+  std::ifstream file("/proc/self/statm");
+  double size = 0.0;
+  double resident = 0.0;
+  file >> size >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// A robot without physics: a handler, and hands that rest.
+class BareRobot final : public HostedRobot {
+ public:
+  BareRobot() : arm(parameters(), handler) { handler.shown.robot_mode = RobotMode::kIdle; }
+
+  static RobotServerParameters parameters() {
+    RobotServerParameters result;
+    result.port = 0;
+    result.oldest_version = 3;
+    result.newest_version = 10;
+    result.model_library.assign(kModelSize, 7);
+    return result;
+  }
+
+  void observe() override {}
+  void actuate() override { arm.takeCommand(); }
+  void serve(bool stops_only) override {
+    arm.serve(stops_only);
+    hand.serve(stops_only);
+    vacuum.serve(stops_only);
+    most_unsent = std::max(most_unsent, arm.unsentBytes());
+  }
+  void publish(std::uint64_t ticks, bool same_moment) override {
+    const double now = processorTime();
+    worst = published_at > 0.0 ? std::max(worst, now - published_at) : 0.0;
+    published_at = now;
+    arm.publish(ticks, same_moment);
+    hand.publish(ticks);
+    vacuum.publish(ticks);
+  }
+  void repeat() override { arm.repeat(); }
+  bool hasNews() const override { return arm.hasNews(); }
+  bool receiveCommand() override { return arm.receiveCommand(); }
+  bool expectsCommand() const override { return arm.expectsCommands(); }
+  bool asynchronous() const override { return arm.asynchronous(); }
+  bool motionHasBegun() const override { return arm.motionHasBegun(); }
+  bool settling() const override { return false; }
+  bool handBusy() const override { return false; }
+  void addCommandDescriptor(std::vector<pollfd>& fds) const override {
+    arm.addCommandDescriptor(fds);
+  }
+  void addDescriptors(std::vector<pollfd>& fds) const override {
+    arm.addDescriptors(fds);
+    hand.addDescriptors(fds);
+    vacuum.addDescriptors(fds);
+  }
+
+  FakeRequestHandler handler;
+  RobotServer arm;
+  GripperUnit finger_unit{GripperParameters()};
+  VacuumGripperUnit vacuum_unit;
+  GripperServer hand{"127.0.0.1", 0, finger_unit};
+  VacuumServer vacuum{"127.0.0.1", 0, vacuum_unit};
+  double worst{0.0};  // between two states [s]
+  double published_at{0.0};
+  std::size_t most_unsent{0};
+};
+
+/// A TCP connection that never blocks.
+class Raw {
+ public:
+  explicit Raw(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in server{};
+    server.sin_family = AF_INET;
+    server.sin_port = htons(port);
+    inet_pton(AF_INET, "127.0.0.1", &server.sin_addr);
+    ::fcntl(socket_.get(), F_SETFL, O_NONBLOCK);
+    ::connect(socket_.get(), reinterpret_cast<sockaddr*>(&server), sizeof(server));
+  }
+  /// As much of it as the system takes.
+  void send(const std::string& bytes) {
+    const ssize_t size = ::send(socket_.get(), bytes.data() + sent_, bytes.size() - sent_,
+                                MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (size > 0) {
+      sent_ = (sent_ + static_cast<std::size_t>(size)) % bytes.size();
+    }
+  }
+  void readAll() {
+    char buffer[65536];
+    while (::recv(socket_.get(), buffer, sizeof(buffer), MSG_DONTWAIT) > 0) {
+    }
+  }
+
+ private:
+  Descriptor socket_;
+  std::size_t sent_{0};
+};
+
+std::string requestBytes(const codec::Request& request, std::uint16_t version = 5) {
+  codec::RequestMessage message;
+  codec::encodeRequest(version, 0, request, message);
+  return std::string(reinterpret_cast<const char*>(message.data), message.size);
+}
+
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  for (int i = 0; i < times; i++) {
+    result += text;
+  }
+  return result;
+}
+
+/// Two robots and a control port; a good client at one robot, an attacker in a thread of its own.
+class HostileClients : public ::testing::Test {
+ protected:
+  HostileClients() {
+    host_.add(attacked_);
+    host_.add(other_);
+    host_.add(lines_);
+    lines_.add("echo WORD", [](const LineServer::Words& words) { return words.at(0); });
+    const ClientSlot::Tell tell = [this](const std::string& what) { told_.push_back(what); };
+    attacked_.arm.onRefusal(tell);
+    attacked_.hand.onRefusal(tell);
+    good_.connect(5);
+    for (int i = 0; i < 1000 && other_.arm.version() == 0; i++) {
+      host_.tick();
+    }
+    EXPECT_TRUE(good_.answer(Command::kConnect));
+    while (good_.state(0)) {
+    }
+  }
+
+  std::vector<std::uint16_t> ports() const {
+    return {attacked_.arm.port(), attacked_.hand.port(), attacked_.vacuum.port(), lines_.port()};
+  }
+
+  /// Runs so many ticks while `attack` is called again and again by another thread.
+  void under(const std::function<void()>& attack, int ticks = kTicks) {
+    const double memory = residentMegabytes();
+    std::atomic<bool> stop{false};
+    std::thread attacker([&] {
+      while (!stop) {
+        attack();
+      }
+    });
+    other_.published_at = 0.0;
+    std::uint64_t last = 0;
+    for (int i = 0; i < ticks; i++) {
+      host_.tick();
+      for (auto state = good_.state(0); state; state = good_.state(0)) {
+        EXPECT_TRUE(last == 0 || state->message_id == last + 1)
+            << state->message_id - last << " states at once";
+        last = state->message_id;
+      }
+    }
+    stop = true;
+    attacker.join();
+    EXPECT_NE(last, 0U) << "the good client has seen nothing";
+    EXPECT_LT(other_.worst, kWorstDelay) << "[s] between two states";
+    EXPECT_LT(residentMegabytes() - memory, kMostMemory) << "[MB]";
+    EXPECT_LE(attacked_.most_unsent, kModelSize + 1000);
+    std::printf("  worst delay %.2f ms, memory %+.1f MB, at most %zu bytes unsent\n",
+                1e3 * other_.worst, residentMegabytes() - memory, attacked_.most_unsent);
+  }
+
+  /// Ticks until a new client of the attacked robot is served; 1001 when it never is.
+  int ticksUntilServed() {
+    TestClient client(attacked_.arm.port());
+    client.connect(5);
+    int ticks = 0;
+    while (ticks <= 1000 && !client.answer(Command::kConnect, 0)) {
+      host_.tick();
+      ticks++;
+    }
+    return ticks;
+  }
+
+  BareRobot attacked_, other_;
+  LineServer lines_{"127.0.0.1", 0};
+  Host host_{[] {}, Pace{}};
+  TestClient good_{other_.arm.port()};
+  std::vector<std::string> told_;
+};
+
+TEST_F(HostileClients, AskForModelsAndReadNone) {
+  Raw attacker(attacked_.arm.port());
+  attacker.send(requestBytes(codec::ConnectRequest{5, 1}));
+  const std::string flood = repeated(requestBytes(codec::LoadModelLibraryRequest{}), 500);
+  under([&] { attacker.send(flood); });
+}
+
+TEST_F(HostileClients, AskForWallsWithoutEndAndReadAllAnswers) {
+  Raw attacker(attacked_.arm.port());
+  attacker.send(requestBytes(codec::ConnectRequest{5, 1}));
+  const std::string flood = repeated(requestBytes(codec::GetCartesianLimitRequest{1}), 500);
+  under([&] {
+    attacker.send(flood);
+    attacker.readAll();
+  });
+}
+
+TEST_F(HostileClients, FloodTheHandAndTheControlPort) {
+  namespace hand = franka_core::fci::gripper;
+  Raw gripper(attacked_.hand.port());
+  Raw control(lines_.port());
+  hand::RequestMessage message;
+  hand::encodeRequest(0, hand::ConnectRequest{3, 1}, message);
+  gripper.send(std::string(reinterpret_cast<const char*>(message.data), message.size));
+  hand::encodeRequest(1, hand::StopRequest{}, message);
+  const std::string stops =
+      repeated(std::string(reinterpret_cast<const char*>(message.data), message.size), 500);
+  const std::string lines = repeated("echo something\n", 500);
+  under([&] {
+    gripper.send(stops);
+    control.send(lines);
+    gripper.readAll();
+  });
+}
+
+TEST_F(HostileClients, StayHalfOpenOrSendOneByte) {
+  std::vector<std::unique_ptr<Raw>> connections;
+  for (int i = 0; i < 200; i++) {
+    for (const std::uint16_t port : ports()) {
+      connections.push_back(std::make_unique<Raw>(port));
+      if (i % 2 == 0) {
+        connections.back()->send(std::string(1, '\0'));
+      }
+    }
+  }
+  under([] { std::this_thread::sleep_for(milliseconds(1)); }, 50);
+  EXPECT_LE(ticksUntilServed(), 1000);
+  EXPECT_FALSE(told_.empty());
+}
+
+TEST_F(HostileClients, ConnectAgainAndAgainAndSendNoise) {
+  unsigned round = 0;
+  under([&] {
+    std::vector<std::unique_ptr<Raw>> connections;
+    for (int i = 0; i < 50; i++) {
+      for (const std::uint16_t port : ports()) {
+        connections.push_back(std::make_unique<Raw>(port));
+        connections.back()->send(std::string(40, static_cast<char>(round++ * 37)));
+      }
+    }
+  });
+  EXPECT_LE(ticksUntilServed(), 1000);
+}
+
+TEST_F(HostileClients, LeaveTheRobotAtOnceWhateverTheyHaveAskedFor) {
+  {
+    Raw attacker(attacked_.arm.port());
+    attacker.send(requestBytes(codec::ConnectRequest{5, 1}));
+    for (int i = 0; i < 100 && attacked_.arm.version() == 0; i++) {
+      host_.tick();
+    }
+    const std::string flood = repeated(requestBytes(codec::GetCartesianLimitRequest{1}), 500);
+    for (int i = 0; i < 200; i++) {
+      attacker.send(flood);  // more than is served in a second
+      attacker.readAll();
+    }
+  }
+  EXPECT_LE(ticksUntilServed(), 1000);
+}
+
+TEST_F(HostileClients, AreSlowerWithARequestThanTheirConnectionLasts) {
+  SlotRules rules;
+  rules.request = milliseconds(20);
+  ClientSlot slot("127.0.0.1", 0, rules);
+  std::vector<std::string> told;
+  slot.onRefusal([&](const std::string& what) { told.push_back(what); });
+  Raw client(slot.port());
+  client.send("xy");
+  bool gone = false;
+  const auto serve_one = [&](Connection& connection) {
+    slot.confirm();
+    if (connection.received().size == 2) {
+      connection.consume(1);
+      return Served::kDone;
+    }
+    return Served::kIncomplete;
+  };
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!gone && std::chrono::steady_clock::now() < deadline) {
+    slot.serve(serve_one, [&] { gone = true; });
+  }
+  EXPECT_TRUE(gone);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("127.0.0.1"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("too slow"), std::string::npos) << told[0];
+}
+
+TEST(Seeds, AreWholeNumbersOf64Bits) {
+  EXPECT_EQ(toSeed("0"), 0U);
+  EXPECT_EQ(toSeed("18446744073709551615"), 18446744073709551615U);
+  for (const char* word : {"-1", "18446744073709551616", "1e3", "0.5", "", "nan", "7x", "+7"}) {
+    EXPECT_THROW(toSeed(word), std::invalid_argument) << word;
+  }
+}
+
+}  // namespace
+}  // namespace franka_sim::fci

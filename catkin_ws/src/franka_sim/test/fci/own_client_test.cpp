@@ -1,0 +1,443 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Our own libfranka against the simulated robot in lock-step, in every version of the protocol.
+#include <franka/exception.h>
+#include <franka/gripper.h>
+#include <franka/model.h>
+#include <franka/robot.h>
+#include <franka_core/limits.h>
+#include <franka_sim/fci/host.h>
+#include <franka_sim/fci/served_models.h>
+#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/physics/world.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "../robot/transform_sweep.h"
+
+namespace franka_sim::fci {
+namespace {
+
+constexpr std::array<double, 7> kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
+constexpr std::array<double, 16> kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+std::array<double, 7> sevenTimes(double value) {
+  std::array<double, 7> values;
+  values.fill(value);
+  return values;
+}
+
+std::array<double, 6> sixTimes(double value) {
+  std::array<double, 6> values;
+  values.fill(value);
+  return values;
+}
+
+struct Place {
+  std::uint16_t version;  // 3 to 5: a Panda, else an FR3
+  double x{0.0};          // [m]
+  double yaw{0.0};        // [rad]
+};
+
+/// Robots in one world that speak one version each, in a thread of its own.
+class SimulatedRobots {
+ public:
+  explicit SimulatedRobots(const std::vector<Place>& places, bool by_clock = false)
+      : host_(
+            [this] {
+              std::this_thread::sleep_for(std::chrono::milliseconds(hold_up_.exchange(0)));
+              world_.step();
+            },
+            pace(by_clock)) {
+    for (const Place& place : places) {
+      add(place);
+    }
+    thread_ = std::thread([this] { host_.run(stop_); });
+  }
+  ~SimulatedRobots() {
+    stop_ = true;
+    thread_.join();
+  }
+
+  /// Nothing runs for so long, as on a machine that does something else.
+  void holdUp(int milliseconds) { hold_up_ = milliseconds; }
+  std::string gripperAddress(std::size_t robot = 0) const {
+    return "127.0.0.1:" + std::to_string(robots_[robot]->gripperPort());
+  }
+  std::string address(std::size_t robot = 0) const {
+    return "127.0.0.1:" + std::to_string(robots_[robot]->server().port());
+  }
+
+ private:
+  /// Waits for its clients in either case: on a machine that stands still a robot that does not
+  /// would lose their answers.
+  static Pace pace(bool by_clock) {
+    Pace pace;
+    pace.lockstep = true;
+    pace.flows = pace.by_clock = by_clock;
+    return pace;
+  }
+
+  void add(const Place& place) {
+    const std::string name = place.version <= 5 ? "panda" : "fr3";
+    std::ifstream file(std::string(FRANKA_SIM_ROBOTS) + "/" + name + ".urdf");
+    std::ostringstream text;
+    text << file.rdbuf();
+    ControlUnitParameters unit{franka_core::ArmModel::fromUrdf(text.str(), name)};
+    RobotDescription description;
+    description.name = name;
+    description.urdf = text.str();
+    description.resolve = [](const std::string&) { return std::string(); };
+    description.base.position = {place.x, 0, 0};
+    description.base.orientation = {std::cos(0.5 * place.yaw), 0, 0, std::sin(0.5 * place.yaw)};
+    for (std::size_t i = 0; i < 7; i++) {
+      const std::string joint = name + "_joint" + std::to_string(i + 1);
+      description.initial_positions[joint] = kReady[i];
+      description.rotor_inertia[joint] = unit.rotor_inertia[i];
+    }
+    unit.end_effector = franka_core::endEffectorFromUrdf(text.str(), name);
+    behaveAsOverFci(unit, place.version);
+    world_.addRobot(description);
+    RobotServerParameters server;
+    server.port = 0;
+    server.oldest_version = server.newest_version = place.version;
+    server.model_library = servedLibrary(unit.model);
+    server.urdfs = {{8, servedUrdf(unit.model, place.version)}};
+    SimRobot::Hand hand{&world_.hand(name, name), {}, 0};
+    hand.parameters.gains = {FingerGains{100, 0, 1}, FingerGains{100, 0, 1}};
+    robots_.push_back(std::make_unique<SimRobot>(unit, world_.arm(name, name), server, hand));
+    host_.add(*robots_.back());
+  }
+
+  World world_;
+  std::vector<std::unique_ptr<SimRobot>> robots_;
+  Host host_;
+  std::atomic<bool> stop_{false};
+  std::atomic<int> hold_up_{0};
+  std::thread thread_;
+};
+
+class OwnClient : public ::testing::TestWithParam<int> {
+ protected:
+  OwnClient()
+      : simulated_(std::vector<Place>{{static_cast<std::uint16_t>(GetParam())}}),
+        robot(simulated_.address(), franka::RealtimeConfig::kIgnore) {}
+
+ private:
+  SimulatedRobots simulated_;
+
+ protected:
+  franka::Robot robot;
+};
+
+// From rest to rest within a second: position along a way of length one, and its speed.
+constexpr double kDuration = 1.0;  // [s]
+double way(double t) {
+  const double s = std::min(t / kDuration, 1.0);
+  return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+}
+double speed(double t) {
+  const double s = std::min(t / kDuration, 1.0);
+  return 30.0 * s * s * (1.0 - s) * (1.0 - s) / kDuration;
+}
+
+constexpr double kAngle = 0.1;    // [rad]
+constexpr double kLength = 0.05;  // [m]
+
+void swing(
+    franka::Robot& robot, double angle, const std::function<void(int)>& in_cycle = [](int) {}) {
+  double time = 0.0;
+  int cycle = 0;
+  std::array<double, 7> begin{};
+  robot.control([&](const franka::RobotState& state, franka::Duration period) {
+    if (time == 0.0) {
+      begin = state.q_d;
+    }
+    time += period.toSec();
+    in_cycle(cycle++);
+    franka::JointPositions positions(begin);
+    positions.q[3] += angle * way(time);
+    return time >= kDuration + 0.2 ? franka::MotionFinished(positions) : positions;
+  });
+}
+
+TEST_P(OwnClient, AgreesOnTheVersionAndReadsStates) {
+  EXPECT_EQ(robot.serverVersion(), GetParam());
+  const franka::RobotState first = robot.readOnce();
+  EXPECT_EQ(first.robot_mode, franka::RobotMode::kIdle);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(first.q[i], kReady[i], 1e-4);
+  }
+  int count = 0;
+  robot.read([&count](const franka::RobotState&) { return ++count < 10; });
+  EXPECT_EQ(count, 10);
+}
+
+TEST_P(OwnClient, TakesEverySetterAndRefusesNonsense) {
+  robot.setCollisionBehavior(sevenTimes(20), sevenTimes(30), sixTimes(20), sixTimes(30));
+  robot.setCollisionBehavior(sevenTimes(20), sevenTimes(30), sevenTimes(20), sevenTimes(30),
+                             sixTimes(20), sixTimes(30), sixTimes(20), sixTimes(30));
+  robot.setJointImpedance({3000, 3000, 3000, 2500, 2500, 2000, 2000});
+  robot.setCartesianImpedance({2000, 2000, 2000, 100, 100, 100});
+  robot.setGuidingMode({true, true, true, false, false, false}, true);
+  std::array<double, 16> frame = kIdentity;
+  frame[14] = 0.05;
+  robot.setK(frame);
+  robot.setEE(frame);
+  robot.setLoad(0.5, {0, 0, 0.1}, {0.001, 0, 0, 0, 0.001, 0, 0, 0, 0.001});
+  const franka::RobotState state = robot.readOnce();
+  EXPECT_DOUBLE_EQ(state.m_load, 0.5);
+  // States of version 10 carry float32.
+  EXPECT_EQ(state.EE_T_K[14], GetParam() == 10 ? static_cast<double>(0.05F) : 0.05);
+  frame[0] = 2.0;
+  EXPECT_THROW(robot.setK(frame), franka::CommandException);
+  EXPECT_THROW(robot.setLoad(-1.0, {}, {}), franka::CommandException);
+  const double beyond[][3] = {{730, 0, 0}, {10.1, 0, 0}, {1, 1.1, 0}, {1, 0, 1e6}};
+  for (const auto& [mass, distance, moment] : beyond) {
+    try {
+      robot.setLoad(mass, {0, 0, distance}, {moment, 0, 0, 0, moment, 0, 0, 0, moment});
+      ADD_FAILURE() << mass << " kg were taken";
+    } catch (const franka::CommandException& error) {
+      EXPECT_NE(std::string::npos, std::string(error.what()).find("at most 10 kg, 1 m and"))
+          << error.what();
+    }
+  }
+}
+
+TEST_P(OwnClient, MovesJointsByPositionAndByVelocity) {
+  const double begin = robot.readOnce().q[3];
+  swing(robot, kAngle);
+  EXPECT_NEAR(robot.readOnce().q[3], begin + kAngle, 2e-3);
+  double time = 0.0;
+  robot.control([&](const franka::RobotState&, franka::Duration period) {
+    time += period.toSec();
+    franka::JointVelocities velocities({0, 0, 0, -kAngle * speed(time), 0, 0, 0});
+    return time >= kDuration + 0.2 ? franka::MotionFinished(velocities) : velocities;
+  });
+  EXPECT_NEAR(robot.readOnce().q[3], begin, 3e-3);
+}
+
+TEST_P(OwnClient, MovesTheHandByPoseAndByVelocity) {
+  const double begin = robot.readOnce().O_T_EE[14];
+  double time = 0.0;
+  std::array<double, 16> pose{};
+  robot.control([&](const franka::RobotState& state, franka::Duration period) {
+    if (time == 0.0) {
+      pose = state.O_T_EE_c;
+    }
+    time += period.toSec();
+    franka::CartesianPose command(pose);
+    command.O_T_EE[14] += kLength * way(time);
+    return time >= kDuration + 0.2 ? franka::MotionFinished(command) : command;
+  });
+  EXPECT_NEAR(robot.readOnce().O_T_EE[14], begin + kLength, 2e-3);
+  time = 0.0;
+  robot.control([&](const franka::RobotState&, franka::Duration period) {
+    time += period.toSec();
+    franka::CartesianVelocities command({0, 0, -kLength * speed(time), 0, 0, 0});
+    return time >= kDuration + 0.2 ? franka::MotionFinished(command) : command;
+  });
+  EXPECT_NEAR(robot.readOnce().O_T_EE[14], begin, 3e-3);
+}
+
+/// Whether a motion that commands this pose and ends is refused by the client or the robot.
+bool takes(franka::Robot& robot, const std::array<double, 16>& pose, bool limited, double cutoff) {
+  try {
+    robot.control(
+        [&](const franka::RobotState&, franka::Duration) {
+          return franka::MotionFinished(franka::CartesianPose(pose));
+        },
+        franka::ControllerMode::kJointImpedance, limited, cutoff);
+    return true;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("exactly 0 0 0 1")) << error.what();
+    return false;
+  }
+}
+
+class OwnClientWithDust : public OwnClient {};
+
+TEST_P(OwnClientWithDust, IsTakenOrRefusedAsTheRobotDoes) {
+  const std::array<double, 16> pose = robot.readOnce().O_T_EE_c;
+  int count = 0;
+  for (const test::DustyMatrix& dusty : test::dustOn(pose)) {
+    count++;
+    EXPECT_EQ(dusty.accepted,
+              takes(robot, dusty.matrix, count % 2 == 0, count % 3 == 0 ? 100.0 : 1000.0))
+        << dusty;
+    if (dusty.dust == 1e-6 || dusty.dust == 1e-12) {
+      for (const auto& set : {&franka::Robot::setEE, &franka::Robot::setK}) {
+        std::array<double, 16> frame = kIdentity;
+        frame[dusty.entry] += dusty.dust;
+        if (dusty.entry % 4 != 3) {
+          EXPECT_NO_THROW((robot.*set)(frame)) << dusty;
+        } else {
+          EXPECT_THROW((robot.*set)(frame), franka::CommandException) << dusty;
+        }
+        (robot.*set)(kIdentity);
+      }
+    }
+  }
+  EXPECT_EQ(franka::RobotMode::kIdle, robot.readOnce().robot_mode);
+}
+
+TEST_P(OwnClient, HoldsByTorques) {
+  const std::array<double, 7> begin = robot.readOnce().q;
+  double time = 0.0;
+  robot.control([&](const franka::RobotState& state, franka::Duration period) {
+    time += period.toSec();
+    franka::Torques torques(sevenTimes(0));
+    for (std::size_t i = 0; i < 7; i++) {
+      torques.tau_J[i] = 200.0 * (begin[i] - state.q[i]) - 20.0 * state.dq[i];
+    }
+    return time >= 0.5 ? franka::MotionFinished(torques) : torques;
+  });
+  const franka::RobotState state = robot.readOnce();
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(state.q[i], begin[i], 2e-3);
+  }
+}
+
+TEST_P(OwnClient, LoadsAModelThatKnowsWhereTheHandIs) {
+  const franka::Model model = robot.loadModel();
+  const franka::RobotState state = robot.readOnce();
+  const std::array<double, 16> pose = model.pose(franka::Frame::kEndEffector, state);
+  for (std::size_t i = 0; i < 16; i++) {
+    EXPECT_NEAR(pose[i], state.O_T_EE[i], 1e-5);
+  }
+}
+
+TEST_P(OwnClient, IsStoppedByAReflexRecoversAndMovesAgain) {
+  double time = 0.0;
+  std::array<double, 7> begin{};
+  try {
+    robot.control(
+        [&](const franka::RobotState& state, franka::Duration period) {
+          if (time == 0.0) {
+            begin = state.q_d;
+          }
+          time += period.toSec();
+          franka::JointPositions positions(begin);
+          positions.q[3] += time > 0.1 ? 0.05 : 0.0;  // a jump
+          return positions;
+        },
+        franka::ControllerMode::kJointImpedance, false);
+    FAIL() << "A jump of 0.05 rad within a tick went unnoticed.";
+  } catch (const franka::ControlException& error) {
+    EXPECT_NE(std::string(error.what()).find("joint_motion_generator_velocity"), std::string::npos)
+        << error.what();
+    EXPECT_FALSE(error.log.empty());
+  }
+  EXPECT_EQ(robot.readOnce().robot_mode, franka::RobotMode::kReflex);
+  robot.automaticErrorRecovery();
+  EXPECT_EQ(robot.readOnce().robot_mode, franka::RobotMode::kIdle);
+  const double joint = robot.readOnce().q_d[3];
+  swing(robot, kAngle);
+  EXPECT_NEAR(robot.readOnce().q[3], joint + kAngle, 2e-3);
+}
+
+class TwoArms : public ::testing::TestWithParam<bool> {};  // by the clock, or as fast as it goes
+
+TEST_P(TwoArms, MoveAtOnceForAClientEach) {
+  SimulatedRobots simulated({{5, 0.0}, {10, 1.0}}, GetParam());
+  franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
+  franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
+  auto other = std::async(std::launch::async, [&fr3] { swing(fr3, -kAngle); });
+  swing(panda, kAngle);
+  other.get();
+  EXPECT_NEAR(panda.readOnce().q[3], kReady[3] + kAngle, 2e-3);
+  EXPECT_NEAR(fr3.readOnce().q[3], kReady[3] - kAngle, 2e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pace, TwoArms, ::testing::Bool());
+
+constexpr int kLonger = 1300;  // than clients wait for a state [ms]
+
+TEST(StarvedMachine, ARobotThatWaitsForItsClientIsWaitedForByItsClient) {
+  SimulatedRobots simulated(std::vector<Place>{{5}});
+  franka::Robot robot(simulated.address(), franka::RealtimeConfig::kIgnore);
+  swing(robot, kAngle, [&](int cycle) {
+    // From here on the client can know that the robot's time is not the wall's.
+    if (cycle == 500) {
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+    } else if (cycle == 600) {
+      simulated.holdUp(kLonger);
+    }
+  });
+  EXPECT_NEAR(robot.readOnce().q[3], kReady[3] + kAngle, 2e-3);
+}
+
+TEST(StarvedMachine, NobodyGivesUpWhileAnotherArmsClientIsAwaited) {
+  SimulatedRobots simulated({{5, 0.0}, {10, 1.0}});
+  franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
+  franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
+  franka::Gripper gripper(simulated.gripperAddress(0));
+  std::atomic<bool> done{false};
+  std::thread reading([&] {
+    while (!done) {
+      EXPECT_NO_THROW(gripper.readOnce());
+    }
+  });
+  auto other = std::async(std::launch::async, [&fr3] { swing(fr3, -kAngle); });
+  swing(panda, kAngle, [](int cycle) {
+    if (cycle == 300) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(kLonger));
+    }
+  });
+  EXPECT_NO_THROW(other.get());
+  EXPECT_NO_THROW(fr3.readOnce());
+  done = true;
+  reading.join();
+  EXPECT_NEAR(panda.readOnce().q[3], kReady[3] + kAngle, 2e-3);
+  EXPECT_NEAR(fr3.readOnce().q[3], kReady[3] - kAngle, 2e-3);
+}
+
+TEST(TwoArmsInOneWorld, CanRunIntoEachOther) {
+  SimulatedRobots simulated({{5, 0.0}, {10, 0.75, M_PI}});
+  franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
+  franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
+  const double begin = panda.readOnce().O_T_EE[12];
+  double time = 0.0;
+  std::array<double, 16> pose{};
+  try {
+    panda.control([&](const franka::RobotState& state, franka::Duration period) {
+      if (time == 0.0) {
+        pose = state.O_T_EE_c;
+      }
+      time += period.toSec();
+      franka::CartesianPose command(pose);
+      command.O_T_EE[12] += 0.2 * way(time / 2.0);
+      return time >= 2.2 ? franka::MotionFinished(command) : command;
+    });
+    FAIL() << "The panda went through the other robot.";
+  } catch (const franka::ControlException& error) {
+    EXPECT_NE(std::string(error.what()).find("_reflex"), std::string::npos) << error.what();
+  }
+  EXPECT_GT(panda.readOnce().O_T_EE[12], begin + 0.02);
+  // The other one was pushed.
+  const franka::RobotState pushed = fr3.readOnce();
+  double displaced = 0.0;
+  for (std::size_t i = 0; i < 7; i++) {
+    displaced = std::max(displaced, std::abs(pushed.q[i] - kReady[i]));
+  }
+  EXPECT_TRUE(displaced > 1e-4 || pushed.robot_mode == franka::RobotMode::kReflex);
+}
+
+INSTANTIATE_TEST_SUITE_P(Version, OwnClient, ::testing::Range(3, 11));
+INSTANTIATE_TEST_SUITE_P(NewestOfEachRobot, OwnClientWithDust, ::testing::Values(5, 10));
+
+}  // namespace
+}  // namespace franka_sim::fci

@@ -1,0 +1,136 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/fci/robot_server.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "test_client.h"
+
+namespace franka_sim::fci {
+
+namespace codec = franka_core::fci;
+using codec::Command;
+using codec::Status;
+using franka_core::ControllerMode;
+using franka_core::MotionGeneratorMode;
+using franka_core::RobotMode;
+using franka_test::TestClient;
+
+/// Answers what the test has written down.
+class FakeRequestHandler final : public ArmRequestHandler {
+ public:
+  FakeRequestHandler() { shown.robot_mode = RobotMode::kIdle; }
+  const franka_core::RobotState& state() const noexcept override { return shown; }
+  void connected(std::uint16_t version) noexcept override { last_version = version; }
+  void disconnected() noexcept override { disconnections++; }
+  bool active() const noexcept override { return on; }
+  std::optional<Status> handle(const codec::Request& request) noexcept override {
+    last = request;
+    handled++;
+    return answer;
+  }
+  std::optional<codec::CartesianLimit> wall(std::int32_t id) const noexcept override {
+    codec::CartesianLimit wall;
+    wall.object_world_size[0] = 2.0;
+    return id == 1 ? std::optional<codec::CartesianLimit>(wall) : std::nullopt;
+  }
+  std::optional<Status> motionEnd() noexcept override { return take(motion_end); }
+  std::optional<Status> stopEnd() noexcept override { return take(stop_end); }
+  std::optional<Status> recoveryEnd() noexcept override { return take(recovery_end); }
+
+  void startMotion() {
+    answer = Status::kMotionStarted;
+    shown.robot_mode = RobotMode::kMove;
+    shown.motion_generator_mode = MotionGeneratorMode::kJointPosition;
+    shown.controller_mode = ControllerMode::kJointImpedance;
+  }
+  void endMotion(Status status, RobotMode mode) {
+    motion_end = status;
+    shown.robot_mode = mode;
+    shown.motion_generator_mode = MotionGeneratorMode::kIdle;
+    shown.controller_mode = ControllerMode::kOther;
+  }
+
+  franka_core::RobotState shown;
+  std::optional<Status> answer{Status::kSuccess};
+  std::optional<Status> motion_end, stop_end, recovery_end;
+  codec::Request last;
+  int handled{0}, disconnections{0};
+  bool on{true};
+  std::uint16_t last_version{0};
+
+ private:
+  static std::optional<Status> take(std::optional<Status>& from) {
+    const std::optional<Status> result = from;
+    from.reset();
+    return result;
+  }
+};
+
+class RobotServerTest : public ::testing::Test {
+ protected:
+  RobotServerTest() : server_(parameters(), handler_) {}
+
+  static RobotServerParameters parameters() {
+    RobotServerParameters result;
+    result.port = 0;
+    result.oldest_version = 3;
+    result.newest_version = 10;
+    result.model_library = {1, 2, 3};
+    result.urdfs = {{8, "<robot name='early'/>"}, {10, "<robot name='late'/>"}};
+    return result;
+  }
+
+  /// Lets the server work until something is true; at most 5 s.
+  bool until(const std::function<bool()>& condition) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        return false;
+      }
+      server_.serve();
+    }
+    return true;
+  }
+  /// Loopback delivers in the sender's call; a few turns let the server take it all.
+  void serve(bool stops_only = false) {
+    for (int i = 0; i < 3; i++) {
+      server_.serve(stops_only);
+    }
+  }
+  /// Of a server that works until it is there; at most 5 s. More connections in a millisecond than
+  /// a server accepts have to wait.
+  static std::optional<TestClient::Answer> answerOf(RobotServer& server, TestClient& client,
+                                                    Command command) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    std::optional<TestClient::Answer> answer;
+    while (!answer && std::chrono::steady_clock::now() < deadline) {
+      server.serve();
+      answer = client.answer(command, 1);
+    }
+    return answer;
+  }
+  void connect(TestClient& client, std::uint16_t version) {
+    client.connect(version);
+    const auto answer = answerOf(server_, client, Command::kConnect);
+    ASSERT_TRUE(answer);
+    ASSERT_EQ(answer->reply.status, Status::kSuccess);
+    ASSERT_EQ(answer->reply.server_version, version);
+  }
+  std::optional<TestClient::Answer> ask(TestClient& client, const codec::Request& request) {
+    client.request(request);
+    serve();
+    server_.publish();
+    return client.answer(codec::commandOf(request), 1000);
+  }
+
+  FakeRequestHandler handler_;
+  RobotServer server_;
+};
+
+}  // namespace franka_sim::fci

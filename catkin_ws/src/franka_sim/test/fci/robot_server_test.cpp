@@ -1,0 +1,486 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The robot's network face over real sockets, with a handler in the place of the control unit.
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "robot_server_fixture.h"
+
+namespace franka_sim::fci {
+namespace {
+
+TEST_F(RobotServerTest, acceptsEachVersionOfItsRange) {
+  for (std::uint16_t version = 3; version <= 10; version++) {
+    TestClient client(server_.port());
+    connect(client, version);
+    EXPECT_EQ(server_.version(), version);
+    EXPECT_EQ(handler_.last_version, version);
+    server_.publish();
+    EXPECT_TRUE(client.state());
+    client.close();
+    EXPECT_TRUE(until([&] { return !server_.hasClient(); }));
+  }
+}
+
+TEST_F(RobotServerTest, tellsItsVersionToOthersAndTakesThemBackAtOnce) {
+  RobotServerParameters panda = parameters();
+  panda.newest_version = 5;
+  RobotServer server(panda, handler_);
+  for (const std::uint16_t version : {0, 2, 6, 10, 65535}) {
+    TestClient stranger(server.port());
+    stranger.connect(version);
+    const auto answer = answerOf(server, stranger, Command::kConnect);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->reply.status, Status::kIncompatibleLibraryVersion);
+    EXPECT_EQ(answer->reply.server_version, 5);
+    EXPECT_FALSE(server.hasClient());
+    stranger.close();
+    // The server may learn of both in one turn.
+    TestClient again(server.port());
+    again.connect(5);
+    const auto second = answerOf(server, again, Command::kConnect);
+    ASSERT_TRUE(second) << version;
+    EXPECT_EQ(second->reply.status, Status::kSuccess);
+    again.close();
+    server.serve();
+  }
+}
+
+TEST_F(RobotServerTest, turnsASecondClientAway) {
+  TestClient first(server_.port());
+  connect(first, 5);
+  TestClient second(server_.port());
+  second.connect(5);
+  serve();
+  EXPECT_TRUE(second.ended());
+  server_.publish();
+  EXPECT_TRUE(first.state());
+  first.close();
+  TestClient third(server_.port());
+  connect(third, 5);
+}
+
+TEST_F(RobotServerTest, countsStatesOnAndOn) {
+  std::uint64_t last = 0;
+  for (int client_number = 0; client_number < 3; client_number++) {
+    TestClient client(server_.port());
+    connect(client, 5);
+    for (std::uint64_t ticks : {1, 1, 7}) {
+      server_.publish(ticks);
+      const auto state = client.state();
+      ASSERT_TRUE(state);
+      EXPECT_GE(state->message_id, last + ticks);
+      last = state->message_id;
+    }
+    client.close();
+    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+  }
+}
+
+TEST_F(RobotServerTest, runsAMotionFromStartToEnd) {
+  for (std::uint16_t version = 3; version <= 10; version++) {
+    TestClient client(server_.port());
+    connect(client, version);
+    handler_.startMotion();
+    const std::uint32_t id = client.request(codec::MoveRequest{});
+    serve();
+    const auto started = client.answer(Command::kMove);
+    ASSERT_TRUE(started);
+    EXPECT_EQ(started->reply.status, Status::kMotionStarted);
+    EXPECT_EQ(started->header.command_id, id);
+    EXPECT_TRUE(server_.expectsCommands());
+    EXPECT_FALSE(server_.motionHasBegun());
+    server_.publish();
+    const auto state = client.state();
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->robot_mode, RobotMode::kMove);
+    EXPECT_EQ(server_.takeCommand(), nullptr);
+    franka_core::RobotCommand command;
+    command.message_id = state->message_id;
+    command.q_c[2] = 0.25;
+    client.command(command);
+    EXPECT_TRUE(server_.receiveCommand());
+    const franka_core::RobotCommand* taken = server_.takeCommand();
+    ASSERT_NE(taken, nullptr);
+    EXPECT_EQ(taken->q_c[2], 0.25);
+    EXPECT_EQ(server_.takeCommand(), nullptr);
+    EXPECT_TRUE(server_.motionHasBegun());
+    // The end: first in the state, then in the reply.
+    handler_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
+    serve();
+    EXPECT_FALSE(client.answer(Command::kMove, 20));
+    EXPECT_TRUE(server_.hasNews());
+    server_.publish();
+    EXPECT_EQ(client.state()->robot_mode, RobotMode::kReflex);
+    const auto end = client.answer(Command::kMove);
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->reply.status, Status::kReflexAborted);
+    EXPECT_EQ(end->header.command_id, id);
+    EXPECT_FALSE(server_.expectsCommands());
+    handler_.shown.robot_mode = RobotMode::kIdle;
+    client.close();
+    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+  }
+}
+
+TEST_F(RobotServerTest, takesTheAnswerToTheLastStateAlone) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  handler_.startMotion();
+  client.request(codec::MoveRequest{});
+  serve();
+  server_.publish();
+  const std::uint64_t id = client.state()->message_id;
+  franka_core::RobotCommand command;
+  const auto isTaken = [&](std::uint64_t of) {
+    command.message_id = of;
+    client.command(command);
+    server_.receiveCommand();
+    return server_.takeCommand() != nullptr;
+  };
+  EXPECT_FALSE(isTaken(0));
+  EXPECT_FALSE(isTaken(id - 1));
+  EXPECT_FALSE(isTaken(id + 1));
+  EXPECT_TRUE(isTaken(id));
+  server_.publish();
+  EXPECT_FALSE(isTaken(id));
+  // Time stands still: the answer to either state of the moment counts.
+  server_.publish(1, true);
+  EXPECT_TRUE(isTaken(id + 1));
+}
+
+TEST_F(RobotServerTest, takesTargetsOfAnAsynchronousMotionWheneverTheyCome) {
+  TestClient client(server_.port());
+  connect(client, 10);
+  server_.publish();
+  const std::uint64_t before = client.state()->message_id;
+  handler_.startMotion();
+  codec::MoveRequest request;
+  request.use_async_motion_generator = true;
+  request.maximum_velocity.fill(0.5);
+  client.request(request);
+  serve();
+  EXPECT_TRUE(server_.asynchronous());
+  server_.publish();
+  const std::uint64_t first = client.state()->message_id;
+  for (int i = 0; i < 49; i++) {
+    server_.publish();
+    EXPECT_FALSE(server_.receiveCommand());
+    EXPECT_EQ(server_.takeCommand(), nullptr);
+  }
+  const auto isTaken = [&](std::uint64_t of) {
+    franka_core::RobotCommand command;
+    command.message_id = of;
+    client.command(command);
+    server_.receiveCommand();
+    return server_.takeCommand() != nullptr;
+  };
+  EXPECT_TRUE(isTaken(first)) << "its client has read no other state";
+  EXPECT_FALSE(isTaken(before)) << "that was of the time before";
+  EXPECT_FALSE(isTaken(first + 50)) << "that has not been sent yet";
+  EXPECT_TRUE(isTaken(first + 49));
+  // The next motion is none of that kind.
+  handler_.endMotion(Status::kSuccess, RobotMode::kIdle);
+  server_.publish();
+  handler_.startMotion();
+  client.request(codec::MoveRequest{});
+  serve();
+  EXPECT_TRUE(server_.expectsCommands());
+  EXPECT_FALSE(server_.asynchronous());
+}
+
+TEST_F(RobotServerTest, tellsTheDeskOnceThatItsClientHasGone) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  EXPECT_EQ(handler_.disconnections, 0);
+  client.close();
+  ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+  serve();
+  EXPECT_EQ(handler_.disconnections, 1);
+}
+
+TEST_F(RobotServerTest, switchedOffTellsItsClientHowTheMotionEndedAndRefusesAllUntilItIsOn) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  handler_.startMotion();
+  client.request(codec::MoveRequest{});
+  serve();
+  ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+  TestClient waiting(server_.port());  // not yet taken
+  handler_.on = false;
+  handler_.endMotion(Status::kAborted, RobotMode::kIdle);
+  serve();
+  EXPECT_TRUE(waiting.ended());
+  server_.publish();
+  EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kAborted);
+  EXPECT_TRUE(client.ended());
+  EXPECT_FALSE(server_.hasClient());
+  EXPECT_FALSE(TestClient(server_.port()).connected());
+  std::vector<pollfd> fds;
+  server_.addDescriptors(fds);
+  EXPECT_TRUE(fds.empty()) << "a closed port wakes nobody up";
+  for (int i = 0; i < 2; i++) {
+    handler_.on = true;
+    serve();
+    TestClient next(server_.port());
+    ASSERT_TRUE(next.connected());
+    connect(next, 5);
+    handler_.on = false;
+    serve();
+    server_.publish();
+    EXPECT_TRUE(next.ended());
+  }
+}
+
+TEST_F(RobotServerTest, switchedOffDropsWhoHasNotSaidWhoItIs) {
+  TestClient client(server_.port());
+  serve();
+  handler_.on = false;
+  serve();
+  EXPECT_TRUE(client.ended());
+}
+
+TEST_F(RobotServerTest, refusesAConnectWithinAMotionWhichGoesOn) {
+  for (const std::uint16_t other : {5, 6, 10}) {
+    TestClient client(server_.port());
+    connect(client, 5);
+    handler_.startMotion();
+    client.request(codec::MoveRequest{});
+    serve();
+    ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+    client.request(codec::ConnectRequest{other, 1});
+    serve();
+    const auto refused = client.answer(Command::kConnect);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->reply.status, Status::kIncompatibleLibraryVersion) << other;
+    EXPECT_EQ(refused->reply.server_version, 5);
+    EXPECT_EQ(server_.version(), 5);
+    EXPECT_EQ(handler_.last_version, 5);
+    server_.publish();
+    const auto state = client.state(1000);  // of this version, at this port
+    ASSERT_TRUE(state) << other;
+    franka_core::RobotCommand command;
+    command.message_id = state->message_id;
+    client.command(command);
+    EXPECT_TRUE(server_.receiveCommand());
+    EXPECT_TRUE(server_.expectsCommands());
+    handler_.endMotion(Status::kSuccess, RobotMode::kIdle);
+    server_.publish();
+    EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kSuccess);
+    client.close();
+    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+  }
+}
+
+TEST_F(RobotServerTest, repeatsAStateByteForByte) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  server_.publish();
+  const auto first = client.state();
+  handler_.shown.q[0] = 1.0;
+  server_.repeat();
+  const auto second = client.state();
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->message_id, second->message_id);
+  EXPECT_EQ(first->q, second->q);
+}
+
+TEST_F(RobotServerTest, dropsDatagramsThatAreNoCommands) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  handler_.startMotion();
+  client.request(codec::MoveRequest{});
+  serve();
+  server_.publish();
+  const auto state = client.state();
+  franka_core::RobotCommand command;
+  command.message_id = state->message_id;
+  codec::CommandBuffer bytes{};
+  codec::encodeCommand(5, command, bytes);
+  for (std::size_t size = 0; size < 420; size++) {
+    std::vector<std::uint8_t> cut(420, 0);
+    std::copy(bytes.begin(), bytes.end(), cut.begin());
+    if (size != codec::commandSize(5)) {
+      client.sendDatagram(cut.data(), size);
+      server_.serve();  // which makes room for more of them
+      EXPECT_FALSE(server_.receiveCommand()) << size;
+    }
+  }
+  bytes[312] = 7;
+  client.sendDatagram(bytes.data(), codec::commandSize(5));
+  EXPECT_FALSE(server_.receiveCommand());
+  // What is not a number is the control unit's to judge.
+  command.q_c[0] = std::nan("");
+  client.command(command);
+  ASSERT_TRUE(server_.receiveCommand());
+  EXPECT_TRUE(std::isnan(server_.takeCommand()->q_c[0]));
+}
+
+TEST_F(RobotServerTest, answersASetterAfterTheStateThatShowsIt) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  client.request(codec::SetLoadRequest{1.5, {}, {}});
+  serve();
+  EXPECT_EQ(std::get<codec::SetLoadRequest>(handler_.last).mass, 1.5);
+  EXPECT_FALSE(client.answer(Command::kSetLoad, 20));
+  server_.publish();
+  EXPECT_EQ(client.answer(Command::kSetLoad)->reply.status, Status::kSuccess);
+}
+
+TEST_F(RobotServerTest, passesOnEveryStatusOfASetter) {
+  TestClient client(server_.port());
+  connect(client, 10);
+  for (const Status status :
+       {Status::kSuccess, Status::kCommandNotPossibleRejected, Status::kInvalidArgumentRejected}) {
+    handler_.answer = status;
+    EXPECT_EQ(ask(client, codec::SetJointImpedanceRequest{})->reply.status, status);
+  }
+}
+
+TEST_F(RobotServerTest, answersStopAndRecoveryWhenTheyEnd) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  handler_.answer = std::nullopt;
+  EXPECT_FALSE(ask(client, codec::StopMoveRequest{}));
+  handler_.stop_end = Status::kSuccess;
+  server_.publish();
+  EXPECT_EQ(client.answer(Command::kStopMove)->reply.status, Status::kSuccess);
+  EXPECT_FALSE(ask(client, codec::AutomaticErrorRecoveryRequest{}));
+  handler_.recovery_end = Status::kAborted;
+  server_.publish();
+  EXPECT_EQ(client.answer(Command::kAutomaticErrorRecovery)->reply.status, Status::kAborted);
+}
+
+TEST_F(RobotServerTest, leavesAllButStopsForLaterWhenAsked) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  const int before = handler_.handled;
+  client.request(codec::SetLoadRequest{});
+  serve(true);
+  EXPECT_EQ(handler_.handled, before);
+  serve();
+  EXPECT_EQ(handler_.handled, before + 1);
+  client.request(codec::StopMoveRequest{});
+  serve(true);
+  EXPECT_EQ(handler_.handled, before + 2);
+}
+
+TEST_F(RobotServerTest, servesModelsWhereTheVersionHasThem) {
+  TestClient client(server_.port());
+  connect(client, 9);
+  const auto library = ask(client, codec::LoadModelLibraryRequest{});
+  ASSERT_TRUE(library);
+#if defined(__x86_64__)
+  EXPECT_EQ(library->model, (std::vector<std::uint8_t>{1, 2, 3}));
+  const codec::LoadModelLibraryRequest other{codec::Architecture::kArm,
+                                             codec::OperatingSystem::kLinux};
+#else
+  const codec::LoadModelLibraryRequest other{codec::Architecture::kX64,
+                                             codec::OperatingSystem::kLinux};
+#endif
+  EXPECT_EQ(ask(client, other)->reply.status, Status::kError);
+}
+
+TEST_F(RobotServerTest, tellsOfVirtualWalls) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  EXPECT_EQ(
+      ask(client, codec::GetCartesianLimitRequest{1})->reply.cartesian_limit.object_world_size[0],
+      2.0);
+  EXPECT_EQ(ask(client, codec::GetCartesianLimitRequest{99})->reply.status,
+            Status::kInvalidArgumentRejected);
+}
+
+TEST_F(RobotServerTest, readsRequestsThatComeInPieces) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  codec::RequestMessage message;
+  codec::encodeRequest(5, 77, codec::SetLoadRequest{2.5, {}, {}}, message);
+  for (std::size_t i = 0; i < message.size; i++) {
+    ASSERT_TRUE(client.sendBytes(message.data + i, 1));
+    serve();
+  }
+  server_.publish();
+  EXPECT_EQ(client.answer(Command::kSetLoad)->header.command_id, 77U);
+  EXPECT_EQ(std::get<codec::SetLoadRequest>(handler_.last).mass, 2.5);
+}
+
+TEST_F(RobotServerTest, refusesWhatItCannotUnderstand) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  codec::RequestMessage message;
+  codec::encodeRequest(5, 3, codec::MoveRequest{}, message);
+  message.data[12] = 9;  // no such controller
+  client.sendBytes(message.data, message.size);
+  serve();
+  EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kInvalidArgumentRejected);
+  // A command of no version, and a length of no command: the stream means nothing any more.
+  const std::uint32_t unknown[3] = {77, 4, 12};
+  client.sendBytes(unknown, sizeof(unknown));
+  serve();
+  EXPECT_TRUE(client.ended());
+}
+
+TEST_F(RobotServerTest, endsAConnectionThatBeginsWithAnythingButConnect) {
+  TestClient client(server_.port());
+  client.request(codec::StopMoveRequest{});
+  serve();
+  EXPECT_TRUE(client.ended());
+  EXPECT_EQ(handler_.handled, 0);
+}
+
+// Whatever arrives, the server neither falls nor stops taking clients.
+TEST_F(RobotServerTest, outlivesNoise) {
+  std::mt19937 engine(5);
+  for (int round = 0; round < 200; round++) {
+    TestClient client(server_.port());
+    if (round % 2 == 0) {
+      connect(client, static_cast<std::uint16_t>(3 + round % 8));
+    }
+    std::vector<std::uint8_t> noise(engine() % 600);
+    for (std::uint8_t& byte : noise) {
+      byte = static_cast<std::uint8_t>(engine() % 4 == 0 ? engine() : 0);
+    }
+    client.sendBytes(noise.data(), noise.size());
+    serve();
+    server_.publish();
+    client.close();
+    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+    serve();
+  }
+  TestClient client(server_.port());
+  connect(client, 5);
+}
+
+TEST_F(RobotServerTest, takesAThousandClientsOneAfterTheOther) {
+  for (int i = 0; i < 1000; i++) {
+    TestClient client(server_.port());
+    ASSERT_TRUE(client.connected());
+    client.connect(5);
+    ASSERT_TRUE(answerOf(server_, client, Command::kConnect)) << i;
+  }
+}
+
+TEST(RobotServerPort, inUseIsSaid) {
+  FakeRequestHandler handler;
+  RobotServerParameters parameters;
+  parameters.port = 0;
+  RobotServer first(parameters, handler);
+  parameters.port = first.port();
+  try {
+    RobotServer second(parameters, handler);
+    FAIL() << "two servers on one port";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("Another simulated robot"), std::string::npos);
+  }
+  parameters.address = "localhost";
+  EXPECT_THROW(RobotServer(parameters, handler), std::runtime_error);
+  parameters.address = "192.0.2.1";
+  EXPECT_THROW(RobotServer(parameters, handler), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace franka_sim::fci

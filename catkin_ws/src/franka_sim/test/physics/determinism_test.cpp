@@ -1,0 +1,195 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <rt_guard/rt_guard.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "test_support.h"
+
+namespace franka_sim::test {
+namespace {
+
+RobotDescription atTheTable() {
+  RobotDescription description = robot("panda");
+  description.base.position = {-0.5, 0, 0};
+  return description;
+}
+
+/// Drives arm and hand for a while with contacts, a push and the brakes, and notes every state.
+/// @param prepared steps are prepared before it is known what the arm will do
+std::vector<std::uint64_t> drive(World* world, int ticks, bool prepared = false) {
+  ArmPlant& arm = world->arm("panda", "panda");
+  HandPlant& hand = world->hand("panda", "panda");
+  const ArmHolder holder(&arm);
+  std::vector<std::uint64_t> hashes;
+  for (int k = 0; k < ticks; ++k) {
+    auto target = kHome;
+    target[0] -= 0.3 * std::sin(0.002 * k);
+    target[5] += 0.2 * std::sin(0.005 * k);
+    if (prepared) {
+      world->prepareStep();
+    }
+    if (k == 100) {
+      world->push("stone", {0.3, 0.5, 0}, {0.001, 0, 0}, 50);
+    }
+    arm.setBrakes(k > 700 && k < 800);
+    arm.applyTorques(holder.torques(target));
+    const double force = k % 400 < 200 ? 2.0 : -2.0;
+    hand.applyForces({force, force});
+    world->step();
+    hashes.push_back(world->stateHash());
+  }
+  return hashes;
+}
+
+TEST(DeterminismTest, sameInputsGiveTheSameStatesBitForBit) {
+  World one(test::world("stone")), other(test::world("stone"));
+  one.addRobot(atTheTable());
+  other.addRobot(atTheTable());
+  EXPECT_EQ(drive(&one, 1500), drive(&other, 1500));
+}
+
+TEST(DeterminismTest, resetStartsTheSameRunAgain) {
+  World world(test::world("stone"));
+  world.addRobot(atTheTable());
+  const std::uint64_t start = world.stateHash();
+  const auto first = drive(&world, 1500);
+  world.push("stone", {1, 0, 0}, {}, 1000);
+  world.arm("panda", "panda").setBrakes(true);
+  world.step();
+  world.reset();
+  EXPECT_EQ(start, world.stateHash());
+  EXPECT_EQ(0u, world.ticks());
+  EXPECT_EQ(first, drive(&world, 1500));
+}
+
+TEST(DeterminismTest, hashSeesTheLastBitOfAState) {
+  World world(test::world("stone"));
+  world.addRobot(atTheTable());
+  const std::uint64_t before = world.stateHash();
+  world.setJointPosition("panda_joint1", std::nextafter(0.0, 1.0));
+  EXPECT_NE(before, world.stateHash());
+  world.setJointPosition("panda_joint1", 0.0);
+  EXPECT_EQ(before, world.stateHash());
+}
+
+TEST(DeterminismTest, lookingDoesNotChangeTheFuture) {
+  World one(test::world("stone")), other(test::world("stone"));
+  one.addRobot(atTheTable());
+  other.addRobot(atTheTable());
+  for (int k = 0; k < 300; ++k) {
+    one.step();
+    other.step();
+    other.bodyPose("panda_hand");
+    other.contacts();
+    other.joint("panda_joint1");
+    ASSERT_EQ(one.stateHash(), other.stateHash());
+  }
+}
+
+TEST(DeterminismTest, preparedStepsAreTheSameBitForBit) {
+  World one(test::world("stone")), other(test::world("stone"));
+  one.addRobot(atTheTable());
+  other.addRobot(atTheTable());
+  EXPECT_EQ(drive(&one, 1500), drive(&other, 1500, true));
+}
+
+void expectSame(const std::vector<Contact>& one, const std::vector<Contact>& other) {
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].position, other[i].position);
+    EXPECT_EQ(one[i].force, other[i].force);
+  }
+}
+
+TEST(DeterminismTest, nobodySeesThatAStepIsPrepared) {
+  World one(test::world("stone")), other(test::world("stone"));
+  one.addRobot(atTheTable());
+  other.addRobot(atTheTable());
+  one.push("stone", {0.3, 0.5, 0}, {0.01, 0, 0}, 50);
+  other.push("stone", {0.3, 0.5, 0}, {0.01, 0, 0}, 50);
+  std::size_t seen = 0;
+  for (int k = 0; k < 200; ++k) {
+    one.step();
+    other.step();
+    other.prepareStep();
+    ASSERT_EQ(one.stateHash(), other.stateHash());
+    EXPECT_EQ(one.bodyPose("stone").position, other.bodyPose("stone").position);
+    EXPECT_EQ(one.bodyTwist("stone").linear, other.bodyTwist("stone").linear);
+    seen += one.contacts().size();
+    expectSame(one.contacts(), other.contacts());
+    const Snapshot prepared = other.snapshot();
+    other.step();
+    other.restore(prepared);
+    expectSame(one.contacts(), other.contacts());
+  }
+  EXPECT_GT(seen, 100u);
+}
+
+TEST(DeterminismTest, whatChangesAfterAStepWasPreparedCounts) {
+  const std::vector<std::function<void(World*)>> changes{
+      [](World* world) {
+        world->setBodyPose("stone", {{0.2, 0.1, 0.5}, {1, 0, 0, 0}});
+      },
+      [](World* world) {
+        world->setBodyTwist("stone", {{0.1, 0, 1}, {0, 0, 3}});
+      },
+      [](World* world) { world->setJointPosition("panda_joint2", -0.5); },
+      [](World* world) { world->setJointVelocity("panda_joint2", 0.5); },
+      [](World* world) {
+        world->setGravity({1, 2, -3});
+      },
+      [](World* world) {
+        world->push("stone", {3, 0, 0}, {}, 5);
+      },
+      [](World* world) { world->arm("panda", "panda").setBrakes(true); },
+      [](World* world) {
+        world->hand("panda", "panda").applyForces({5, 5});
+      },
+      [](World* world) { world->removeRobot("panda"); },
+      [](World* world) {
+        world->addObject("ball", "<body><freejoint/><geom size='0.05'/></body>", {{0, 0, 1}});
+      },
+      [](World* world) { world->reset(); },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    World one(test::world("stone")), other(test::world("stone"));
+    for (World* world : {&one, &other}) {
+      world->addRobot(atTheTable());
+      world->step();
+    }
+    other.prepareStep();
+    for (World* world : {&one, &other}) {
+      changes[i](world);
+      world->step();
+      world->step();
+    }
+    EXPECT_EQ(one.stateHash(), other.stateHash()) << "change " << i;
+  }
+}
+
+TEST(DeterminismTest, aTickNeitherAllocatesNorLocks) {
+  World world(test::world("stone"));
+  world.addRobot(atTheTable());
+  ArmPlant& arm = world.arm("panda", "panda");
+  HandPlant& hand = world.hand("panda", "panda");
+  const ArmHolder holder(&arm);
+  world.push("stone", {0.1, 0.1, 0}, {}, 100);
+  const rt_guard::Scope scope;
+  for (int k = 0; k < 1000; ++k) {
+    arm.applyTorques(holder.torques(kHome));
+    arm.setBrakes(k > 500 && k < 600);
+    hand.applyForces({1, 1});
+    world.step();
+    world.prepareStep();
+    hand.measure();
+    world.stateHash();
+  }
+  EXPECT_EQ(0u, scope.allocations());
+  EXPECT_EQ(0u, scope.locks());
+}
+
+}  // namespace
+}  // namespace franka_sim::test

@@ -1,0 +1,163 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// A stone between two fingers, held by friction alone.
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "test_support.h"
+
+namespace franka_sim::test {
+namespace {
+
+Eigen::Isometry3d toEigen(const Pose& pose) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  const auto& q = pose.orientation;
+  result.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  result.translation() = Eigen::Vector3d(pose.position.data());
+  return result;
+}
+
+class GraspTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  static constexpr double kFingerForce = 2.5;  ///< half of the hand's 5 N
+  static constexpr double kWeight = 0.1024 * 9.81;
+
+  GraspTest() : world_(test::world("stone")) {
+    RobotDescription description = robot(id());
+    description.base.position = {-0.5, 0, 0.3};
+    description.initial_positions[id() + "_finger_joint1"] = 0.0165;
+    world_.addRobot(description);
+    arm_ = &world_.arm(id(), id());
+    hand_ = &world_.hand(id(), id());
+    holder_ = std::make_unique<ArmHolder>(arm_, id());
+  }
+
+  std::string id() const { return GetParam(); }
+
+  /// The stone between the open fingers, its 32 mm along the fingers' way.
+  void placeStone() { world_.setBodyPose("stone", world_.bodyPose(id() + "_hand_tcp")); }
+
+  void tick(double force, const std::array<double, 7>& q_d,
+            const std::array<double, 7>& dq_d = {}) {
+    holder_->hold(q_d, dq_d);
+    hand_->applyForces({-force, -force});
+    world_.step();
+  }
+
+  Eigen::Vector3d stoneInHand() {
+    return (toEigen(world_.bodyPose(id() + "_hand")).inverse() * toEigen(world_.bodyPose("stone")))
+        .translation();
+  }
+
+  /// Sum of the forces on the stone from one finger, world axes [N].
+  Eigen::Vector3d forceFrom(const std::string& link) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Contact& c : world_.contacts()) {
+      const Eigen::Vector3d force(c.force.data());
+      if (c.body1 == link && c.body2 == "stone") {
+        sum += force;
+      } else if (c.body2 == link && c.body1 == "stone") {
+        sum -= force;
+      }
+    }
+    return sum;
+  }
+
+  World world_;
+  ArmPlant* arm_;
+  HandPlant* hand_;
+  std::unique_ptr<ArmHolder> holder_;
+};
+
+TEST_P(GraspTest, padsPressWithTheFingersForceAndCarryTheWeight) {
+  placeStone();
+  for (int k = 0; k < 2000; ++k) {
+    tick(kFingerForce, kHome);
+  }
+  const Eigen::Vector3d left = forceFrom(id() + "_leftfinger");
+  const Eigen::Vector3d right = forceFrom(id() + "_rightfinger");
+  const Eigen::Vector3d across =
+      toEigen(world_.bodyPose(id() + "_hand")).linear() * Eigen::Vector3d::UnitY();
+  // Left finger opens along +y of the hand, so it pushes the stone along -y.
+  EXPECT_NEAR(-kFingerForce, left.dot(across), 0.1 * kFingerForce);
+  EXPECT_NEAR(kFingerForce, right.dot(across), 0.1 * kFingerForce);
+  EXPECT_NEAR(kWeight, left.z() + right.z(), 1e-2 * kWeight);
+  EXPECT_NEAR(0.032, hand_->measure().q[0] + hand_->measure().q[1], 5e-4);
+}
+
+TEST_P(GraspTest, stoneStaysInTheFingersForAMinuteOfCarrying) {
+  placeStone();
+  for (int k = 0; k < 1000; ++k) {
+    tick(kFingerForce, kHome);
+  }
+  const Eigen::Vector3d start = stoneInHand();
+  Eigen::Vector3d last_tcp = toEigen(world_.bodyPose(id() + "_hand_tcp")).translation();
+  double fastest = 0, farthest = 0;
+  for (int k = 0; k < 60000; ++k) {
+    const double t = 0.001 * k;
+    const double ramp = std::min(1.0, t / 2);
+    auto q_d = kHome;
+    std::array<double, 7> dq_d{};
+    const auto swing = [&](int joint, double amplitude, double omega) {
+      q_d[joint] += ramp * amplitude * std::sin(omega * t);
+      dq_d[joint] = ramp * amplitude * omega * std::cos(omega * t);
+    };
+    swing(0, 0.4, 1.5);
+    swing(3, 0.15, 2.1);
+    swing(5, 0.25, 1.7);
+    swing(6, 0.4, 1.1);
+    tick(kFingerForce, q_d, dq_d);
+    if (k % 10 == 9) {
+      const Eigen::Vector3d tcp = toEigen(world_.bodyPose(id() + "_hand_tcp")).translation();
+      fastest = std::max(fastest, (tcp - last_tcp).norm() / 0.01);
+      last_tcp = tcp;
+      farthest = std::max(farthest, (stoneInHand() - start).norm());
+    }
+  }
+  RecordProperty("slip_mm", std::to_string(1000 * farthest));
+  RecordProperty("fastest", std::to_string(fastest));
+  EXPECT_GT(fastest, 0.25) << "the motion was too slow to show anything";
+  EXPECT_LT(farthest, 2e-3);
+  EXPECT_GT(forceFrom(id() + "_leftfinger").norm(), 0.5 * kFingerForce);
+  EXPECT_GT(forceFrom(id() + "_rightfinger").norm(), 0.5 * kFingerForce);
+}
+
+/// Two pads with friction 0.6 carry at most 2 * 0.6 * F: below 0.84 N the stone must slip.
+TEST_P(GraspTest, tooLittleForceLosesTheStone) {
+  placeStone();
+  for (int k = 0; k < 1500; ++k) {
+    tick(0.6, kHome);
+  }
+  EXPECT_GT(stoneInHand().z(), 0.1034 + 0.02) << "friction of the stone (0.6) decides, not 1.13";
+}
+
+TEST_P(GraspTest, openFingersLetGo) {
+  placeStone();
+  for (int k = 0; k < 500; ++k) {
+    tick(kFingerForce, kHome);
+  }
+  for (int k = 0; k < 800; ++k) {
+    tick(-2, kHome);
+  }
+  EXPECT_EQ(Eigen::Vector3d::Zero().eval(), forceFrom(id() + "_leftfinger"));
+  EXPECT_GT(stoneInHand().z(), 0.15);
+}
+
+/// With closed brakes the fingers still hold: the arm stands like a rock.
+TEST_P(GraspTest, graspOutlivesTheBrakes) {
+  placeStone();
+  for (int k = 0; k < 1000; ++k) {
+    tick(kFingerForce, kHome);
+  }
+  const Eigen::Vector3d start = stoneInHand();
+  arm_->setBrakes(true);
+  for (int k = 0; k < 5000; ++k) {
+    tick(kFingerForce, kHome);
+  }
+  EXPECT_LT((stoneInHand() - start).norm(), 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, GraspTest, ::testing::Values("panda", "fr3"));
+
+}  // namespace
+}  // namespace franka_sim::test

@@ -1,0 +1,115 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+
+#include "test_support.h"
+
+namespace franka_sim::test {
+namespace {
+
+constexpr double kWeight = 12 * 9.81;  ///< of all that the lift carries [N]
+
+class JointDriveTest : public ::testing::Test {
+ protected:
+  JointDriveTest() {
+    RobotDescription description;
+    description.name = "lift_and_wheel";
+    description.urdf = readFile(std::string(FRANKA_SIM_TEST_DATA) + "/lift_and_wheel.urdf");
+    description.initial_positions["lift"] = 0.5;
+    world_.addRobot(description);
+    lift_ = &world_.drive("lift_and_wheel", "lift");
+    wheel_ = &world_.drive("lift_and_wheel", "wheel_joint1");
+  }
+
+  void step(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      world_.step();
+    }
+  }
+
+  World world_;
+  JointDrive *lift_{nullptr}, *wheel_{nullptr};
+};
+
+TEST_F(JointDriveTest, effortsAct) {
+  lift_->applyEffort(kWeight + 1.2);
+  step(1000);
+  // A constant acceleration of 1.2 N / 12 kg; Euler's steps are half a step ahead.
+  EXPECT_NEAR(0.1, lift_->measure().velocity, 1e-9);
+  EXPECT_NEAR(0.5 + 0.05, lift_->measure().position, 1e-4);
+  EXPECT_NEAR(kWeight + 1.2, lift_->measure().effort, 1e-9);
+}
+
+TEST_F(JointDriveTest, aPositionIsKeptWhateverItCarries) {
+  lift_->follow(0.5);
+  step(500);
+  EXPECT_NEAR(0.5, lift_->measure().position, 1e-5);
+  EXPECT_NEAR(kWeight, lift_->measure().effort, 1e-3);
+  world_.push("platform", {0, 0, -500}, {0, 0, 0}, 500);
+  step(500);
+  EXPECT_NEAR(0.5, lift_->measure().position, 1e-4);
+  EXPECT_NEAR(kWeight + 500, lift_->measure().effort, 1e-2);
+}
+
+TEST_F(JointDriveTest, aSteadyMotionIsFollowedFourMillisecondsLate) {
+  const double v = 0.2;
+  double target = 0.5;
+  for (int i = 0; i < 500; ++i) {
+    target += v * World::kTick;
+    lift_->follow(target);
+    world_.step();
+  }
+  EXPECT_NEAR(v, lift_->measure().velocity, 1e-6);
+  EXPECT_NEAR(target - v * 0.004, lift_->measure().position, v * 0.001);
+}
+
+TEST_F(JointDriveTest, frictionAndDampingAreThoseOfTheUrdf) {
+  lift_->follow(0.5);
+  wheel_->applyEffort(1.2);
+  step(500);  // 25 time constants I / d
+  EXPECT_NEAR((1.2 - 0.2) / 0.5, wheel_->measure().velocity, 1e-6);
+  wheel_->applyEffort(0.19);
+  step(500);
+  // Below the dry friction, which MuJoCo lets creep: the damping alone would allow 0.38 rad/s.
+  EXPECT_LT(wheel_->measure().velocity, 0.02);
+}
+
+TEST_F(JointDriveTest, nothingIsLetGoWhenSomethingElseComesOrIsPutElsewhere) {
+  lift_->follow(0.5);
+  step(100);
+  world_.addRobot(robot("panda"));
+  step(100);
+  EXPECT_NEAR(0.5, lift_->measure().position, 1e-5);
+  world_.setJointPosition("lift", 0.8);
+  step(100);
+  EXPECT_NEAR(0.8, lift_->measure().position, 1e-5);
+
+  const Snapshot snapshot = world_.snapshot();
+  lift_->applyEffort(0.0);
+  step(100);
+  EXPECT_LT(lift_->measure().position, 0.78);
+  world_.restore(snapshot);
+  step(100);
+  EXPECT_NEAR(0.8, lift_->measure().position, 1e-5);
+  world_.reset();
+  step(100);
+  EXPECT_LT(lift_->measure().position, 0.48) << "after a reset nobody holds it";
+}
+
+TEST_F(JointDriveTest, aNumberThatIsNoneIsNoCommand) {
+  lift_->follow(0.5);
+  lift_->follow(std::numeric_limits<double>::quiet_NaN());
+  wheel_->applyEffort(std::numeric_limits<double>::infinity());
+  step(100);
+  EXPECT_NEAR(0.5, lift_->measure().position, 1e-5);
+  EXPECT_EQ(0.0, wheel_->measure().velocity);
+}
+
+TEST_F(JointDriveTest, onlyJointsThatMoveHaveADrive) {
+  EXPECT_THROW(world_.drive("lift_and_wheel", "elevator"), std::runtime_error);
+  EXPECT_THROW(world_.drive("elevator", "lift"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace franka_sim::test

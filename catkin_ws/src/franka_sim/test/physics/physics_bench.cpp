@@ -1,0 +1,122 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// One tick of World against the bare mj_step calls of the same model, side by side in one run.
+#include <benchmark/benchmark.h>
+#include <franka_sim/physics/world.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using franka_sim::ArmMeasurement;
+using franka_sim::ArmPlant;
+using franka_sim::RobotDescription;
+using franka_sim::World;
+
+constexpr std::array<double, 7> kHome{0, -0.785, 0, -2.356, 0, 1.571, 0.785};
+
+std::string readFile(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) {
+    throw std::runtime_error(file + " is missing");
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+RobotDescription panda() {
+  RobotDescription description;
+  description.name = "panda";
+  description.urdf = readFile(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
+  description.base.position = {-0.5, 0, 0};
+  for (int i = 0; i < 7; ++i) {
+    const std::string joint = "panda_joint" + std::to_string(i + 1);
+    description.initial_positions[joint] = kHome[i];
+    description.rotor_inertia[joint] = 0.1;
+  }
+  return description;
+}
+
+std::unique_ptr<World> makeWorld(bool stone) {
+  auto world = std::make_unique<World>(std::string(FRANKA_SIM_WORLDS) +
+                                       (stone ? "/stone.xml" : "/empty.xml"));
+  world->addRobot(panda());
+  return world;
+}
+
+/// A spring to the home pose: the same cheap controller for both sides.
+double spring(int joint, double q, double dq, double load) {
+  return load - 200 * (q - kHome[joint]) - 30 * dq;
+}
+
+void tickOfWorld(benchmark::State& state) {
+  const auto world = makeWorld(state.range(0) != 0);
+  ArmPlant& arm = world->arm("panda", "panda");
+  for (auto _ : state) {
+    const ArmMeasurement m = arm.measure();
+    std::array<double, 7> tau;
+    for (int i = 0; i < 7; ++i) {
+      tau[i] = spring(i, m.q[i], m.dq[i], m.tau_J[i]);
+    }
+    arm.applyTorques(tau);
+    world->step();
+  }
+}
+
+void bareSteps(benchmark::State& state) {
+  const std::string text = makeWorld(state.range(0) != 0)->mjcf(false);
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), "merged.xml", static_cast<int>(text.size()));
+  std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
+  char error[500] = "";
+  mjModel* model = mj_loadXML("merged.xml", files.get(), error, sizeof error);
+  mj_deleteVFS(files.get());
+  if (model == nullptr) {
+    state.SkipWithError(error);
+    return;
+  }
+  mjData* data = mj_makeData(model);
+  std::array<int, 7> dof, qpos;
+  for (int i = 0; i < 7; ++i) {
+    const std::string name = "panda_joint" + std::to_string(i + 1);
+    const int joint = mj_name2id(model, mjOBJ_JOINT, name.c_str());
+    dof[i] = model->jnt_dofadr[joint];
+    qpos[i] = model->jnt_qposadr[joint];
+    data->qpos[qpos[i]] = kHome[i];
+  }
+  mj_forward(model, data);
+  for (auto _ : state) {
+    for (int i = 0; i < 7; ++i) {
+      data->qfrc_applied[dof[i]] =
+          spring(i, data->qpos[qpos[i]], data->qvel[dof[i]], data->qfrc_bias[dof[i]]);
+    }
+    for (int substep = 0; substep < World::kSubsteps; ++substep) {
+      mj_step(model, data);
+    }
+  }
+  mj_deleteData(data);
+  mj_deleteModel(model);
+}
+
+void hashOfState(benchmark::State& state) {
+  const auto world = makeWorld(true);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(world->stateHash());
+  }
+}
+
+// Argument 0: arm and hand alone, 1: with table, trays and stone.
+BENCHMARK(bareSteps)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK(tickOfWorld)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK(hashOfState)->Unit(benchmark::kNanosecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

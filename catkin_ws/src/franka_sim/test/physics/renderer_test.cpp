@@ -1,0 +1,146 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/renderer.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "test_support.h"
+
+namespace franka_sim::test {
+namespace {
+
+std::array<int, 3> pixel(const Picture& picture, int x, int y) {
+  const std::uint8_t* p = &picture.rgb[3 * (static_cast<std::size_t>(y) * picture.width + x)];
+  return {p[0], p[1], p[2]};
+}
+
+/// MuJoCo loads OpenGL once per process, so all tests share one renderer.
+class RendererTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    renderer_ = std::make_unique<Renderer>();
+    world_ = std::make_unique<World>(test::world("stone"));
+    RobotDescription description = robot("panda");
+    description.base.position = {-0.5, 0, 0};
+    world_->addRobot(description);
+  }
+  static void TearDownTestSuite() {
+    renderer_.reset();
+    world_.reset();
+  }
+  static Camera above() {
+    Camera camera;
+    camera.position = {0.01, 0, 2.0};
+    camera.target = {0.0, 0, 0.42};
+    return camera;
+  }
+
+  static std::unique_ptr<Renderer> renderer_;
+  static std::unique_ptr<World> world_;
+};
+
+std::unique_ptr<Renderer> RendererTest::renderer_;
+std::unique_ptr<World> RendererTest::world_;
+
+TEST_F(RendererTest, usesTheBackendThatWasAskedFor) {
+  const char* asked = std::getenv("FRANKA_SIM_RENDERER");
+  const std::string backend = renderer_->backend();
+  if (asked == nullptr) {
+    EXPECT_TRUE(backend == "EGL" || backend == "OSMesa");
+  } else {
+    EXPECT_EQ(std::string(asked) == "egl" ? "EGL" : "OSMesa", backend);
+  }
+}
+
+/// From above: x of the world points up in the picture, y to the left; blue tray right, red tray
+/// left.
+TEST_F(RendererTest, showsTheTraysWhereTheyStand) {
+  const Picture picture = renderer_->render(captureScene(*world_), above(), 320, 240);
+  ASSERT_EQ(3u * 320 * 240, picture.rgb.size());
+  std::array<double, 2> blue_sum{}, red_sum{};
+  int blue = 0, red = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      const auto [r, g, b] = pixel(picture, x, y);
+      if (b > 100 && b > 2 * r) {
+        ++blue;
+        blue_sum[0] += x;
+        blue_sum[1] += y;
+      } else if (r > 80 && r > 2 * b && r > 2 * g) {
+        ++red;
+        red_sum[0] += x;
+        red_sum[1] += y;
+      }
+    }
+  }
+  ASSERT_GT(blue, 200);
+  ASSERT_GT(red, 200);
+  const double blue_x = blue_sum[0] / blue, red_x = red_sum[0] / red;
+  EXPECT_NEAR(160, 0.5 * (blue_x + red_x), 15);
+  EXPECT_GT(std::abs(blue_x - red_x), 40);
+}
+
+TEST_F(RendererTest, samePictureForTheSameMoment) {
+  const Scene scene = captureScene(*world_);
+  const Picture one = renderer_->render(scene, above(), 200, 100);
+  const Picture big = renderer_->render(scene, above(), 1000, 800);  // the buffer grows
+  const Picture again = renderer_->render(scene, above(), 200, 100);
+  EXPECT_EQ(one.rgb, again.rgb);
+  EXPECT_EQ(1000, big.width);
+}
+
+TEST_F(RendererTest, showsTheRobotMoving) {
+  const Picture before = renderer_->render(captureScene(*world_), Camera(), 200, 150);
+  world_->setJointPosition("panda_joint1", 0.8);
+  const Picture after = renderer_->render(captureScene(*world_), Camera(), 200, 150);
+  EXPECT_NE(before.rgb, after.rgb);
+  world_->setJointPosition("panda_joint1", 0.0);
+  EXPECT_EQ(before.rgb, renderer_->render(captureScene(*world_), Camera(), 200, 150).rgb);
+}
+
+TEST_F(RendererTest, showsTheStoneThatWasMoved) {
+  const Pose start = world_->bodyPose("stone");
+  const Picture before = renderer_->render(captureScene(*world_), above(), 320, 240);
+  Pose other = start;
+  other.position[1] = 0.219654;
+  world_->setBodyPose("stone", other);
+  const Picture after = renderer_->render(captureScene(*world_), above(), 320, 240);
+  EXPECT_NE(before.rgb, after.rgb);
+  world_->setBodyPose("stone", start);
+}
+
+TEST_F(RendererTest, newRobotAppears) {
+  World empty;
+  const Picture before = renderer_->render(captureScene(empty), Camera(), 200, 150);
+  empty.addRobot(robot("fr3"));
+  const Picture after = renderer_->render(captureScene(empty), Camera(), 200, 150);
+  EXPECT_NE(before.rgb, after.rgb);
+}
+
+TEST_F(RendererTest, saysWhatItCannotDraw) {
+  const Scene scene = captureScene(*world_);
+  expectSentence([&] { renderer_->render(scene, above(), 0, 10); }, {"0 x 10"});
+  expectSentence([&] { renderer_->render(scene, above(), 100, 100000); }, {"100000"});
+  Camera camera;
+  camera.target = camera.position;
+  expectSentence([&] { renderer_->render(scene, camera, 10, 10); }, {"camera"});
+  camera = Camera();
+  camera.field_of_view = 200;
+  expectSentence([&] { renderer_->render(scene, camera, 10, 10); }, {"field of view"});
+}
+
+TEST(RendererChoice, refusesUnknownBackends) {
+  const char* asked = std::getenv("FRANKA_SIM_RENDERER");
+  const std::string kept = asked == nullptr ? "" : asked;
+  setenv("FRANKA_SIM_RENDERER", "vulkan", 1);
+  expectSentence([] { Renderer renderer; }, {"FRANKA_SIM_RENDERER", "vulkan", "osmesa"});
+  if (asked == nullptr) {
+    unsetenv("FRANKA_SIM_RENDERER");
+  } else {
+    setenv("FRANKA_SIM_RENDERER", kept.c_str(), 1);
+  }
+}
+
+}  // namespace
+}  // namespace franka_sim::test

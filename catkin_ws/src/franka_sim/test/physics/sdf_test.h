@@ -1,0 +1,52 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "physics/world_impl.h"
+#include "test_support.h"
+
+namespace franka_sim::test {
+
+/// Writes SDF texts and what they name into a folder of their own.
+class SdfTest : public ::testing::Test {
+ protected:
+  SdfTest() {
+    char name[] = "/tmp/franka_sim_sdf_XXXXXX";
+    folder_ = mkdtemp(name);
+  }
+  ~SdfTest() override {
+    const int status = std::system(("rm -rf " + folder_).c_str());
+    (void)status;
+  }
+  std::string write(const std::string& name, const std::string& text) {
+    const std::string path = folder_ + "/" + name;
+    const int status = std::system(("mkdir -p " + path.substr(0, path.rfind('/'))).c_str());
+    (void)status;
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  /// A world file of this content.
+  std::string file(const std::string& content, const std::string& version = "1.6") {
+    return write("test.world", "<?xml version='1.0'?><!-- a world --><sdf version='" + version +
+                                   "'><world name='w'>" + content + "</world></sdf>");
+  }
+  std::string folder_;
+};
+
+inline int bodyId(World& world, const std::string& name) {
+  return mj_name2id(world.impl().model.get(), mjOBJ_BODY, name.c_str());
+}
+
+inline void run(World& world, int ticks) {
+  for (int i = 0; i < ticks; ++i) {
+    world.step();
+  }
+}
+
+}  // namespace franka_sim::test

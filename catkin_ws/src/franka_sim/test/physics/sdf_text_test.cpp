@@ -1,0 +1,281 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// What our reader understands by itself, where Debian has no sdformat. Where it has, the same scene
+// must come out both ways.
+#include "physics/sdf_text.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "physics/sdf_scene.h"
+#include "sdf_test.h"
+
+namespace franka_sim::test {
+namespace {
+
+using physics::SdfFiles;
+using physics::SdfJoint;
+using physics::SdfScene;
+using ::testing::HasSubstr;
+
+const char* const kInertial =
+    "<inertial><pose>0.01 -0.02 0.03 0.4 0.5 0.6</pose><mass>3.5</mass><inertia><ixx>0.05</ixx>"
+    "<iyy>0.04</iyy><izz>0.03</izz><ixy>0.001</ixy><ixz>-0.002</ixz><iyz>0.0015</iyz></inertia>"
+    "</inertial>";
+
+Eigen::Isometry3d poseFrom(double x, double y, double z, double roll, double pitch, double yaw) {
+  return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
+}
+
+void expectNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const std::string& what) {
+  EXPECT_LT((a.matrix() - b.matrix()).cwiseAbs().maxCoeff(), 1e-12) << what;
+}
+
+std::string contentOf(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class SdfTextTest : public SdfTest {
+ protected:
+  SdfScene byTinyXml(const std::string& text) const { return byTinyXml(text, folder_); }
+
+  static SdfScene byTinyXml(const std::string& text, const std::string& folder) {
+    const SdfFiles files(folder, {});
+    return physics::readExpandedSdf(
+        physics::expandByTinyXml(physics::withStandardModels(text, files, "test", ""), files,
+                                 "test"),
+        "test", true);
+  }
+
+  static std::string world(const std::string& content, const std::string& version) {
+    return "<sdf version='" + version + "'><world name='w'>" + content + "</world></sdf>";
+  }
+
+  /// The scene that our own reader finds, after a comparison with sdformat's where that is there.
+  SdfScene both(const std::string& text) const { return both(text, folder_); }
+
+  static SdfScene both(const std::string& text, const std::string& folder) {
+    SdfScene own = byTinyXml(text, folder);
+    const SdfScene other = physics::readSdf(text, folder, "test", {});
+    expectSame(own, other);
+    return own;
+  }
+
+  static void expectSame(const SdfScene& a, const SdfScene& b) {
+    EXPECT_EQ(a.gravity, b.gravity);
+    EXPECT_EQ(a.ambient, b.ambient);
+    EXPECT_EQ(a.background, b.background);
+    EXPECT_EQ(a.unsupported, b.unsupported);
+    ASSERT_EQ(a.models.size(), b.models.size());
+    for (std::size_t i = 0; i < a.models.size(); ++i) {
+      EXPECT_EQ(a.models[i].name, b.models[i].name);
+      EXPECT_EQ(a.models[i].links, b.models[i].links);
+      EXPECT_EQ(a.models[i].self_collide, b.models[i].self_collide);
+      expectNear(a.models[i].pose, b.models[i].pose, a.models[i].name);
+    }
+    ASSERT_EQ(a.links.size(), b.links.size());
+    for (std::size_t i = 0; i < a.links.size(); ++i) {
+      expectSameLinks(a.links[i], b.links[i]);
+    }
+    ASSERT_EQ(a.joints.size(), b.joints.size());
+    for (std::size_t i = 0; i < a.joints.size(); ++i) {
+      expectSameJoints(a.joints[i], b.joints[i]);
+    }
+    ASSERT_EQ(a.lights.size(), b.lights.size());
+    for (std::size_t i = 0; i < a.lights.size(); ++i) {
+      EXPECT_EQ(a.lights[i].kind, b.lights[i].kind);
+      EXPECT_EQ(a.lights[i].attenuation, b.lights[i].attenuation);
+      EXPECT_EQ(a.lights[i].cutoff, b.lights[i].cutoff);
+      EXPECT_EQ(a.lights[i].shadows, b.lights[i].shadows);
+      EXPECT_LT((a.lights[i].position - b.lights[i].position).norm(), 1e-12);
+      EXPECT_LT((a.lights[i].direction - b.lights[i].direction).norm(), 1e-12);
+    }
+    ASSERT_EQ(a.cameras.size(), b.cameras.size());
+    for (std::size_t i = 0; i < a.cameras.size(); ++i) {
+      EXPECT_EQ(a.cameras[i].width, b.cameras[i].width);
+      EXPECT_EQ(a.cameras[i].rate, b.cameras[i].rate);
+      expectNear(a.cameras[i].pose, b.cameras[i].pose, a.cameras[i].name);
+    }
+  }
+
+  static void expectSameLinks(const physics::SdfLink& a, const physics::SdfLink& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.is_static, b.is_static) << a.name;
+    EXPECT_EQ(a.inertial.mass, b.inertial.mass) << a.name;
+    EXPECT_LT((a.inertial.inertia - b.inertial.inertia).norm(), 1e-15) << a.name;
+    expectNear(a.pose, b.pose, a.name);
+    ASSERT_EQ(a.collisions.size(), b.collisions.size()) << a.name;
+    for (std::size_t i = 0; i < a.collisions.size(); ++i) {
+      EXPECT_EQ(a.collisions[i].size, b.collisions[i].size) << a.name;
+      EXPECT_EQ(a.collisions[i].mesh.file, b.collisions[i].mesh.file) << a.name;
+      EXPECT_EQ(a.collisions[i].surface.mu, b.collisions[i].surface.mu) << a.name;
+      EXPECT_EQ(a.collisions[i].surface.kp, b.collisions[i].surface.kp) << a.name;
+      expectNear(a.collisions[i].pose, b.collisions[i].pose, a.name);
+    }
+    ASSERT_EQ(a.visuals.size(), b.visuals.size()) << a.name;
+    for (std::size_t i = 0; i < a.visuals.size(); ++i) {
+      EXPECT_EQ(a.visuals[i].rgba, b.visuals[i].rgba) << a.name;
+      EXPECT_EQ(a.visuals[i].opacity, b.visuals[i].opacity) << a.name;
+    }
+  }
+
+  static void expectSameJoints(const SdfJoint& a, const SdfJoint& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.kind, b.kind) << a.name;
+    EXPECT_EQ(a.parent, b.parent) << a.name;
+    EXPECT_EQ(a.child, b.child) << a.name;
+    EXPECT_EQ(a.limits, b.limits) << a.name;
+    EXPECT_LT((a.position - b.position).norm(), 1e-12) << a.name;
+    EXPECT_LT((a.axis - b.axis).norm(), 1e-12) << a.name;
+  }
+};
+
+TEST_F(SdfTextTest, ShippedWorldsReadAlike) {
+  const std::string folder = std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world";
+  const SdfScene scene = both(contentOf(folder + "/stone.sdf"), folder);
+  EXPECT_GE(scene.models.size(), 5u);  // the ground, a table, two trays, a stone
+}
+
+TEST_F(SdfTextTest, PosesFollowTheirFrames) {
+  const SdfScene scene = both(
+      world("<frame name='corner'><pose>1 2 0 0 0 0.5</pose></frame>"
+            "<model name='m' placement_frame='grip'><pose relative_to='corner'>0 0 1 0.1 0 0</pose>"
+            "<frame name='grip' attached_to='a'><pose>0 0 0.2 0 0.3 0</pose></frame>"
+            "<link name='a'><pose>0.5 0 0 0 0 0.7</pose>" +
+                std::string(kInertial) +
+                "<visual name='v'><pose relative_to='grip'>0 0.1 0 0 0 0</pose>"
+                "<geometry><sphere><radius>0.1</radius></sphere></geometry></visual></link>"
+                "<link name='b'><pose relative_to='j'>0 0 0.1 0 0 0</pose></link>"
+                "<joint name='j' type='revolute'><pose relative_to='a'>0 0.1 0 0.2 0 0</pose>"
+                "<parent>a</parent><child>b</child><axis><xyz expressed_in='grip'>1 1 0</xyz>"
+                "<limit><lower>-1</lower><upper>inf</upper></limit></axis></joint></model>",
+            "1.7"));
+  const Eigen::Isometry3d a = poseFrom(0.5, 0, 0, 0, 0, 0.7);
+  const Eigen::Isometry3d grip = a * poseFrom(0, 0, 0.2, 0, 0.3, 0);
+  const Eigen::Isometry3d m =
+      poseFrom(1, 2, 0, 0, 0, 0.5) * poseFrom(0, 0, 1, 0.1, 0, 0) * grip.inverse();
+  const Eigen::Isometry3d j = a * poseFrom(0, 0.1, 0, 0.2, 0, 0);
+  ASSERT_EQ(scene.links.size(), 2u);
+  expectNear(scene.links[0].pose, m * a, "a");
+  expectNear(scene.links[1].pose, m * j * poseFrom(0, 0, 0.1, 0, 0, 0), "b");
+  expectNear(scene.links[0].visuals[0].pose, a.inverse() * grip * poseFrom(0, 0.1, 0, 0, 0, 0),
+             "visual");
+  const Eigen::Vector3d axis = m.linear() * grip.linear() * Eigen::Vector3d(1, 1, 0).normalized();
+  EXPECT_LT((scene.joints[0].axis - axis).norm(), 1e-12);
+  EXPECT_LT((scene.joints[0].position - (m * j).translation()).norm(), 1e-12);
+  ASSERT_TRUE(scene.joints[0].limits.has_value());
+  EXPECT_EQ((*scene.joints[0].limits)[0], -1);
+}
+
+/// Before SDF 1.7 frames are those of joints; whether axes are the model's, a version decides.
+TEST_F(SdfTextTest, OldAxesAreExpressedAsTheirVersionSays) {
+  const auto text = [](const std::string& in_axis) {
+    return "<model name='m'><pose>0 0 0 0.3 0 0</pose><link name='a'/><link name='b'><pose>0 0 1 0 "
+           "0.4 0</pose></link><joint name='j' type='prismatic'><parent>a</parent><child>b</child>"
+           "<axis><xyz>1 0 0</xyz>" +
+           in_axis + "<limit><lower>0</lower><upper>1</upper></limit></axis></joint></model>";
+  };
+  const Eigen::Matrix3d model = poseFrom(0, 0, 0, 0.3, 0, 0).linear();
+  const Eigen::Vector3d of_model = model * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d of_joint =
+      model * poseFrom(0, 0, 0, 0, 0.4, 0).linear() * Eigen::Vector3d::UnitX();
+  const auto axis = [&](const std::string& in_axis, const std::string& version) {
+    return both(world(text(in_axis), version)).joints.at(0).axis;
+  };
+  EXPECT_LT((axis("", "1.4") - of_model).norm(), 1e-12);
+  EXPECT_LT((axis("", "1.6") - of_joint).norm(), 1e-12);
+  const std::string old_way = "<use_parent_model_frame>true</use_parent_model_frame>";
+  EXPECT_LT((axis(old_way, "1.6") - of_model).norm(), 1e-12);
+}
+
+TEST_F(SdfTextTest, NestedModelsAndIncludesAreWrittenOut) {
+  write("crate/model.config",
+        "<model><name>crate</name><sdf version='1.4'>old.sdf</sdf>"
+        "<sdf version='1.6'>model.sdf</sdf></model>");
+  write("crate/model.sdf",
+        "<sdf version='1.6'><model name='crate'><link name='link'>" + std::string(kInertial) +
+            "<collision name='c'><geometry><mesh><uri>meshes/tetra.obj</uri></mesh></geometry>"
+            "</collision></link></model></sdf>");
+  write("crate/meshes/tetra.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\n");
+  const SdfScene scene = both(
+      world("<include><uri>model://sun</uri></include>"
+            "<include><uri>model://ground_plane</uri></include>"
+            "<include><uri>model://crate</uri><name>first</name><pose>0 0 1 0 0 0</pose></include>"
+            "<model name='outer'><static>true</static><pose>1 0 0 0 0 1</pose><link name='plate'/>"
+            "<model name='inner'><pose>0 1 0 0 0 0</pose><link name='l'/></model>"
+            "<joint name='hold' type='fixed'><parent>plate</parent><child>inner::l</child></joint>"
+            "</model>",
+            "1.8"));
+  ASSERT_EQ(scene.models.size(), 3u);
+  EXPECT_EQ(scene.links[1].name, "first::link");
+  EXPECT_EQ(scene.links[1].collisions.at(0).mesh.file, folder_ + "/crate/meshes/tetra.obj");
+  EXPECT_EQ(scene.links[3].name, "outer::inner::l");
+  expectNear(scene.links[3].pose, poseFrom(1, 0, 0, 0, 0, 1) * poseFrom(0, 1, 0, 0, 0, 0), "l");
+  EXPECT_EQ(scene.joints.at(0).child, 3);
+}
+
+TEST_F(SdfTextTest, LightsCamerasAndColoursKeepTheirDefaults) {
+  const SdfScene scene = both(
+      world("<gravity>0 0 -1.62</gravity><scene><ambient>0.1 0.2 0.3 1</ambient>"
+            "<background>0.5 0.6 0.7</background></scene>"
+            "<light name='lamp' type='spot'><pose>0 0 2 0 0.1 0</pose><direction>0 0 -2</direction>"
+            "<attenuation><range>10</range><constant>0.5</constant></attenuation><spot>"
+            "<inner_angle>0.1</inner_angle><outer_angle>0.8</outer_angle><falloff>1</falloff>"
+            "</spot></light>"
+            "<model name='m'><link name='l'><gravity>false</gravity>"
+            "<sensor name='eye' type='camera'><pose>0 0 0.1 0 0.2 0</pose><camera><image>"
+            "<width>64</width></image></camera></sensor>"
+            "<visual name='v'><transparency>0.25</transparency><geometry><cylinder>"
+            "<radius>0.1</radius><length>0.5</length></cylinder></geometry><material><script>"
+            "<uri>file://media</uri><name>Gazebo/Red</name></script></material></visual>"
+            "</link></model>",
+            "1.6"));
+  EXPECT_EQ(scene.gravity[2], -1.62);
+  EXPECT_EQ(scene.lights.at(0).attenuation[0], 0.5);
+  EXPECT_EQ(scene.lights.at(0).cutoff, 0.4);
+  EXPECT_EQ(scene.cameras.at(0).width, 64);
+  EXPECT_EQ(scene.cameras.at(0).height, 240);
+  EXPECT_EQ(scene.links.at(0).visuals.at(0).opacity, 0.75);
+}
+
+TEST_F(SdfTextTest, RefusesWithASentence) {
+  const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
+    expectSentence([&] { byTinyXml(text); }, parts);
+  };
+  refuses("<sdf version='1.6'><world name='w'>", {"well-formed"});
+  refuses("<sdf><world name='w'/></sdf>", {"version"});
+  refuses("<sdf version='new'><world name='w'/></sdf>", {"'new'"});
+  refuses(world("<include><uri>model://nowhere</uri></include>", "1.6"), {"nowhere"});
+  refuses(world("<model name='m'/>", "1.6"), {"'m'", "link"});
+  refuses(world("<model name='m'><link name='a'/><link name='a'/></model>", "1.6"), {"'a'"});
+  refuses(world("<model name='m'><link name='a'><inertial><mass>-1</mass></inertial></link>"
+                "</model>",
+                "1.6"),
+          {"'m::a'", "mass"});
+  refuses(world("<model name='m'><link name='a'/><joint name='j' type='fixed'><parent>a</parent>"
+                "<child>b</child></joint></model>",
+                "1.6"),
+          {"'m::j'", "'b'"});
+  refuses(world("<model name='m'><link name='a'><pose relative_to='b'>0 0 0 0 0 0</pose></link>"
+                "<frame name='b' attached_to='a'/></model>",
+                "1.7"),
+          {"circle"});
+  refuses(world("<model name='m'><link name='a'><pose>0 0 nan 0 0 0</pose></link></model>", "1.6"),
+          {"'a'", "nan"});
+  refuses(world("<model name='m'><link name='a'><pose>0 0 0</pose></link></model>", "1.6"),
+          {"'a'", "6 numbers"});
+  write("loop/model.sdf",
+        "<sdf version='1.6'><model name='loop'><include><uri>model://loop</uri></include></model>"
+        "</sdf>");
+  refuses(world("<include><uri>model://loop</uri></include>", "1.6"), {"without end"});
+}
+
+}  // namespace
+}  // namespace franka_sim::test

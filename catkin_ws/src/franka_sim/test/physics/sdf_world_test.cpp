@@ -1,0 +1,321 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// SDF worlds and models against closed forms: what a text says is what MuJoCo moves.
+#include <gmock/gmock.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "sdf_test.h"
+
+namespace franka_sim::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kGravity = 9.8;  ///< SDF's, where the text says nothing
+
+std::string box(const std::string& model, const std::string& pose, const std::string& surface,
+                const std::string& more = "") {
+  return "<model name='" + model + "'><pose>" + pose + "</pose><link name='link'>" +
+         "<inertial><mass>2</mass><inertia><ixx>0.02</ixx><iyy>0.02</iyy><izz>0.02</izz>"
+         "</inertia></inertial><collision name='c'><geometry><box><size>0.1 0.1 0.1</size></box>"
+         "</geometry>" +
+         surface + "</collision></link>" + more + "</model>";
+}
+
+std::string friction(double mu) {
+  return "<surface><friction><ode><mu>" + std::to_string(mu) + "</mu><mu2>" + std::to_string(mu) +
+         "</mu2></ode></friction></surface>";
+}
+
+std::string ground(double mu) {
+  return "<model name='floor'><static>true</static><link name='link'><collision name='c'>"
+         "<geometry><plane><normal>0 0 1</normal><size>5 5</size></plane></geometry>" +
+         friction(mu) + "</collision></link></model>";
+}
+
+class SdfWorldTest : public SdfTest {};
+
+TEST_F(SdfWorldTest, theTwoStoneWorldsAreOne) {
+  World sdf(std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world/stone.sdf");
+  World mjcf(std::string(FRANKA_SIM_WORLDS) + "/stone.xml");
+  EXPECT_EQ(sdf.unsupported(), "");
+  for (const char* name : {"table", "pick_tray", "place_tray", "stone"}) {
+    const mjModel &a = *sdf.impl().model, &b = *mjcf.impl().model;
+    const int i = bodyId(sdf, name), j = bodyId(mjcf, name);
+    ASSERT_GT(i, 0) << name;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(sdf.bodyPose(name).position[k], mjcf.bodyPose(name).position[k], 1e-15) << name;
+    }
+    EXPECT_DOUBLE_EQ(a.body_mass[i], b.body_mass[j]) << name;
+    EXPECT_EQ(a.body_dofnum[i], b.body_dofnum[j]) << name;
+    const int g = a.body_geomadr[i], h = b.body_geomadr[j];
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(a.geom_size[3 * g + k], b.geom_size[3 * h + k], 1e-15) << name;
+      EXPECT_NEAR(a.geom_pos[3 * g + k], b.geom_pos[3 * h + k], 1e-15) << name;
+      EXPECT_DOUBLE_EQ(a.geom_friction[3 * g + k], b.geom_friction[3 * h + k]) << name;
+    }
+    EXPECT_EQ(a.geom_solref[2 * g], b.geom_solref[2 * h]) << name;
+    EXPECT_EQ(a.geom_priority[g], b.geom_priority[h]) << name;
+  }
+  run(sdf, 1000);
+  run(mjcf, 1000);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(sdf.bodyPose("stone").position[k], mjcf.bodyPose("stone").position[k], 1e-6);
+  }
+}
+
+TEST_F(SdfWorldTest, inertiasAndPosesAreThoseOfTheText) {
+  World world(
+      file("<model name='m'><pose>1 2 3 0 0 1.5707963267948966</pose><link name='a'>"
+           "<pose>0.1 0 0 0 0.3 0</pose><inertial><pose>0.01 0.02 0.03 0.4 0.5 "
+           "0.6</pose><mass>3.5</mass>"
+           "<inertia><ixx>0.05</ixx><iyy>0.04</iyy><izz>0.03</izz><ixy>0.001</ixy><ixz>-0.002</ixz>"
+           "<iyz>0.0015</iyz></inertia></inertial></link></model>"));
+  const mjModel& model = *world.impl().model;
+  const int body = bodyId(world, "m");
+  ASSERT_GT(body, 0);
+  EXPECT_DOUBLE_EQ(model.body_mass[body], 3.5);
+  const auto rpy = [](double r, double p, double y) -> Eigen::Matrix3d {
+    return (Eigen::AngleAxisd(y, Eigen::Vector3d::UnitZ()) *
+            Eigen::AngleAxisd(p, Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(r, Eigen::Vector3d::UnitX()))
+        .toRotationMatrix();
+  };
+  // The link stands in the model, its inertia frame in the link.
+  const Eigen::Matrix3d link = rpy(0, 0.3, 0);
+  const Eigen::Vector3d com = Eigen::Vector3d(0.1, 0, 0) + link * Eigen::Vector3d(0.01, 0.02, 0.03);
+  EXPECT_LT((com - Eigen::Map<const Eigen::Vector3d>(model.body_ipos + 3 * body)).norm(), 1e-12);
+  Eigen::Matrix3d moment;
+  moment << 0.05, 0.001, -0.002, 0.001, 0.04, 0.0015, -0.002, 0.0015, 0.03;
+  const Eigen::Matrix3d axes = link * rpy(0.4, 0.5, 0.6);
+  const Eigen::Matrix3d expected = axes * moment * axes.transpose();
+  const double* q = model.body_iquat + 4 * body;
+  const Eigen::Matrix3d principal = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  const Eigen::Matrix3d actual =
+      principal * Eigen::Map<const Eigen::Vector3d>(model.body_inertia + 3 * body).asDiagonal() *
+      principal.transpose();
+  EXPECT_LT((actual - expected).norm(), 1e-12);
+  // 90 degrees about z: the link's x offset becomes the world's y.
+  const Pose pose = world.bodyPose("m::a");
+  EXPECT_NEAR(pose.position[0], 1, 1e-12);
+  EXPECT_NEAR(pose.position[1], 2.1, 1e-12);
+  EXPECT_NEAR(pose.position[2], 3, 1e-12);
+  EXPECT_NEAR(world.bodyPose("m").position[1], 2, 1e-12);
+}
+
+/// On a slope a block rests below atan(mu) and slides above, where the floor pulls back with mu
+/// times what it carries. Gravity is tilted, not the floor. Of two surfaces the more slippery one
+/// counts.
+TEST_F(SdfWorldTest, frictionDecidesOnASlope) {
+  const double mu = 0.4;
+  for (const double angle : {std::atan(mu) - 0.03, std::atan(mu) + 0.1}) {
+    const std::string tilted = "<gravity>" + std::to_string(kGravity * std::sin(angle)) + " 0 " +
+                               std::to_string(-kGravity * std::cos(angle)) + "</gravity>";
+    World world(file(tilted + ground(1.0) + box("b", "0 0 0.05 0 0 0", friction(mu))));
+    run(world, 300);  // settle
+    const double before = world.bodyTwist("b").linear[0];
+    double along = 0, across = 0;
+    for (int i = 0; i < 500; ++i) {
+      world.step();
+      for (const Contact& contact : world.contacts()) {
+        along += contact.force[0];
+        across += contact.force[2];
+      }
+    }
+    if (angle < std::atan(mu)) {
+      EXPECT_LT(std::abs(world.bodyTwist("b").linear[0] - before), 1e-3);
+    } else {
+      EXPECT_NEAR(along / across, -mu, 1e-4);
+      EXPECT_GT(world.bodyTwist("b").linear[0] - before, 0.4);
+    }
+  }
+}
+
+TEST_F(SdfWorldTest, softContactsSinkInByTheirStiffness) {
+  const double kp = 2000;
+  const std::string soft = "<surface><contact><ode><kp>2000</kp></ode></contact></surface>";
+  World world(file(ground(1.0) + box("b", "0 0 0.05 0 0 0", soft)));
+  run(world, 3000);
+  // Four corners, each a spring: the box rests m g / (4 kp) deep.
+  const double depth = 0.05 - world.bodyPose("b").position[2];
+  EXPECT_NEAR(depth, 2 * kGravity / (4 * kp), 1e-3 * depth);
+  EXPECT_EQ(world.contacts().size(), 4u);
+  EXPECT_EQ(world.contacts().front().body1, "floor");
+  EXPECT_NEAR(world.contacts().front().force[2], 2 * kGravity / 4, 1e-3);
+}
+
+TEST_F(SdfWorldTest, hingesSwingLikeAPendulum) {
+  // A point-like mass at 0.5 m: T = 2 pi sqrt((m l^2 + I) / (m g l)) for small swings.
+  World world(file(
+      "<model name='p'><pose>0 0 2 0 0 0</pose><link name='bob'><pose>0 0 -0.5 0 0 0</pose>"
+      "<inertial><mass>1</mass><inertia><ixx>0.001</ixx><iyy>0.001</iyy><izz>0.001</izz></inertia>"
+      "</inertial></link><joint name='pin' type='revolute'><pose>0 0 0.5 0 0 0</pose>"
+      "<parent>world</parent><child>bob</child><axis><xyz>0 1 0</xyz>"
+      "<limit><lower>-1</lower><upper>1.2</upper></limit></axis></joint></model>"));
+  world.setJointPosition("p::pin", 0.02);
+  const double period = 2 * M_PI * std::sqrt((0.25 + 0.001) / (kGravity * 0.5));
+  run(world, static_cast<int>(std::lround(period / 2 * 1000)));
+  EXPECT_NEAR(world.joint("p::pin").position, -0.02, 1e-5);
+  EXPECT_THROW(world.setJointPosition("p::pin", 1.3), std::runtime_error);
+  EXPECT_THROW(world.setJointPosition("p::pin", -1.1), std::runtime_error);
+}
+
+TEST_F(SdfWorldTest, slidesFallAlongTheirAxisAgainstDamping) {
+  World world(file(
+      "<model name='s'><link name='base'><inertial><mass>1</mass></inertial></link>"
+      "<joint name='hold' type='fixed'><parent>world</parent><child>base</child></joint>"
+      "<link name='cart'><pose>0 0 1 0 0 0</pose><inertial><mass>2</mass></inertial></link>"
+      "<joint name='rail' type='prismatic'><parent>base</parent><child>cart</child>"
+      "<axis><xyz>0 0 1</xyz><dynamics><damping>10</damping></dynamics></axis></joint></model>",
+      "1.7"));
+  run(world, 400);
+  // m v' = -m g - d v
+  const double expected = -2 * kGravity / 10 * (1 - std::exp(-10.0 / 2 * 0.4));
+  EXPECT_NEAR(world.joint("s::rail").velocity, expected, 2e-3 * std::abs(expected));
+  EXPECT_NEAR(world.bodyTwist("s::cart").linear[2], world.joint("s::rail").velocity, 1e-9);
+  EXPECT_DOUBLE_EQ(world.bodyPose("s::base").position[2], 0);
+}
+
+TEST_F(SdfWorldTest, fixedJointsWeldAndModelsDoNotTouchThemselves) {
+  const std::string two =
+      "<link name='a'><inertial><mass>1</mass></inertial><collision name='c'><geometry><sphere>"
+      "<radius>0.1</radius></sphere></geometry></collision></link>"
+      "<link name='b'><pose>0.1 0 0 0 0 0</pose><inertial><mass>1</mass></inertial>"
+      "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>"
+      "</link>";
+  World world(
+      file("<gravity>0 0 0</gravity><model name='loose'>" + two +
+           "</model><model name='touching'>"
+           "<self_collide>true</self_collide><pose>0 2 0 0 0 0</pose>" +
+           two + "</model><model name='welded'><pose>0 4 0 0 0 0</pose>" + two +
+           "<joint name='w' type='fixed'><parent>a</parent><child>b</child></joint></model>"));
+  run(world, 200);
+  const auto apart = [&](const std::string& model) {
+    return world.bodyPose(model + "::b").position[0] - world.bodyPose(model + "::a").position[0];
+  };
+  EXPECT_NEAR(apart("loose"), 0.1, 1e-9);
+  EXPECT_GT(apart("touching"), 0.15);
+  EXPECT_NEAR(apart("welded"), 0.1, 1e-12);
+  world.push("welded::b", {2, 0, 0}, {0, 0, 0}, 1000);
+  run(world, 1000);
+  EXPECT_NEAR(world.bodyPose("welded::a").position[0], 0.5 * 1.0 * 1.0, 2e-3);
+}
+
+TEST_F(SdfWorldTest, includesAndMeshesAreFound) {
+  write("crate/model.config",
+        "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
+  write(
+      "crate/model.sdf",
+      "<sdf version='1.6'><model name='crate'><link name='link'><inertial><mass>4</mass></inertial>"
+      "<collision name='c'><geometry><mesh><uri>model://crate/tetra.obj</uri>"
+      "<scale>2 2 2</scale></mesh></geometry></collision></link></model></sdf>");
+  write("crate/tetra.obj",
+        "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
+        "f 2 3 4\n");
+  World world(file(
+      "<include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>"
+      "<include><uri>model://crate</uri><name>first</name><pose>0 0 1 0 0 0</pose></include>"
+      "<include><uri>model://crate</uri><name>second</name><static>true</static>"
+      "<pose>2 0 0.5 0 0 0</pose></include>"));
+  EXPECT_EQ(world.unsupported(), "");
+  EXPECT_DOUBLE_EQ(world.bodyPose("second").position[0], 2);
+  const mjModel& model = *world.impl().model;
+  EXPECT_DOUBLE_EQ(model.body_mass[bodyId(world, "first")], 4);
+  const int geom = model.body_geomadr[bodyId(world, "first")];
+  EXPECT_EQ(model.geom_type[geom], mjGEOM_MESH);
+  EXPECT_NEAR(model.geom_rbound[geom], 0.2, 0.1);
+  run(world, 2000);
+  EXPECT_LT(world.bodyPose("first").position[2], 0.2);
+  EXPECT_GT(world.bodyPose("first").position[2], -0.01);
+  EXPECT_DOUBLE_EQ(world.bodyPose("second").position[2], 0.5);
+}
+
+TEST_F(SdfWorldTest, whatNobodySimulatesIsNamedInOneSentence) {
+  World world(file(
+      "<plugin name='wind_maker' filename='libw.so'/>" +
+      box("b", "0 0 1 0 0 0",
+          "<surface><bounce><restitution_coefficient>0.5</restitution_coefficient></bounce>"
+          "<friction><ode><mu>0.8</mu><mu2>0.2</mu2></ode></friction></surface>",
+          "<joint name='s' type='screw'><parent>world</parent><child>link</child>"
+          "<axis><xyz>0 0 1</xyz></axis></joint>") +
+      "<model name='lost'><link name='l'><visual name='v'><geometry><mesh><uri>model://gone/x.dae"
+      "</uri></mesh></geometry></visual><sensor name='imu' type='imu'/></link></model>"));
+  const std::string text = world.unsupported();
+  for (const char* part : {"wind_maker", "bounce", "mu2", "joint 'b::s'", "gone/x.dae", "imu"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_DOUBLE_EQ(
+      world.impl().model->geom_friction[3 * world.impl().model->body_geomadr[bodyId(world, "b")]],
+      0.2);
+}
+
+TEST_F(SdfWorldTest, saysWhatIsWrong) {
+  const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
+    const std::string file = write("bad.sdf", text);
+    expectSentence([&] { World world(file); }, parts);
+    expectSentence([&] { World world(file); }, {file.c_str()});
+  };
+  refuses("<sdf version='1.6'/>", {"<world>"});
+  refuses("<sdf version='1.6'><world name='w'>", {"well-formed"});
+  refuses(
+      "<sdf version='1.6'><world name='w'><include><uri>model://nowhere</uri></include></world>"
+      "</sdf>",
+      {"nowhere"});
+  refuses("<sdf version='1.6'><world name='w'><model name='m'/></world></sdf>", {"link"});
+  refuses(
+      "<sdf version='1.6'><world name='w'><model name='m'><link name='a'/><joint name='j' "
+      "type='fixed'><parent>a</parent><child>b</child></joint></model></world></sdf>",
+      {"b"});
+  refuses(
+      "<sdf version='1.6'><world name='w'><model name='m'><link name='a'><inertial><mass>-1"
+      "</mass></inertial></link></model></world></sdf>",
+      {"a"});
+}
+
+/// A robot that says so passes through itself: the hand through the forearm.
+TEST_F(SdfWorldTest, urdfsSelfCollideIsRead) {
+  for (const bool collides : {true, false}) {
+    World world;
+    RobotDescription arm = robot("panda");
+    arm.urdf = replaceAll(arm.urdf, "</robot>",
+                          std::string("<gazebo><self_collide>") + (collides ? "true" : "false") +
+                              "</self_collide></gazebo></robot>");
+    arm.initial_positions["panda_joint6"] = -0.5;
+    arm.initial_positions["panda_joint4"] = -3.0;
+    world.addRobot(arm);
+    world.step();
+    bool touches = false;
+    for (const Contact& contact : world.contacts()) {
+      touches =
+          touches || (contact.body1.rfind("panda", 0) == 0 && contact.body2.rfind("panda", 0) == 0);
+    }
+    EXPECT_EQ(touches, collides);
+  }
+}
+
+TEST_F(SdfWorldTest, camerasKeepTheirViewAndSize) {
+  World world(file(
+      "<model name='m'><static>true</static><pose>0 0 1 0 0 0</pose><link name='l'>"
+      "<sensor name='eye' type='camera'><update_rate>5</update_rate><camera>"
+      "<horizontal_fov>1.2</horizontal_fov><image><width>320</width><height>200</height></image>"
+      "</camera></sensor></link></model>"));
+  const auto cameras = world.cameras();
+  ASSERT_EQ(cameras.size(), 1u);
+  EXPECT_EQ(cameras[0].name, "m::l::eye");
+  EXPECT_EQ(cameras[0].width, 320);
+  EXPECT_EQ(cameras[0].height, 200);
+  EXPECT_DOUBLE_EQ(cameras[0].rate, 5);
+  EXPECT_NEAR(cameras[0].field_of_view, 2 * std::atan(std::tan(0.6) * 200 / 320) * 180 / M_PI,
+              1e-9);
+  // It looks along the link's x: MuJoCo's cameras look along their -z.
+  const double* q = world.impl().model->cam_quat;
+  const Eigen::Matrix3d turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  EXPECT_LT((turn * -Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitX()).norm(), 1e-12);
+  EXPECT_LT((turn * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace franka_sim::test

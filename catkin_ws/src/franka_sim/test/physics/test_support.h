@@ -1,0 +1,137 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+#include <franka_sim/physics/world.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+namespace franka_sim::test {
+
+constexpr std::array<double, 7> kHome{0, -0.785, 0, -2.356, 0, 1.571, 0.785};
+constexpr double kRotorInertia = 0.1;
+
+inline std::string readFile(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) {
+    throw std::runtime_error("test data " + file + " is missing");
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// `panda` or `fr3`, with hand, root `<arm_id>_link0`.
+inline std::string urdfOf(const std::string& arm_id) {
+  return readFile(std::string(FRANKA_SIM_ROBOTS) + "/" + arm_id + ".urdf");
+}
+
+inline std::string world(const std::string& name) {
+  return std::string(FRANKA_SIM_WORLDS) + "/" + name + ".xml";
+}
+
+inline std::string replaceAll(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+/// A robot at home whose arm_id is `arm_id` and whose numbers are those of `kind`.
+inline RobotDescription robot(const std::string& kind, const std::string& arm_id) {
+  RobotDescription description;
+  description.name = arm_id;
+  description.urdf = replaceAll(urdfOf(kind), kind + "_", arm_id + "_");
+  for (int i = 0; i < 7; ++i) {
+    const std::string joint = arm_id + "_joint" + std::to_string(i + 1);
+    description.initial_positions[joint] = kHome[i];
+    description.rotor_inertia[joint] = kRotorInertia;
+    description.stops[joint] = {-4.7, 4.7};
+  }
+  return description;
+}
+
+inline RobotDescription robot(const std::string& kind) { return robot(kind, kind); }
+
+/// The hand with closed fingers as payload at the flange, from the numbers of the description.
+inline franka_core::Payload handPayload() {
+  const auto body = [](double mass, std::array<double, 3> com, std::array<double, 3> moments) {
+    franka_core::Payload payload;
+    payload.mass = mass;
+    payload.com = com;
+    payload.inertia = {moments[0], 0, 0, 0, moments[1], 0, 0, 0, moments[2]};
+    return payload;
+  };
+  const std::array<double, 3> finger{2.375e-06, 2.375e-06, 7.5e-07};
+  franka_core::Payload hand = body(0.73, {-0.01, 0, 0.03}, {0.001, 0.0025, 0.0017});
+  hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
+  hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
+  // The hand is turned by -45 degrees about the flange's z: R diag-like I R^T, done by hand in the
+  // plane.
+  constexpr double kC = 0.70710678118654752440;
+  franka_core::Payload turned = hand;
+  turned.com = {kC * hand.com[0] + kC * hand.com[1], -kC * hand.com[0] + kC * hand.com[1],
+                hand.com[2]};
+  const double xx = hand.inertia[0], yy = hand.inertia[4];
+  turned.inertia[0] = turned.inertia[4] = 0.5 * (xx + yy);
+  turned.inertia[1] = turned.inertia[3] = 0.5 * (yy - xx);
+  // Products with z do not appear: the hand's com has no y, its product xz turns like a vector.
+  const double xz = hand.inertia[6], yz = hand.inertia[7];
+  turned.inertia[2] = turned.inertia[6] = kC * xz + kC * yz;
+  turned.inertia[5] = turned.inertia[7] = -kC * xz + kC * yz;
+  return turned;
+}
+
+/// Holds or leads the arm with gravity compensation and joint springs.
+class ArmHolder {
+ public:
+  ArmHolder(ArmPlant* arm, const franka_core::ArmModel& model)
+      : arm_(arm), model_(model), payload_(handPayload()) {}
+  explicit ArmHolder(ArmPlant* arm, const std::string& kind = "panda")
+      : ArmHolder(arm, franka_core::ArmModel::fromUrdf(urdfOf(kind), kind)) {}
+
+  std::array<double, 7> torques(const std::array<double, 7>& q_d,
+                                const std::array<double, 7>& dq_d = {}) const noexcept {
+    constexpr std::array<double, 7> kStiffness{1500, 1500, 1500, 1500, 600, 600, 600};
+    const ArmMeasurement m = arm_->measure();
+    std::array<double, 7> tau = model_.gravity(m.q, payload_);
+    const auto coriolis = model_.coriolis(m.q, m.dq, payload_);
+    for (int i = 0; i < 7; ++i) {
+      const double damping = 1.2 * std::sqrt(kStiffness[i]);
+      tau[i] += coriolis[i] + kStiffness[i] * (q_d[i] - m.q[i]) + damping * (dq_d[i] - m.dq[i]);
+    }
+    return tau;
+  }
+  void hold(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d = {}) noexcept {
+    arm_->applyTorques(torques(q_d, dq_d));
+  }
+  const franka_core::ArmModel& model() const noexcept { return model_; }
+  const franka_core::Payload& payload() const noexcept { return payload_; }
+
+ private:
+  ArmPlant* arm_;
+  franka_core::ArmModel model_;
+  franka_core::Payload payload_;
+};
+
+/// Expects a std::runtime_error whose sentence contains all of the parts.
+template <typename Function>
+void expectSentence(Function function, std::initializer_list<const char*> parts) {
+  try {
+    function();
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    const std::string text = error.what();
+    for (const char* part : parts) {
+      EXPECT_NE(std::string::npos, text.find(part)) << "'" << part << "' is not in: " << text;
+    }
+  }
+}
+
+}  // namespace franka_sim::test

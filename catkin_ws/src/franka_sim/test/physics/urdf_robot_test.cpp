@@ -1,0 +1,151 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/urdf_robot.h"
+
+#include <cmath>
+
+#include "physics/robot_model.h"
+#include "test_support.h"
+
+namespace franka_sim::test {
+namespace {
+
+constexpr const char* kInertial =
+    "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+    "iyz='0'/></inertial>";
+
+/// base -j-> arm, with what the test wants in between.
+std::string twoLinks(const std::string& joint, const std::string& arm = kInertial) {
+  return "<robot name='r'><link name='base'/><link name='arm'>" + arm + "</link>" + joint +
+         "</robot>";
+}
+
+std::string hinge(const std::string& inside = "<limit lower='-1' upper='1'/>") {
+  return "<joint name='j' type='revolute'><parent link='base'/><child link='arm'/>" + inside +
+         "</joint>";
+}
+
+void refuses(const std::string& urdf, std::initializer_list<const char*> parts) {
+  expectSentence([&] { physics::readUrdf(urdf, "rob"); }, parts);
+}
+
+TEST(UrdfRobotTest, readsThePanda) {
+  const physics::UrdfRobot robot = physics::readUrdf(urdfOf("panda"), "panda");
+  EXPECT_EQ("panda_link0", robot.links[robot.root].name);
+  const auto& joint4 = robot.joints[robot.joint("panda_joint4")];
+  EXPECT_EQ(physics::UrdfJoint::Type::kRevolute, joint4.type);
+  EXPECT_EQ(0.0825, joint4.origin.translation().x());
+  EXPECT_EQ(-3.0718, joint4.lower);
+  const auto& finger = robot.joints[robot.joint("panda_finger_joint2")];
+  EXPECT_EQ("panda_finger_joint1", finger.mimic);
+  EXPECT_EQ(-1.0, finger.axis.y());
+  EXPECT_EQ(1.13, robot.links[robot.link("panda_leftfinger")].friction.value());
+  EXPECT_TRUE(robot.self_collide);
+  EXPECT_FALSE(robot.links[robot.link("panda_link3")].friction.has_value());
+  EXPECT_EQ(4u, robot.links[robot.link("panda_leftfinger")].collisions.size());
+  EXPECT_TRUE(robot.links[robot.link("panda_link3_sc")].collisions.empty());
+}
+
+TEST(UrdfRobotTest, turnsRollPitchYawAboutFixedAxes) {
+  const auto robot = physics::readUrdf(
+      twoLinks(hinge("<origin rpy='0.3 -0.4 0.5'/><limit lower='-1' upper='1'/>")), "rob");
+  const Eigen::Matrix3d r = robot.joints[0].origin.linear();
+  // Closed form of Rz(yaw) Ry(pitch) Rx(roll).
+  EXPECT_NEAR(std::cos(0.5) * std::cos(-0.4), r(0, 0), 1e-15);
+  EXPECT_NEAR(-std::sin(-0.4), r(2, 0), 1e-15);
+  EXPECT_NEAR(std::cos(-0.4) * std::sin(0.3), r(2, 1), 1e-15);
+  EXPECT_NEAR(std::sin(0.5) * std::cos(-0.4), r(1, 0), 1e-15);
+}
+
+TEST(UrdfRobotTest, saysWhatIsWrong) {
+  refuses("", {"'rob'", "XML"});
+  refuses("<robot><link name='a'></robot>", {"'rob'", "not well-formed"});
+  refuses("<mujoco/>", {"no <robot>"});
+  refuses("<robot name='r'><link name='a'/><link name='a'/></robot>", {"two links", "'a'"});
+  refuses("<robot name='r'><link/></robot>", {"<link>", "'name'"});
+  refuses("<robot name='r'><link name='a'/><link name='b'/></robot>", {"no parent", "'a'", "'b'"});
+  refuses(twoLinks("<joint name='j' type='ball'><parent link='base'/><child link='arm'/></joint>"),
+          {"joint 'j'", "'ball'"});
+  refuses(twoLinks("<joint name='j' type='fixed'><parent link='base'/></joint>"),
+          {"joint 'j'", "<child>"});
+  refuses(twoLinks("<joint name='j' type='fixed'><parent link='bas'/><child link='arm'/></joint>"),
+          {"parent link 'bas'", "not exist"});
+  refuses(twoLinks(hinge("")), {"joint 'j'", "<limit>"});
+  refuses(twoLinks(hinge("<limit lower='1' upper='-1'/>")), {"lower limit 1", "upper limit -1"});
+  refuses(twoLinks(hinge("<axis xyz='0 0 0'/><limit lower='-1' upper='1'/>")), {"axis"});
+  refuses(twoLinks(hinge("<axis xyz='0 1'/><limit lower='-1' upper='1'/>")), {"'xyz'", "needs 3"});
+  refuses(twoLinks(hinge("<origin xyz='0 0 nan'/><limit lower='-1' upper='1'/>")),
+          {"'nan'", "finite"});
+  refuses(twoLinks(hinge("<mimic joint='k'/><limit lower='-1' upper='1'/>")), {"mimics 'k'"});
+  refuses(twoLinks(hinge("<mimic joint='j'/><limit lower='-1' upper='1'/>")), {"mimics 'j'"});
+  refuses(twoLinks(hinge(),
+                   "<inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>"),
+          {"link 'arm'", "negative"});
+  refuses(
+      twoLinks(hinge(), "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='3'/></inertial>"),
+      {"link 'arm'", "principal moments"});
+  refuses(twoLinks(hinge(), "<inertial><mass value='1'/></inertial>"), {"<inertia>"});
+  refuses(twoLinks(hinge(), "<collision/>"), {"link 'arm'", "no geometry"});
+  refuses(twoLinks(hinge(), "<collision><geometry><cone/></geometry></collision>"), {"<cone>"});
+  refuses(twoLinks(hinge(), "<collision><geometry><sphere radius='0'/></geometry></collision>"),
+          {"'radius'", "greater than zero"});
+  refuses(twoLinks(hinge(), "<visual><geometry><mesh/></geometry></visual>"), {"'filename'"});
+}
+
+TEST(UrdfRobotTest, refusesLoopsAndTwoParents) {
+  const std::string loop =
+      "<robot name='r'><link name='root'/><link name='a'/><link name='b'/>"
+      "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
+      "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>";
+  refuses(loop, {"loop"});
+  refuses(twoLinks(hinge() +
+                   "<joint name='k' type='fixed'><parent link='base'/><child link='arm'/></joint>"),
+          {"'arm'", "two joints", "'j'", "'k'"});
+}
+
+TEST(RobotModelTest, refusesWhatDoesNotFitTheUrdf) {
+  const auto refusesRobot = [](RobotDescription description,
+                               std::initializer_list<const char*> parts) {
+    expectSentence([&] { physics::buildRobot(description); }, parts);
+  };
+  RobotDescription d = robot("panda");
+  d.name = "";
+  refusesRobot(d, {"needs a name"});
+  d = robot("panda");
+  d.rotor_inertia["panda_joint9"] = 1;
+  refusesRobot(d, {"rotor inertia", "'panda_joint9'"});
+  d = robot("panda");
+  d.damping["panda_joint1"] = -1;
+  refusesRobot(d, {"damping", "-1"});
+  d = robot("panda");
+  d.initial_positions["panda_joint2"] = NAN;
+  refusesRobot(d, {"initial position", "panda_joint2"});
+  d = robot("panda");
+  d.stops["panda_joint2"] = {1, -1};
+  refusesRobot(d, {"stops", "panda_joint2"});
+  d = robot("panda");
+  d.initial_positions["panda_finger_joint1"] = 0.05;
+  refusesRobot(d, {"panda_finger_joint1", "cannot start at 0.05", "0.04"});
+  d = robot("panda");
+  d.base.orientation = {0, 0, 0, 0};
+  refusesRobot(d, {"base", "quaternion"});
+  d = robot("panda");
+  d.urdf = twoLinks(hinge(), "");
+  d.initial_positions.clear();
+  d.rotor_inertia.clear();
+  d.stops.clear();
+  refusesRobot(d, {"'arm'", "no mass", "gazebo:=true"});
+}
+
+TEST(RobotModelTest, fusesWhatDoesNotMove) {
+  const physics::RobotModel model = physics::buildRobot(robot("panda"));
+  EXPECT_EQ(10u, model.segments.size()) << "link0, seven links, two fingers";
+  for (const physics::Segment& segment : model.segments) {
+    if (model.urdf.links[segment.link].name == "panda_link7") {
+      EXPECT_NEAR(0.735522 + 0.73, segment.inertial.mass, 1e-15);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace franka_sim::test

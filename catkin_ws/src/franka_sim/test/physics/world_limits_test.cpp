@@ -1,0 +1,240 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// Sizes no robot can meet are refused; a world that diverges all the same stops, says why, and can
+/// be reset; a robot that begins within something is told of.
+
+#include <franka_sim/physics/sizes.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "test_support.h"
+
+namespace franka_sim::test {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// So light that a force the world accepts makes it diverge.
+constexpr char kFeather[] =
+    R"(<body name="feather"><freejoint name="feather_joint"/>
+         <inertial pos="0 0 0" mass="1e-7" diaginertia="1e-7 1e-7 1e-7"/>
+         <geom type="sphere" size="0.01"/></body>)";
+
+/// A wheel that turns without end.
+constexpr char kWheel[] =
+    R"(<body name="wheel"><joint name="axle" type="hinge" axis="0 0 1"/>
+         <geom type="cylinder" size="0.05 0.01" mass="0.1"/></body>)";
+
+constexpr char kCrate[] =
+    R"(<body name="crate"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="1"/></body>)";
+
+Pose at(double x, double y, double z) {
+  Pose pose;
+  pose.position = {x, y, z};
+  return pose;
+}
+
+struct Entrance {
+  const char* name;
+  const char* unit;
+  double largest;  ///< that is taken
+  void (*put)(World& world, double size);
+};
+
+const Entrance kEntrances[] = {
+    {"place", " m", 1e3, [](World& w, double size) { w.setBodyPose("stone", at(size, 0, 1)); }},
+    {"place down", " m", 1e3,
+     [](World& w, double size) { w.setBodyPose("stone", at(0, 0, -size)); }},
+    {"push", " N", 1e4,
+     [](World& w, double size) {
+       w.push("stone", {0, size, 0}, {}, 1);
+     }},
+    {"push torque", " Nm", 1e4,
+     [](World& w, double size) {
+       w.push("stone", {}, {size, 0, 0}, 1);
+     }},
+    {"push at", " N", 1e4,
+     [](World& w, double size) {
+       w.pushAt("stone", {0, 0, 0}, {0, 0, size}, 1);
+     }},
+    {"push point", " m", 1e3,
+     [](World& w, double size) {
+       w.pushAt("stone", {size, 0, 0}, {}, 1);
+     }},
+    {"linear velocity", " m/s", 1e3,
+     [](World& w, double size) {
+       w.setBodyTwist("stone", {{size, 0, 0}, {}});
+     }},
+    {"angular velocity", " rad/s", 1e3,
+     [](World& w, double size) {
+       w.setBodyTwist("stone", {{}, {0, 0, size}});
+     }},
+    {"joint position", " rad", 1e3,
+     [](World& w, double size) { w.setJointPosition("axle", size); }},
+    {"joint velocity", " rad/s", 1e3,
+     [](World& w, double size) { w.setJointVelocity("axle", size); }},
+    {"gravity", " m/s^2", 1e2,
+     [](World& w, double size) {
+       w.setGravity({0, 0, -size});
+     }},
+    {"object", " m", 1e3,
+     [](World& w, double size) { w.addObject("other", kCrate, at(size, 0, 9)); }},
+    {"robot", " m", 1e3,
+     [](World& w, double size) {
+       RobotDescription description = robot("panda");
+       description.base = at(0, size, 0);
+       w.addRobot(description);
+     }},
+};
+
+class Sizes : public ::testing::TestWithParam<Entrance> {};
+
+TEST_P(Sizes, BeyondAnyRobotAreRefusedInWords) {
+  const Entrance& entrance = GetParam();
+  World world(test::world("stone"));
+  world.addObject("turner", kWheel, at(3, 3, 1));
+  const std::uint64_t hash = world.stateHash();
+  for (const double size : {kNan, kInf, -kInf, 1e308, 1e12, -1e11, 1.001 * entrance.largest,
+                            -1.001 * entrance.largest}) {
+    SCOPED_TRACE(size);
+    expectSentence([&] { entrance.put(world, size); }, {entrance.unit});
+    EXPECT_EQ(hash, world.stateHash()) << "nothing changes";
+  }
+  EXPECT_NO_THROW(entrance.put(world, entrance.largest));
+  // Light bodies may fly apart even so: then in words.
+  for (std::uint64_t k = 1; k <= 20; k++) {
+    world.step();
+    ASSERT_EQ(world.stopped(), !world.fault().empty());
+    ASSERT_TRUE(world.stopped() || world.ticks() == k);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Sizes, ::testing::ValuesIn(kEntrances), [](const auto& info) {
+  std::string name = info.param.name;
+  for (char& letter : name) {
+    letter = letter == ' ' ? '_' : letter;
+  }
+  return name;
+});
+
+TEST(Divergence, StopsTheWorldSaysWhyAndIsUndoneByAReset) {
+  World world(test::world("stone"));
+  world.addObject("feather", kFeather, at(5, 5, 5));
+  for (int k = 0; k < 10; k++) {
+    world.step();
+  }
+  const Pose stone = world.bodyPose("stone"), feather = world.bodyPose("feather");
+  EXPECT_FALSE(world.stopped());
+  EXPECT_EQ("", world.fault());
+  world.push("feather", {1e4, 0, 0}, {}, 5);
+  for (const bool prepared : {true, false}) {
+    if (prepared) {
+      world.prepareStep();
+    }
+    world.step();
+    EXPECT_TRUE(world.stopped());
+    EXPECT_EQ(10u, world.ticks()) << "time stands still";
+    EXPECT_EQ(stone.position, world.bodyPose("stone").position) << "and nothing has begun anew";
+    EXPECT_EQ(feather.position, world.bodyPose("feather").position);
+  }
+  const std::string fault = world.fault();
+  EXPECT_NE(std::string::npos, fault.find("acceleration of body 'feather")) << fault;
+  EXPECT_NE(std::string::npos, fault.find("until it is reset")) << fault;
+  expectSentence([&] { world.setBodyPose("stone", at(0, 0, 1)); }, {"diverged", "feather"});
+  expectSentence([&] { world.push("stone", {}, {}, 1); }, {"diverged"});
+  expectSentence([&] { world.snapshot(); }, {"diverged"});
+  world.removeObject("feather");
+  EXPECT_EQ(fault, world.fault()) << "also when what it speaks of has gone";
+  world.reset();
+  EXPECT_FALSE(world.stopped());
+  world.step();
+  EXPECT_EQ(1u, world.ticks());
+}
+
+TEST(Divergence, OfAWorldFileIsSeenBeforeItsFirstStep) {
+  World world;
+  world.addObject("far", R"(<mujoco><worldbody><body name="far" pos="1e11 0 0"><freejoint/>
+      <geom type="sphere" size="0.1" mass="1"/></body></worldbody></mujoco>)",
+                  at(0, 0, 0));
+  world.prepareStep();
+  world.step();
+  EXPECT_TRUE(world.stopped());
+  EXPECT_NE(std::string::npos, world.fault().find("position of body 'far")) << world.fault();
+}
+
+TEST(Divergence, IsUndoneByASnapshotToo) {
+  World world(test::world("stone"));
+  world.addObject("feather", kFeather, at(5, 5, 5));
+  const Snapshot before = world.snapshot();
+  world.push("feather", {0, 0, 1e4}, {}, 5);
+  world.step();
+  ASSERT_TRUE(world.stopped());
+  world.restore(before);
+  EXPECT_FALSE(world.stopped());
+  for (int k = 0; k < 10; k++) {
+    world.step();
+  }
+  EXPECT_EQ(10u, world.ticks());
+}
+
+TEST(Divergence, ARobotsMeasurementsStayFinite) {
+  World world;
+  world.addRobot(robot("panda"));
+  ArmPlant& arm = world.arm("panda", "panda");
+  std::array<double, 7> torques;
+  torques.fill(1e300);
+  arm.applyTorques(torques);
+  world.step();
+  EXPECT_TRUE(world.stopped());
+  for (int i = 0; i < 7; i++) {
+    EXPECT_EQ(kHome[static_cast<std::size_t>(i)], arm.measure().q[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(0.0, arm.measure().dq[static_cast<std::size_t>(i)]);
+  }
+}
+
+TEST(Warnings, OfMujocoAreTakenOnce) {
+  // Room for one contact, and four spheres on the ground.
+  std::string bodies;
+  for (int i = 0; i < 4; i++) {
+    bodies += R"(<body pos=")" + std::to_string(i) +
+              R"( 0 0.099"><freejoint/><geom type="sphere" size="0.1" mass="1"/></body>)";
+  }
+  const std::string file = ::testing::TempDir() + "/narrow.xml";
+  std::ofstream(file) << R"(<mujoco><size nconmax="1" njmax="50"/><worldbody>)"
+                         R"(<geom type="plane" size="9 9 0.1"/>)"
+                      << bodies << "</worldbody></mujoco>";
+  World world(file);
+  EXPECT_TRUE(world.takeWarnings().empty());
+  world.step();
+  const std::vector<std::string> warnings = world.takeWarnings();
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_NE(std::string::npos, warnings[0].find("nconmax")) << warnings[0];
+  world.step();
+  EXPECT_TRUE(world.takeWarnings().empty());
+  EXPECT_FALSE(world.stopped());
+}
+
+TEST(Overlaps, AreToldOfARobotThatBeginsInTheTable) {
+  World world(test::world("stone"));
+  world.addRobot(robot("fr3"));
+  const std::string text = world.describeOverlaps("fr3");
+  EXPECT_NE(std::string::npos, text.find("fr3_link1 and table by ")) << text;
+  EXPECT_NE(std::string::npos, text.find("'fr3'")) << text;
+  world.removeRobot("fr3");
+  RobotDescription beside = robot("fr3");
+  beside.base = at(-0.5, 0, 0);
+  world.addRobot(beside);
+  EXPECT_EQ("", world.describeOverlaps("fr3"));
+  RobotDescription other = robot("panda");
+  other.base = at(-0.45, 0.05, 0);
+  world.addRobot(other);
+  EXPECT_NE(std::string::npos, world.describeOverlaps("panda").find("fr3_link"));
+}
+
+}  // namespace
+}  // namespace franka_sim::test

@@ -1,0 +1,267 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Holding, external torque control and the signals of a ControlUnit on a simulated arm.
+#include <franka_sim/robot/control_unit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "arm_fixture.h"
+
+namespace franka_sim::test {
+
+namespace {
+
+using franka_core::ArmFrame;
+using franka_core::RobotMode;
+using franka_core::RobotState;
+
+double largestDifference(const std::array<double, 7>& a, const std::array<double, 7>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 7; i++) {
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+  }
+  return largest;
+}
+
+TEST_F(ArmTest, IdleHoldsThePoseOfTheFirstMeasurement) {
+  const RobotState& state = run(2000);
+  EXPECT_EQ(RobotMode::kIdle, state.robot_mode);
+  EXPECT_LT(largestDifference(kReady, state.q), 1e-9);
+  EXPECT_EQ(kReady, state.q_d);
+  EXPECT_EQ((std::array<double, 7>{}), state.tau_J_d);
+}
+
+TEST_F(ArmTest, IdleNeverLetsTheDesiredPoseFollowTheMeasuredOne) {
+  arm.push = {{40, -30, 20, 0, 0, 0}};
+  run(2000);
+  const std::array<double, 7> pushed = unit.state().q;
+  EXPECT_GT(largestDifference(kReady, pushed), 1e-3);
+  EXPECT_EQ(kReady, unit.state().q_d);
+  arm.push.fill(0.0);
+  run(2000);
+  EXPECT_LT(largestDifference(kReady, unit.state().q), 1e-5);
+}
+
+TEST_F(ArmTest, IdleStiffnessIsTheConfiguredOne) {
+  arm.push = {{0, 20, 0, 0, 0, 0}};
+  run(5000);
+  const RobotState& s = unit.state();
+  for (std::size_t i = 0; i < 7; i++) {
+    const double spring = parameters.joint_stiffness[i] * (s.q_d[i] - s.q[i]);
+    EXPECT_NEAR(s.tau_ext_hat_filtered[i], spring, 0.005 * std::abs(spring) + 1e-6)
+        << "joint " << i + 1;
+  }
+}
+
+TEST_F(ArmTest, ZeroTorqueAtRestDriftsLessThanATenthOfAMilliradianInTenSeconds) {
+  startTorqueControl();
+  const std::array<double, 7> start = arm.q();
+  const franka_core::RobotCommand zero;
+  double force = 0.0;
+  double moment = 0.0;
+  for (int i = 0; i < 10000; i++) {
+    const RobotState& state = tick(unit, arm, &zero);
+    force = std::max(force, norm(state.O_F_ext_hat_K, 0, 3));
+    moment = std::max(moment, norm(state.O_F_ext_hat_K, 3, 3));
+  }
+  RecordProperty("drift_urad", static_cast<int>(1e6 * largestDifference(start, arm.q())));
+  EXPECT_LT(largestDifference(start, arm.q()), 1e-4);
+  EXPECT_LT(force, 1e-3);
+  EXPECT_LT(moment, 1e-4);
+}
+
+TEST_F(ArmTest, ForgettingTheFingersInTheLoadLetsTheArmDrift) {
+  // What the previous test would not notice if the plant were glued to the spot.
+  arm.payload.mass += 0.03;
+  startTorqueControl();
+  const franka_core::RobotCommand zero;
+  run(10000, &zero);
+  EXPECT_GT(largestDifference(kReady, arm.q()), 0.1);
+}
+
+TEST_F(ArmTest, AppliedTorqueIsCommandPlusGravityOfTheConfiguredLoad) {
+  startTorqueControl();
+  const std::array<double, 7> tau{{1, -2, 3, -4, 0.5, -0.6, 0.7}};
+  const franka_core::RobotCommand command = torques(tau);
+  const std::array<double, 7> q = arm.q();
+  unit.observe(arm.measure());
+  const std::array<double, 7> applied = unit.actuate(&command);
+  const std::array<double, 7> gravity = parameters.model.gravity(q, parameters.end_effector);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(tau[i] + gravity[i], applied[i], 1e-9);
+  }
+}
+
+TEST_F(ArmTest, ReportsTheTorqueThatActedAndWhatTheSensorSaw) {
+  startTorqueControl();
+  const std::array<double, 7> tau{{0.1, -0.2, 0.3, -0.4, 0.05, -0.06, 0.07}};
+  const franka_core::RobotCommand command = torques(tau);
+  run(3, &command);
+  const RobotState before = tick(unit, arm, &command);
+  const RobotState after = tick(unit, arm, &command);
+  EXPECT_EQ(tau, after.tau_J_d);
+  const std::array<double, 7> gravity = parameters.model.gravity(before.q, parameters.end_effector);
+  for (std::size_t i = 0; i < 7; i++) {
+    const double expected = tau[i] + gravity[i] - 0.1 * (after.dq[i] - before.dq[i]) / 1e-3;
+    EXPECT_NEAR(expected, after.tau_J[i], 1e-9);
+    EXPECT_NEAR(after.q[i] + after.tau_J[i] / 14250, after.theta[i], 1e-12);
+    EXPECT_NEAR(after.dq[i] + after.dtau_J[i] / 14250, after.dtheta[i], 1e-12);
+  }
+}
+
+TEST_F(ArmTest, DerivativeOfTheTorqueFollowsARampThroughTheFilter) {
+  startTorqueControl();
+  // Locked joints see exactly the ramp on the sensor.
+  ArmMeasurement m;
+  m.q = kReady;
+  m.tau_J = unit.state().tau_J;
+  unit.observe(m);
+  for (int i = 0; i < 30; i++) {
+    m.tau_J[3] += 0.05;
+    unit.observe(m);
+  }
+  EXPECT_NEAR(50.0, unit.state().dtau_J[3], 1e-3);
+  EXPECT_NEAR(0.0, unit.state().dtau_J[4], 1e-9);
+}
+
+TEST_F(ArmTest, CommandsBeyondTheMotorsAreCutBeforeGravityIsAdded) {
+  startTorqueControl();
+  const franka_core::RobotCommand command = torques({{200, -200, 88, -88, 13, -13, 12.5}});
+  unit.observe(arm.measure());
+  const std::array<double, 7> applied = unit.actuate(&command);
+  const std::array<double, 7> gravity = parameters.model.gravity(arm.q(), parameters.end_effector);
+  const std::array<double, 7> expected{{87, -87, 87, -87, 12, -12, 12}};
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(expected[i] + gravity[i], applied[i], 1e-9);
+  }
+  EXPECT_EQ(expected, unit.observe(arm.measure()).tau_J_d);
+}
+
+TEST_F(ArmTest, MissingOrNotFiniteCommandsLetTheLastTorqueStand) {
+  startTorqueControl();
+  const std::array<double, 7> tau{{0.5, 0, 0, 0, 0, 0, 0}};
+  const franka_core::RobotCommand good = torques(tau);
+  run(100, &good);
+  EXPECT_DOUBLE_EQ(1.0, tick(unit, arm, nullptr).control_command_success_rate);
+  EXPECT_DOUBLE_EQ(0.99, tick(unit, arm, &good).control_command_success_rate);
+  EXPECT_EQ(tau, unit.state().tau_J_d);
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    franka_core::RobotCommand command = good;
+    command.tau_J_d[6] = bad;
+    tick(unit, arm, &command);
+  }
+  const RobotState& state = tick(unit, arm, &good);
+  EXPECT_EQ(tau, state.tau_J_d);
+  EXPECT_NEAR(0.97, state.control_command_success_rate, 1e-12);
+}
+
+TEST_F(ArmTest, FrictionIsCompensatedOnlyWhereAJointMoves) {
+  parameters.coulomb_friction = {{1, 1, 1, 1, 0.5, 0.5, 0.5}};
+  parameters.viscous_friction.fill(0.2);
+  rebuild();
+  ArmMeasurement m;
+  m.q = kReady;
+  m.dq = {{0.009, -0.009, 0.02, -0.02, 0, 0, 1.0}};
+  unit.observe(m);
+  unit.startTorqueControl();
+  const franka_core::RobotCommand zero;
+  const std::array<double, 7> applied = unit.actuate(&zero);
+  const std::array<double, 7> gravity = parameters.model.gravity(kReady, parameters.end_effector);
+  const std::array<double, 7> friction{{0, 0, 1.004, -1.004, 0, 0, 0.7}};
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(friction[i], applied[i] - gravity[i], 1e-9);
+  }
+}
+
+TEST_F(ArmTest, FrictionOfTheJointsIsNoExternalForce) {
+  parameters.coulomb_friction = {{1.137, 1.137, 1.137, 1.137, 0.763, 0.44, 0.248}};
+  parameters.viscous_friction.fill(0.21);
+  rebuild();
+  arm.coulomb = parameters.coulomb_friction;
+  arm.viscous = parameters.viscous_friction;
+  startTorqueControl();
+  const franka_core::RobotCommand command = torques({{3, 0, 0, 0, 0, 0, 0}});
+  double largest = 0.0;
+  for (int i = 0; i < 300; i++) {
+    largest = std::max(largest, norm(tick(unit, arm, &command).O_F_ext_hat_K, 0, 3));
+  }
+  EXPECT_GT(std::abs(arm.dq()[0]), 0.1);
+  EXPECT_LT(largest, 0.01);
+}
+
+TEST_F(ArmTest, FillsPosesElbowAndTimeFromTheModel) {
+  const RobotState& state = run(3);
+  EXPECT_EQ(parameters.model.pose(ArmFrame::kEndEffector, state.q, state.F_T_EE, state.EE_T_K),
+            state.O_T_EE);
+  EXPECT_EQ(parameters.model.pose(ArmFrame::kEndEffector, state.q_d, state.F_T_EE, state.EE_T_K),
+            state.O_T_EE_d);
+  EXPECT_EQ(state.O_T_EE_d, state.O_T_EE_c);
+  EXPECT_EQ((std::array<double, 2>{{kReady[2], -1.0}}), state.elbow_d);
+  EXPECT_EQ(state.elbow_d, state.elbow_c);
+  EXPECT_DOUBLE_EQ(state.q[2], state.elbow[0]);
+  EXPECT_EQ(3u, state.message_id);
+  EXPECT_EQ((std::array<double, 3>{{0, 0, -9.81}}), state.O_ddP_O);
+}
+
+TEST_F(ArmTest, ElbowFlipsAtItsAngle) {
+  ArmMeasurement m;
+  m.q = kReady;
+  m.q[3] = -0.467;
+  EXPECT_EQ(1.0, unit.observe(m).elbow[1]);
+  m.q[3] = -0.4671;
+  EXPECT_EQ(-1.0, unit.observe(m).elbow[1]);
+}
+
+TEST_F(ArmTest, FirstSampleShowsNoForcesAndGravityOnTheSensors) {
+  arm.push = {{30, 0, 0, 0, 0, 0}};
+  const RobotState& state = unit.observe(arm.measure());
+  EXPECT_EQ((std::array<double, 7>{}), state.tau_ext_hat_filtered);
+  EXPECT_EQ((std::array<double, 7>{}), state.dtau_J);
+  const std::array<double, 7> gravity = parameters.model.gravity(kReady, parameters.end_effector);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(gravity[i], state.tau_J[i], 1e-9);
+  }
+}
+
+TEST_F(ArmTest, TakesOverAMovingArmWithoutAJump) {
+  ArmMeasurement m;
+  m.q = kReady;
+  m.dq = {{1, -1, 1, -1, 1, -1, 1}};
+  EXPECT_EQ((std::array<double, 7>{}), unit.observe(m).tau_ext_hat_filtered);
+}
+
+TEST_F(ArmTest, SamplesThatAreNotFiniteLeaveNoTrace) {
+  run(50);
+  ArmMeasurement bad = arm.measure();
+  bad.dq[2] = std::numeric_limits<double>::quiet_NaN();
+  const RobotState& state = unit.observe(bad);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_TRUE(std::isfinite(state.q[i]) && std::isfinite(state.tau_J[i]) &&
+                std::isfinite(state.dtau_J[i]) && std::isfinite(state.tau_ext_hat_filtered[i]));
+  }
+  for (const double torque : unit.actuate(nullptr)) {
+    EXPECT_TRUE(std::isfinite(torque));
+  }
+  arm.step();
+  run(200);
+  EXPECT_LT(largestDifference(kReady, unit.state().q), 1e-6);
+  EXPECT_EQ((std::array<double, 7>{}), unit.state().joint_collision);
+}
+
+TEST_F(ArmTest, TiltedGravityIsHeldToo) {
+  parameters.gravity = {{4.905, 0, -8.4957}};
+  rebuild();
+  arm.gravity = parameters.gravity;
+  startTorqueControl();
+  const franka_core::RobotCommand zero;
+  run(5000, &zero);
+  EXPECT_LT(largestDifference(kReady, arm.q()), 1e-4);
+  EXPECT_EQ(parameters.gravity, unit.state().O_ddP_O);
+}
+
+}  // namespace
+
+}  // namespace franka_sim::test

@@ -1,0 +1,337 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// What the unit says about forces from outside, against forces that are known.
+#include <franka_sim/robot/control_unit.h>
+
+#include <Eigen/Core>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "arm_fixture.h"
+#include "sine_driver.h"
+
+namespace franka_sim::test {
+
+namespace {
+
+using franka_core::RobotMode;
+using franka_core::RobotState;
+
+double smallestSingularValue(const ControlUnit& unit) {
+  const RobotState& s = unit.state();
+  const std::array<double, 42> J = unit.parameters().model.zeroJacobian(
+      franka_core::ArmFrame::kStiffness, s.q, s.F_T_EE, s.EE_T_K);
+  const Eigen::Map<const Eigen::Matrix<double, 6, 7>> jacobian(J.data());
+  return Eigen::JacobiSVD<Eigen::Matrix<double, 6, 7>>(jacobian).singularValues()[5];
+}
+
+TEST_F(ArmTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
+  startTorqueControl();
+  SineDriver driver(parameters, parameters.end_effector, 4.0, 0.9);
+  double force = 0.0;
+  double moment = 0.0;
+  double fastest = 0.0;
+  for (int i = 0; i < 12000; i++) {
+    const RobotState& state = unit.observe(arm.measure());
+    fastest = std::max(fastest, std::abs(state.dq[0]) / 2.175);
+    force = std::max(force, norm(state.O_F_ext_hat_K, 0, 3));
+    moment = std::max(moment, norm(state.O_F_ext_hat_K, 3, 3));
+    const franka_core::RobotCommand command = driver.command(state);
+    arm.applyTorques(unit.actuate(&command));
+    arm.step();
+  }
+  std::printf("free motion: %.1f %% of the speed limit, wrench error %.5f N, %.6f Nm\n",
+              100 * fastest, force, moment);
+  EXPECT_GT(fastest, 0.88);
+  // Asked for: 0.1 N and 0.02 Nm. This tight, a model evaluated at the wrong instant shows.
+  EXPECT_LT(force, 0.002);
+  EXPECT_LT(moment, 0.0005);
+}
+
+TEST_F(ArmTest, PushesAreReadInBaseAndStiffnessFrameWithTheSignOfTheRobotsOwnForce) {
+  // K turned by 30 degrees about x of EE and moved, so that no axis agrees by chance.
+  const double c = std::cos(0.5235987755982988);
+  const double s = 0.5;
+  parameters.EE_T_K = {{1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, 0.02, -0.03, 0.05, 1}};
+  const Eigen::Matrix4d F_T_K = Eigen::Map<const Eigen::Matrix4d>(parameters.F_T_NE.data()) *
+                                Eigen::Map<const Eigen::Matrix4d>(parameters.EE_T_K.data());
+  Eigen::Map<Eigen::Matrix4d>(arm.push_frame.data()) = F_T_K;
+  for (std::size_t axis = 0; axis < 6; axis++) {
+    for (const double sign : {1.0, -1.0}) {
+      rebuild();
+      arm.put(kReady);
+      arm.push.fill(0.0);
+      const double size = axis < 3 ? 10.0 : 2.0;
+      arm.push[axis] = sign * size;
+      run(3000);
+      const RobotState& state = unit.state();
+      const std::array<double, 16> O_T_K = parameters.model.pose(
+          franka_core::ArmFrame::kStiffness, state.q, state.F_T_EE, state.EE_T_K);
+      const Eigen::Matrix3d R =
+          Eigen::Map<const Eigen::Matrix4d>(O_T_K.data()).topLeftCorner<3, 3>();
+      const Eigen::Map<const Eigen::Matrix<double, 6, 1>> push(arm.push.data());
+      for (int i = 0; i < 6; i++) {
+        const double tolerance = 0.005 * size;
+        EXPECT_NEAR(-arm.push[i], state.O_F_ext_hat_K[i], tolerance) << "axis " << axis;
+        const double in_K = (R.transpose() * push.segment<3>(i < 3 ? 0 : 3))[i % 3];
+        EXPECT_NEAR(-in_K, state.K_F_ext_hat_K[i], tolerance) << "axis " << axis;
+      }
+    }
+  }
+}
+
+TEST_F(ArmTest, JointTorquesOfAPushAreMinusJacobianTransposedTimesForce) {
+  arm.push = {{3, -7, 5, 0.5, 0, -0.3}};
+  run(3000);
+  const RobotState& state = unit.state();
+  const std::array<double, 42> J = parameters.model.zeroJacobian(
+      franka_core::ArmFrame::kEndEffector, state.q, parameters.F_T_NE);
+  for (std::size_t i = 0; i < 7; i++) {
+    double expected = 0.0;
+    for (std::size_t j = 0; j < 6; j++) {
+      expected -= J[6 * i + j] * arm.push[j];
+    }
+    EXPECT_NEAR(expected, state.tau_ext_hat_filtered[i], 1e-4);
+  }
+}
+
+TEST_F(ArmTest, AKilogramThatIsNotConfiguredReadsItsWeight) {
+  franka_core::Payload load;
+  load.mass = 1.0;
+  load.com = {{0.0, 0.0, 0.1034}};
+  arm.payload = franka_core::combine(parameters.end_effector, load);
+  run(4000);
+  EXPECT_NEAR(0.0, unit.state().O_F_ext_hat_K[0], 0.01);
+  EXPECT_NEAR(0.0, unit.state().O_F_ext_hat_K[1], 0.01);
+  EXPECT_NEAR(9.81, unit.state().O_F_ext_hat_K[2], 0.01);
+
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad(load));
+  run(4000);
+  EXPECT_LT(norm(unit.state().O_F_ext_hat_K, 0, 3), 1e-3);
+  EXPECT_DOUBLE_EQ(1.76, unit.state().m_total);
+}
+
+TEST_F(ArmTest, LoadSetWhileMovingActsAsPhysicsSays) {
+  franka_core::Payload load;
+  load.mass = 1.0;
+  load.com = {{0.01, 0.02, 0.1034}};
+  arm.payload = franka_core::combine(parameters.end_effector, load);
+  startTorqueControl();
+  const franka_core::RobotCommand zero;
+  run(10, &zero);
+  const std::array<double, 7> before = arm.torques();
+  const std::array<double, 7> q = arm.q();
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad(load));
+  tick(unit, arm, &zero);
+  franka_core::Payload difference = load;
+  const franka_core::Payload none;
+  const std::array<double, 7> with = parameters.model.gravity(q, difference);
+  const std::array<double, 7> without = parameters.model.gravity(q, none);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(with[i] - without[i], arm.torques()[i] - before[i], 2e-3);
+  }
+}
+
+TEST_F(ArmTest, ContactShowsBetweenTheThresholdsAndClears) {
+  CollisionThresholds t = parameters.nominal;
+  t.lower_force.fill(10);
+  t.upper_force.fill(20);
+  t.lower_torque.fill(80);
+  t.upper_torque.fill(90);
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  arm.push = {{0, 0, 15, 0, 0, 0}};
+  run(3000);
+  EXPECT_EQ((std::array<double, 6>{{0, 0, 1, 0, 0, 0}}), unit.state().cartesian_contact);
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_collision);
+  arm.push[2] = 9;
+  run(3000);
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_contact);
+}
+
+TEST_F(ArmTest, WithoutReflexesTheFlagsAreTheManualsFormulasAtEveryMoment) {
+  // Also where a lower threshold lies above the upper one.
+  CollisionThresholds t = parameters.nominal;
+  t.lower_force = {{10, 10, 10, 10, 10, 30}};
+  t.upper_force.fill(20);
+  t.lower_torque.fill(3);
+  t.upper_torque.fill(8);
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  int contacts = 0;
+  int collisions = 0;
+  for (int i = 0; i < 3000; i++) {
+    arm.push = {{0, 0, -30.0 * std::sin(0.01 * i), 0, 0, 0}};
+    const RobotState& state = tick(unit, arm);
+    for (std::size_t j = 0; j < 7; j++) {
+      const double shown = std::abs(state.tau_ext_hat_filtered[j]);
+      ASSERT_EQ(shown > 3 ? 1.0 : 0.0, state.joint_contact[j]);
+      ASSERT_EQ(shown > 8 ? 1.0 : 0.0, state.joint_collision[j]);
+    }
+    for (std::size_t j = 0; j < 6; j++) {
+      const double shown = std::abs(state.K_F_ext_hat_K[j]);
+      ASSERT_EQ(shown > t.lower_force[j] ? 1.0 : 0.0, state.cartesian_contact[j]);
+      ASSERT_EQ(shown > 20 ? 1.0 : 0.0, state.cartesian_collision[j]);
+      contacts += state.cartesian_contact[j] > 0.0 ? 1 : 0;
+      collisions += state.cartesian_collision[j] > 0.0 ? 1 : 0;
+    }
+    ASSERT_EQ(RobotMode::kIdle, state.robot_mode);
+  }
+  EXPECT_GT(collisions, 100);
+  EXPECT_GT(contacts, collisions);
+  arm.push.fill(0.0);
+  run(1000);
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_collision);
+}
+
+TEST_F(ArmTest, CollisionLatchesUntilRecovery) {
+  behaveAsOverFci(parameters, 5);
+  rebuild();
+  run(1);
+  CollisionThresholds t = parameters.nominal;
+  t.lower_force.fill(10);
+  t.upper_force.fill(20);
+  t.lower_torque.fill(80);
+  t.upper_torque.fill(90);
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  EXPECT_FALSE(unit.cartesianCollision().happened);
+  arm.push = {{0, 0, -30, 0, 0, 0}};
+  run(100);
+  EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
+  EXPECT_EQ(1.0, unit.state().cartesian_collision[2]);
+  EXPECT_EQ(0.0, unit.state().cartesian_contact[2]);
+  const Collision& collision = unit.cartesianCollision();
+  EXPECT_TRUE(collision.happened && !unit.jointCollision().happened);
+  EXPECT_EQ(2u, collision.index);
+  EXPECT_GT(collision.value, 20.0);
+  EXPECT_EQ(20.0, collision.threshold);
+  arm.push.fill(0.0);
+  run(3000);
+  EXPECT_EQ(1.0, unit.state().cartesian_collision[2]);
+  EXPECT_EQ(RequestStatus::kSuccess, unit.automaticErrorRecovery());
+  run(100);
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_collision);
+  EXPECT_FALSE(unit.cartesianCollision().happened);
+}
+
+TEST(CollisionText, NamesValueThresholdUnitAndPlace) {
+  EXPECT_EQ("joint 4: external torque -23.4 Nm, upper threshold 20 Nm",
+            describeJointCollision({true, 3, -23.4, 20.0}));
+  EXPECT_EQ("along z of O: external force 25.1 N, upper threshold 20 N",
+            describeCartesianCollision({true, 2, 25.1, 20.0}, ThresholdFrame::kBase));
+  EXPECT_EQ("about x of K: external torque 3.5 Nm, upper threshold 0 Nm",
+            describeCartesianCollision({true, 3, 3.5, 0.0}, ThresholdFrame::kStiffness));
+  const Collision worst = worstOf<6>({{5, -30, 9, 0, 0, 0}}, {{1, 20, 10, 1, 1, 1}});
+  EXPECT_EQ(0u, worst.index);
+  EXPECT_FALSE(worstOf<6>({}, {}).happened);
+}
+
+TEST_F(ArmTest, JointThresholdsActPerJoint) {
+  CollisionThresholds t = parameters.nominal;
+  t.lower_force.fill(1000);
+  t.upper_force.fill(1000);
+  t.lower_torque.fill(5);
+  t.upper_torque.fill(20);
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  arm.push = {{0, 20, 0, 0, 0, 0}};
+  run(3000);
+  const RobotState& state = unit.state();
+  int contacts = 0;
+  for (std::size_t i = 0; i < 7; i++) {
+    const double magnitude = std::abs(state.tau_ext_hat_filtered[i]);
+    EXPECT_EQ(magnitude > 5 && magnitude <= 20 ? 1.0 : 0.0, state.joint_contact[i]) << i;
+    contacts += state.joint_contact[i] > 0 ? 1 : 0;
+  }
+  EXPECT_GT(contacts, 0);
+  EXPECT_LT(contacts, 7);
+}
+
+TEST_F(ArmTest, ThresholdsMeetTheWrenchInTheFrameOfTheFace) {
+  // In the ready pose the hand points down: z of K is minus z of O, x of K is x of O turned by the
+  // hand's own angle. Turn K by a quarter about x so that a push along z of O lies along y of K.
+  parameters.EE_T_K = {{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1}};
+  parameters.nominal.lower_force.fill(10);
+  parameters.nominal.upper_force.fill(20);
+  for (const ThresholdFrame frame : {ThresholdFrame::kBase, ThresholdFrame::kStiffness}) {
+    parameters.threshold_frame = frame;
+    rebuild();
+    arm.put(kReady);
+    arm.push = {{0, 0, 15, 0, 0, 0}};
+    run(3000);
+    const std::size_t axis = frame == ThresholdFrame::kBase ? 2 : 1;
+    std::array<double, 6> expected{};
+    expected[axis] = 1.0;
+    EXPECT_EQ(expected, unit.state().cartesian_contact);
+  }
+}
+
+TEST_F(ArmTest, ThresholdsDoNotWaitForTheFilter) {
+  behaveAsOverFci(parameters, 5);
+  parameters.nominal.upper_force.fill(20);
+  rebuild();
+  run(100);
+  arm.push = {{0, 0, 25, 0, 0, 0}};
+  tick(unit, arm);
+  const RobotState& state = tick(unit, arm);
+  EXPECT_EQ(1.0, state.cartesian_collision[2]);
+  EXPECT_LT(std::abs(state.O_F_ext_hat_K[2]), 12.0);  // filtered
+}
+
+TEST_F(ArmTest, FilteredTorqueIsAFirstOrderLowPassOfAHundredHertz) {
+  run(100);
+  // A torque that appears on the sensor alone, with the joints at rest, is all external.
+  ArmMeasurement m = arm.measure();
+  m.dq.fill(0.0);
+  unit.observe(m);
+  m.tau_J = parameters.model.gravity(m.q, parameters.end_effector);
+  for (int i = 0; i < 50; i++) {
+    unit.observe(m);
+  }
+  m.tau_J[3] += 10.0;
+  const double gain = 1e-3 / (1e-3 + 1 / (2 * 3.14159265358979323846 * 100));
+  double expected = unit.state().tau_ext_hat_filtered[3];
+  for (int i = 0; i < 20; i++) {
+    expected = gain * 10.0 + (1 - gain) * expected;
+    EXPECT_NEAR(expected, unit.observe(m).tau_ext_hat_filtered[3], 1e-6);
+  }
+}
+
+TEST_F(ArmTest, NoWrenchIsToldNearASingularity) {
+  // Straight up no joint turns about x.
+  ArmMeasurement m;
+  unit.observe(m);
+  EXPECT_LT(smallestSingularValue(unit), 0.02);
+  m.tau_J = unit.state().tau_J;
+  m.tau_J[3] += 20;
+  unit.observe(m);
+  EXPECT_GT(unit.observe(m).tau_ext_hat_filtered[3], 5.0);
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().O_F_ext_hat_K);
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().K_F_ext_hat_K);
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_contact);
+}
+
+TEST_F(ArmTest, TheSingularityBoundIsTwoHundredths) {
+  // Walk through the bound away from straight up and compare with a singular value decomposition.
+  int inside = 0;
+  int outside = 0;
+  for (int i = 1; i <= 200; i++) {
+    ControlUnit fresh(parameters);
+    ArmMeasurement m;
+    m.q = {{0, 0.002 * i, 0, 0, 0, 0, 0}};
+    fresh.observe(m);
+    m.tau_J = fresh.state().tau_J;
+    m.tau_J[1] += 10;
+    fresh.observe(m);
+    const bool told = norm(fresh.state().O_F_ext_hat_K, 0, 6) > 0.0;
+    const double sigma = smallestSingularValue(fresh);
+    if (std::abs(sigma - 0.02) > 1e-9) {
+      EXPECT_EQ(sigma > 0.02, told) << "sigma " << sigma;
+    }
+    (told ? outside : inside)++;
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_GT(outside, 0);
+}
+
+}  // namespace
+
+}  // namespace franka_sim::test

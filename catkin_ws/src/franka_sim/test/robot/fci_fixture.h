@@ -1,0 +1,112 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/fci/commands.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "arm_fixture.h"
+
+namespace franka_sim::test {
+
+using franka_core::ControllerMode;
+using franka_core::MotionGeneratorMode;
+using franka_core::RobotCommand;
+using franka_core::RobotMode;
+using franka_core::RobotState;
+using Status = franka_core::fci::Status;
+
+/// A unit as behind its own interface.
+class FciTest : public ArmTest {
+ protected:
+  FciTest() {
+    behaveAsOverFci(parameters, 5);
+    rebuild();
+    test::tick(unit, arm);
+  }
+
+  /// A new unit on an arm that stands at q.
+  void standAt(const std::array<double, 7>& q) {
+    rebuild();
+    arm.put(q);
+    run(3);
+  }
+
+  void ignoreCollisions() {
+    CollisionThresholds high;
+    high.lower_torque.fill(1e6);
+    high.upper_torque.fill(1e6);
+    high.lower_force.fill(1e6);
+    high.upper_force.fill(1e6);
+    ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(high, high));
+  }
+
+  static franka_core::fci::MoveRequest request(MotionGeneratorMode generator,
+                                               ControllerMode controller) {
+    franka_core::fci::MoveRequest request;
+    request.motion_generator_mode = generator;
+    request.controller_mode = controller;
+    return request;
+  }
+
+  void startMove(MotionGeneratorMode generator,
+                 ControllerMode controller = ControllerMode::kJointImpedance) {
+    ASSERT_EQ(Status::kMotionStarted, unit.startMotion(request(generator, controller)));
+    ASSERT_EQ(RobotMode::kMove, unit.state().robot_mode);
+  }
+
+  /// Ticks whose command is made from the state; stops early when the motion is over.
+  int drive(int ticks, const std::function<RobotCommand(int, const RobotState&)>& command) {
+    for (int i = 0; i < ticks; i++) {
+      const RobotState& state = unit.observe(arm.measure());
+      const RobotCommand answer = command(i, state);
+      arm.applyTorques(unit.actuate(&answer));
+      arm.setBrakes(unit.brakesClosed());
+      arm.step();
+      if (unit.state().robot_mode != RobotMode::kMove) {
+        return i + 1;
+      }
+    }
+    return ticks;
+  }
+
+  /// A tick in which the sensors show something else than the arm.
+  void tickWith(const std::function<void(ArmMeasurement&)>& change,
+                const RobotCommand* command = nullptr) {
+    ArmMeasurement m = arm.measure();
+    change(m);
+    unit.observe(m);
+    arm.applyTorques(unit.actuate(command));
+    arm.setBrakes(unit.brakesClosed());
+    arm.step();
+  }
+
+  std::vector<int> raised() const {
+    std::vector<int> flags;
+    for (std::size_t i = 0; i < franka_core::kErrorCount; i++) {
+      if (unit.state().errors[i]) {
+        flags.push_back(static_cast<int>(i));
+      }
+    }
+    return flags;
+  }
+};
+
+/// From 0 to 1 within a second, at rest at both ends up to the acceleration.
+inline double smoothStep(double t) {
+  const double s = std::min(std::max(t, 0.0), 1.0);
+  return s * s * s * (10 - 15 * s + 6 * s * s);
+}
+
+/// The derivative of smoothStep.
+inline double smoothSpeed(double t) {
+  const double s = std::min(std::max(t, 0.0), 1.0);
+  return 30 * s * s * (1 - s) * (1 - s);
+}
+
+}  // namespace franka_sim::test

@@ -1,0 +1,517 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The gripper's commands on simulated fingers, with and without something between them.
+#include <franka_sim/robot/gripper_unit.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fake_hand.h"
+
+namespace franka_sim::test {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class GripperTest : public ::testing::Test {
+ protected:
+  void tick() {
+    hand.applyForces(gripper.step(hand.measure(), 1e-3));
+    hand.step();
+  }
+
+  void run(int ticks) {
+    for (int i = 0; i < ticks; i++) {
+      tick();
+    }
+  }
+
+  /// Until a command has ended. @returns seconds, or 100 when it never does
+  double finish(GripperUnit::Ticket ticket) {
+    for (int i = 0; i < 20000; i++) {
+      if (gripper.outcome(ticket) != GripperOutcome::kRunning) {
+        return 1e-3 * i;
+      }
+      tick();
+    }
+    return 100.0;
+  }
+
+  /// The stone of the demo: 25 mm wide, in the middle or beside it [m].
+  void putStone(double width = 0.025, double beside = 0.0) {
+    hand.has_object = true;
+    hand.object = FakeHand::Object{};
+    hand.object.left = 0.5 * width;
+    hand.object.right = 0.5 * width;
+    hand.object.position = beside;
+    hand.object.movable = true;
+  }
+
+  FakeHand hand;
+  GripperUnit gripper{GripperParameters{}};
+};
+
+TEST_F(GripperTest, WarmsUpWithTheSquareOfItsForceAndCoolsDownAgain) {
+  const GripperParameters parameters;
+  putStone();
+  run(1000);
+  EXPECT_NEAR(parameters.room_temperature, gripper.temperature(), 1e-3);
+  const double force = 70.0;
+  finish(gripper.grasp(0.025, 0.005, 0.005, 0.1, force));
+  ASSERT_TRUE(gripper.isGrasped());
+  const double begin = gripper.temperature();
+  run(100000);
+  const double share = force / parameters.max_force;
+  const double end = parameters.room_temperature + parameters.temperature_rise * share * share;
+  EXPECT_NEAR(end + (begin - end) * std::exp(-100.0 / parameters.temperature_time),
+              gripper.temperature(), 0.01);
+  const double warm = gripper.temperature();
+  gripper.stop();
+  run(100000);
+  EXPECT_NEAR(parameters.room_temperature + (warm - parameters.room_temperature) *
+                                                std::exp(-100.0 / parameters.temperature_time),
+              gripper.temperature(), 0.01);
+  gripper.restart();
+  EXPECT_EQ(parameters.room_temperature, gripper.temperature());
+}
+
+TEST_F(GripperTest, StandsWhereItIs) {
+  run(1000);
+  EXPECT_NEAR(0.04, gripper.width(), 1e-9);
+  EXPECT_EQ(GripperState::kIdle, gripper.state());
+  EXPECT_FALSE(gripper.isGrasped());
+}
+
+TEST_F(GripperTest, MovesToAWidthAtTheSpeedAsked) {
+  hand.put(0.0);
+  run(10);
+  for (const double speed : {0.02, 0.05, 0.1}) {
+    for (const double width : {0.08, 0.03, 0.0}) {
+      const double way = std::abs(width - hand.width());
+      const GripperUnit::Ticket ticket = gripper.move(width, speed);
+      run(static_cast<int>(500 * way / speed));
+      EXPECT_NEAR(speed, std::abs(hand.speed()), 0.1 * speed) << "halfway to " << width;
+      const double time = 0.5 * way / speed + finish(ticket);
+      EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
+      EXPECT_EQ(GripperState::kIdle, gripper.state());
+      EXPECT_NEAR(width, gripper.width(), 1e-3);
+      EXPECT_NEAR(way / speed, time, 0.3);
+      run(1000);
+      EXPECT_NEAR(width, gripper.width(), 1e-4) << "stays there";
+    }
+  }
+}
+
+TEST_F(GripperTest, DoesNotOvershoot) {
+  hand.put(0.08);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.move(0.03, 0.1);
+  double lowest = 1.0;
+  while (gripper.outcome(ticket) == GripperOutcome::kRunning) {
+    tick();
+    lowest = std::min(lowest, gripper.width());
+  }
+  run(500);
+  EXPECT_GT(lowest, 0.029);
+}
+
+TEST_F(GripperTest, WorksWithLightAndHeavyFingersAndWithoutCoupling) {
+  for (const double mass : {0.015, 0.03, 0.115, 0.3}) {
+    for (const double coupling : {0.0, 20000.0}) {
+      hand = FakeHand(mass, coupling);
+      gripper = GripperUnit(GripperParameters{});
+      putStone();
+      hand.put(0.06);
+      run(10);
+      const GripperUnit::Ticket ticket = gripper.grasp(0.025, 0.005, 0.005, 0.1, 5);
+      EXPECT_LT(finish(ticket), 3.0) << mass << " " << coupling;
+      EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket)) << mass << " " << coupling;
+      run(500);
+      EXPECT_NEAR(2.5, hand.padForce()[0], 0.25) << mass << " " << coupling;
+      EXPECT_NEAR(2.5, hand.padForce()[1], 0.25) << mass << " " << coupling;
+      hand.has_object = false;
+      const GripperUnit::Ticket open = gripper.move(0.08, 0.1);
+      finish(open);
+      EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(open)) << mass << " " << coupling;
+      EXPECT_NEAR(0.08, gripper.width(), 1e-3) << mass << " " << coupling;
+    }
+  }
+}
+
+TEST_F(GripperTest, SlowMovesAreNotMistakenForStandstill) {
+  const GripperUnit::Ticket ticket = gripper.move(0.0405, 0.0005);
+  EXPECT_NEAR(1.0, finish(ticket), 0.1);
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
+  EXPECT_NEAR(0.0405, gripper.width(), 1e-4);
+}
+
+TEST_F(GripperTest, MoveWithoutSpeedEndsWithoutArriving) {
+  const GripperUnit::Ticket ticket = gripper.move(0.08, 0.0);
+  EXPECT_NEAR(0.2, finish(ticket), 0.01);
+  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
+}
+
+TEST_F(GripperTest, MoveToWhereItIsSucceedsAtOnce) {
+  run(5);
+  EXPECT_LT(finish(gripper.move(0.04, 0.1)), 0.01);
+}
+
+TEST_F(GripperTest, ObstacleEndsAMoveQuicklyAndTruthfully) {
+  putStone();
+  hand.object.movable = false;
+  hand.put(0.06);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.move(0.0, 0.1);
+  EXPECT_NEAR(0.35 + 0.025, finish(ticket), 0.1);
+  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
+  EXPECT_EQ(GripperState::kIdle, gripper.state());
+  EXPECT_NEAR(0.025, gripper.width(), 1e-3);
+  run(500);
+  EXPECT_LT(hand.padForce()[0], 0.1) << "nothing keeps pressing";
+}
+
+TEST_F(GripperTest, BlockedFromTheStartFailsAfterItsPatience) {
+  putStone(0.03);
+  hand.object.movable = false;
+  hand.put(0.03);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.move(0.0, 0.1);
+  EXPECT_NEAR(0.2, finish(ticket), 0.05);
+  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
+}
+
+TEST_F(GripperTest, GraspHoldsWithHalfOfTheForceOnEachFinger) {
+  for (const double force : {1.0, 5.0, 40.0}) {
+    putStone();
+    hand.put(0.06);
+    gripper = GripperUnit(GripperParameters{});
+    run(10);
+    const GripperUnit::Ticket ticket = gripper.grasp(0.025, 0.005, 0.005, 0.1, force);
+    EXPECT_LT(finish(ticket), 1.0);
+    EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
+    EXPECT_EQ(GripperState::kHolding, gripper.state());
+    EXPECT_TRUE(gripper.isGrasped());
+    run(2000);
+    EXPECT_NEAR(0.5 * force, hand.padForce()[0], 0.05 * force);
+    EXPECT_NEAR(0.5 * force, hand.padForce()[1], 0.05 * force);
+    EXPECT_TRUE(gripper.isGrasped());
+  }
+}
+
+TEST_F(GripperTest, GraspPushesAnObjectThatLiesBesideTheMiddle) {
+  for (const double beside : {0.01, -0.01}) {
+    putStone(0.025, beside);
+    hand.put(0.07);
+    gripper = GripperUnit(GripperParameters{});
+    run(10);
+    const GripperUnit::Ticket ticket = gripper.grasp(0.025, 0.005, 0.005, 0.1, 5);
+    EXPECT_LT(finish(ticket), 2.0);
+    EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket)) << beside;
+    EXPECT_NEAR(0.0, hand.object.position, 1e-3) << beside;
+  }
+}
+
+TEST_F(GripperTest, GraspDoesNotThrowTheObject) {
+  putStone(0.025, 0.01);
+  hand.object.friction = 0.01;
+  hand.put(0.07);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.grasp(0.025, 0.005, 0.005, 0.1, 5);
+  double furthest = 0.01;
+  while (gripper.outcome(ticket) == GripperOutcome::kRunning) {
+    tick();
+    furthest = std::min(furthest, hand.object.position);
+  }
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
+  EXPECT_GT(furthest, -0.005);
+}
+
+TEST_F(GripperTest, GraspOfNothingFailsAndReleases) {
+  hand.put(0.06);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.grasp(0.025, 0.005, 0.005, 0.1, 5);
+  EXPECT_LT(finish(ticket), 1.5);
+  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
+  EXPECT_EQ(GripperState::kIdle, gripper.state());
+  EXPECT_FALSE(gripper.isGrasped());
+  EXPECT_NEAR(0.0, gripper.width(), 1e-3);
+}
+
+TEST_F(GripperTest, GraspOfTheWrongWidthFails) {
+  struct Row {
+    double object, inner, outer;
+    GripperOutcome outcome;
+  };
+  for (const Row& row : {Row{0.035, 0.005, 0.005, GripperOutcome::kFailed},
+                         Row{0.015, 0.005, 0.005, GripperOutcome::kFailed},
+                         Row{0.035, 0.005, 0.011, GripperOutcome::kSucceeded},
+                         Row{0.015, 0.011, 0.005, GripperOutcome::kSucceeded},
+                         Row{0.029, 0.005, 0.005, GripperOutcome::kSucceeded},
+                         Row{0.021, 0.005, 0.005, GripperOutcome::kSucceeded}}) {
+    putStone(row.object);
+    hand.put(0.06);
+    gripper = GripperUnit(GripperParameters{});
+    run(10);
+    const GripperUnit::Ticket ticket = gripper.grasp(0.025, row.inner, row.outer, 0.1, 5);
+    finish(ticket);
+    EXPECT_EQ(row.outcome, gripper.outcome(ticket)) << row.object;
+    EXPECT_EQ(row.outcome == GripperOutcome::kSucceeded, gripper.isGrasped()) << row.object;
+  }
+}
+
+TEST_F(GripperTest, GraspFromInsideOpensAndHolds) {
+  hand.has_object = true;
+  hand.object.left = hand.object.right = 0.03;
+  hand.object.hollow = true;
+  hand.put(0.02);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.grasp(0.06, 0.005, 0.005, 0.1, 5);
+  EXPECT_LT(finish(ticket), 1.5);
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
+  run(1000);
+  EXPECT_NEAR(2.5, hand.padForce()[0], 0.25);
+  EXPECT_NEAR(2.5, hand.padForce()[1], 0.25);
+}
+
+TEST_F(GripperTest, GraspFromInsideOfNothingEndsAtTheStops) {
+  hand.put(0.02);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.grasp(0.06, 0.005, 0.005, 0.1, 5);
+  EXPECT_LT(finish(ticket), 2.0);
+  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
+  EXPECT_NEAR(0.08, gripper.width(), 1e-3);
+}
+
+TEST_F(GripperTest, GraspingAgainWhatIsHeldKeepsHolding) {
+  putStone();
+  hand.put(0.06);
+  run(10);
+  finish(gripper.grasp(0.025, 0.005, 0.005, 0.1, 5));
+  const GripperUnit::Ticket again = gripper.grasp(0.0251, 0.005, 0.005, 0.1, 10);
+  double widest = 0.0;
+  while (gripper.outcome(again) == GripperOutcome::kRunning) {
+    tick();
+    widest = std::max(widest, gripper.width());
+  }
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(again));
+  EXPECT_LT(widest, 0.0252);
+  run(500);
+  EXPECT_NEAR(5.0, hand.padForce()[0], 0.25);
+}
+
+TEST_F(GripperTest, LosingTheObjectShowsAndTheFingersCloseOn) {
+  putStone();
+  hand.put(0.06);
+  run(10);
+  finish(gripper.grasp(0.025, 0.005, 0.005, 0.1, 5));
+  ASSERT_TRUE(gripper.isGrasped());
+  hand.has_object = false;
+  run(1000);
+  EXPECT_FALSE(gripper.isGrasped());
+  EXPECT_EQ(GripperState::kHolding, gripper.state());
+  EXPECT_NEAR(0.0, gripper.width(), 1e-3);
+}
+
+TEST_F(GripperTest, StopReleasesAGraspAndStays) {
+  putStone();
+  hand.put(0.06);
+  run(10);
+  finish(gripper.grasp(0.025, 0.005, 0.005, 0.1, 5));
+  const GripperUnit::Ticket stop = gripper.stop();
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(stop));
+  EXPECT_EQ(GripperState::kIdle, gripper.state());
+  EXPECT_FALSE(gripper.isGrasped());
+  run(1000);
+  EXPECT_LT(hand.padForce()[0], 0.05);
+  EXPECT_NEAR(0.025, gripper.width(), 1e-3);
+}
+
+TEST_F(GripperTest, StopMidwayHoldsTheFingersWhereTheyAre) {
+  hand.put(0.08);
+  run(10);
+  for (const bool grasping : {false, true}) {
+    const GripperUnit::Ticket ticket =
+        grasping ? gripper.grasp(0.01, 0.005, 0.005, 0.1, 5) : gripper.move(0.0, 0.1);
+    run(300);
+    const double width = gripper.width();
+    gripper.stop();
+    EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(ticket));
+    run(2000);
+    EXPECT_NEAR(width, gripper.width(), 2e-3);
+    EXPECT_NEAR(0.0, hand.speed(), 1e-4);
+  }
+}
+
+TEST_F(GripperTest, EveryCommandInterruptsEveryOther) {
+  using Command = std::function<GripperUnit::Ticket(GripperUnit&)>;
+  const std::vector<Command> commands = {
+      [](GripperUnit& g) { return g.homing(); },
+      [](GripperUnit& g) { return g.move(0.05, 0.1); },
+      [](GripperUnit& g) { return g.grasp(0.02, 0.03, 0.03, 0.1, 5); },
+  };
+  for (const Command& first : commands) {
+    for (const Command& second : commands) {
+      hand.put(0.07);
+      gripper = GripperUnit(GripperParameters{});
+      run(10);
+      const GripperUnit::Ticket a = first(gripper);
+      run(50);
+      EXPECT_EQ(GripperOutcome::kRunning, gripper.outcome(a));
+      const GripperUnit::Ticket b = second(gripper);
+      EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(a));
+      EXPECT_EQ(GripperOutcome::kRunning, gripper.outcome(b));
+      EXPECT_LT(finish(b), 20.0);
+      EXPECT_NE(GripperOutcome::kRunning, gripper.outcome(b));
+      EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(a));
+    }
+  }
+}
+
+TEST_F(GripperTest, HomingClosesAndOpensFully) {
+  hand.put(0.05);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.homing();
+  double narrowest = 1.0;
+  double time = 0.0;
+  while (gripper.outcome(ticket) == GripperOutcome::kRunning && time < 20.0) {
+    tick();
+    time += 1e-3;
+    narrowest = std::min(narrowest, gripper.width());
+  }
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
+  EXPECT_LT(narrowest, 1e-3);
+  EXPECT_NEAR(0.08, gripper.width(), 1e-3);
+  EXPECT_NEAR((0.05 + 0.08) / 0.02, time, 0.5);
+}
+
+TEST_F(GripperTest, HomingFailsOnAnObstacle) {
+  putStone();
+  hand.object.movable = false;
+  hand.put(0.05);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.homing();
+  EXPECT_LT(finish(ticket), 2.0);
+  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
+}
+
+TEST_F(GripperTest, BadCommandsAreRefusedAndInterruptNothing) {
+  hand.put(0.08);
+  run(10);
+  const GripperUnit::Ticket running = gripper.move(0.02, 0.05);
+  run(50);
+  for (const double bad : {kNan, kInfinity, -kInfinity, -0.001}) {
+    EXPECT_EQ(0u, gripper.move(bad, 0.1));
+    EXPECT_EQ(0u, gripper.move(0.05, bad));
+    EXPECT_EQ(0u, gripper.grasp(bad, 0.005, 0.005, 0.1, 5));
+    EXPECT_EQ(0u, gripper.grasp(0.02, 0.005, 0.005, bad, 5));
+    EXPECT_EQ(0u, gripper.grasp(0.02, 0.005, 0.005, 0.1, bad));
+  }
+  EXPECT_EQ(0u, gripper.move(0.0801, 0.1));
+  EXPECT_EQ(0u, gripper.grasp(0.0801, 0.005, 0.005, 0.1, 5));
+  EXPECT_EQ(0u, gripper.grasp(0.02, kNan, 0.005, 0.1, 5));
+  EXPECT_EQ(0u, gripper.grasp(0.02, 0.005, kInfinity, 0.1, 5));
+  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(0));
+  EXPECT_EQ(GripperOutcome::kRunning, gripper.outcome(running));
+  finish(running);
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(running));
+}
+
+TEST_F(GripperTest, CommandBeforeTheFirstStepStartsFromTheMeasuredWidth) {
+  hand.put(0.08);
+  putStone();
+  const GripperUnit::Ticket ticket = gripper.grasp(0.025, 0.005, 0.005, 0.1, 5);
+  finish(ticket);
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
+}
+
+TEST_F(GripperTest, ImpossibleSpeedsAndForcesAreCutToTheHands) {
+  putStone();
+  hand.put(0.08);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.grasp(0.025, 0.005, 0.005, 1e9, 1e9);
+  double fastest = 0.0;
+  while (gripper.outcome(ticket) == GripperOutcome::kRunning && gripper.width() > 0.03) {
+    tick();
+    fastest = std::max(fastest, std::abs(hand.speed()));
+  }
+  EXPECT_LT(fastest, 0.11);
+  finish(ticket);
+  run(500);
+  EXPECT_NEAR(70, hand.padForce()[0], 1.0);
+}
+
+TEST_F(GripperTest, RestartIsIdleAtTheNewWidth) {
+  hand.put(0.08);
+  run(10);
+  const GripperUnit::Ticket ticket = gripper.move(0.0, 0.1);
+  run(100);
+  hand.put(0.03);
+  gripper.restart();
+  EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(ticket));
+  run(1000);
+  EXPECT_EQ(GripperState::kIdle, gripper.state());
+  EXPECT_NEAR(0.03, gripper.width(), 1e-6);
+}
+
+TEST_F(GripperTest, MeasurementsThatAreNotFiniteGiveNoForceAndLeaveNoTrace) {
+  const GripperUnit::Ticket ticket = gripper.move(0.08, 0.1);
+  run(100);
+  HandMeasurement bad = hand.measure();
+  bad.q[1] = kNan;
+  EXPECT_EQ((std::array<double, 2>{}), gripper.step(bad, 1e-3));
+  EXPECT_EQ((std::array<double, 2>{}), gripper.step(hand.measure(), kNan));
+  finish(ticket);
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
+}
+
+TEST_F(GripperTest, TwoGrippersDoNotShareAnything) {
+  GripperUnit other{GripperParameters{}};
+  FakeHand other_hand;
+  const GripperUnit::Ticket mine = gripper.move(0.08, 0.1);
+  const GripperUnit::Ticket theirs = other.move(0.0, 0.02);
+  for (int i = 0; i < 3000; i++) {
+    tick();
+    other_hand.applyForces(other.step(other_hand.measure(), 1e-3));
+    other_hand.step();
+  }
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(mine));
+  EXPECT_EQ(GripperOutcome::kSucceeded, other.outcome(theirs));
+  EXPECT_NEAR(0.08, gripper.width(), 1e-3);
+  EXPECT_NEAR(0.0, other.width(), 1e-3);
+}
+
+TEST(GripperParameters, ThatMakeNoSenseAreRefusedWithTheirName) {
+  const auto why = [](const std::function<void(GripperParameters&)>& change) -> std::string {
+    GripperParameters parameters;
+    change(parameters);
+    try {
+      GripperUnit gripper(parameters);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ("", why([](GripperParameters&) {}));
+  EXPECT_NE(std::string::npos, why([](auto& p) { p.gains[1].p = -1; }).find("finger2/gains"));
+  EXPECT_NE(std::string::npos, why([](auto& p) { p.max_width = 0; }).find("max_width"));
+  EXPECT_NE(std::string::npos,
+            why([](auto& p) { p.move_tolerance = kNan; }).find("move/width_tolerance"));
+  EXPECT_NE(std::string::npos,
+            why([](auto& p) { p.resting_threshold = -1; }).find("grasp/resting_threshold"));
+  EXPECT_NE(std::string::npos,
+            why([](auto& p) { p.consecutive_samples = 0; }).find("grasp/consecutive_samples"));
+  EXPECT_NE(std::string::npos, why([](auto& p) { p.homing_speed = 0; }).find("homing_speed"));
+  EXPECT_NE(std::string::npos, why([](auto& p) { p.max_speed = kNan; }).find("max_speed"));
+  EXPECT_NE(std::string::npos, why([](auto& p) { p.max_force = -1; }).find("max_force"));
+}
+
+}  // namespace
+
+}  // namespace franka_sim::test

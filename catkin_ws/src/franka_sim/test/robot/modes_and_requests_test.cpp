@@ -1,0 +1,420 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Modes, their transitions, and what a ControlUnit answers to requests, good and bad.
+#include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/parameter_checks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "arm_fixture.h"
+
+namespace franka_sim::test {
+
+namespace {
+
+using franka_core::ControllerMode;
+using franka_core::MotionGeneratorMode;
+using franka_core::RobotMode;
+using franka_core::RobotState;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST_F(ArmTest, EveryRequestInEveryModeEndsWhereTheTableSays) {
+  using Request = std::function<RequestStatus(ControlUnit&)>;
+  const Request start = [](ControlUnit& u) { return u.startTorqueControl(); };
+  const Request stop = [](ControlUnit& u) { return u.stopMotion(); };
+  const Request recover = [](ControlUnit& u) { return u.automaticErrorRecovery(); };
+  const Request press = [](ControlUnit& u) { return u.setUserStop(true), RequestStatus::kSuccess; };
+  const Request release = [](ControlUnit& u) {
+    return u.setUserStop(false), RequestStatus::kSuccess;
+  };
+  constexpr auto kYes = RequestStatus::kSuccess;
+  constexpr auto kNo = RequestStatus::kNotPossible;
+  struct Cell {
+    const char* what;
+    RobotMode from;
+    Request request;
+    RequestStatus status;
+    RobotMode to;
+  };
+  const Cell cells[] = {
+      {"start in Idle", RobotMode::kIdle, start, kYes, RobotMode::kMove},
+      {"start in Move", RobotMode::kMove, start, kNo, RobotMode::kMove},
+      {"start in UserStopped", RobotMode::kUserStopped, start, kNo, RobotMode::kUserStopped},
+      {"stop in Idle", RobotMode::kIdle, stop, kNo, RobotMode::kIdle},
+      {"stop in Move", RobotMode::kMove, stop, kYes, RobotMode::kIdle},
+      {"stop in UserStopped", RobotMode::kUserStopped, stop, kNo, RobotMode::kUserStopped},
+      {"press in Idle", RobotMode::kIdle, press, kYes, RobotMode::kUserStopped},
+      {"press in Move", RobotMode::kMove, press, kYes, RobotMode::kUserStopped},
+      {"press twice", RobotMode::kUserStopped, press, kYes, RobotMode::kUserStopped},
+      {"release in Idle", RobotMode::kIdle, release, kYes, RobotMode::kIdle},
+      {"release in Move", RobotMode::kMove, release, kYes, RobotMode::kMove},
+      {"release in UserStopped", RobotMode::kUserStopped, release, kYes, RobotMode::kIdle},
+      {"recover in Idle", RobotMode::kIdle, recover, kYes, RobotMode::kIdle},
+      {"recover in Move", RobotMode::kMove, recover, kYes, RobotMode::kMove},
+      {"recover in UserStopped", RobotMode::kUserStopped, recover, kNo, RobotMode::kUserStopped},
+  };
+  for (const Cell& cell : cells) {
+    rebuild();
+    tick(unit, arm);
+    if (cell.from == RobotMode::kMove) {
+      unit.startTorqueControl();
+    } else if (cell.from == RobotMode::kUserStopped) {
+      unit.setUserStop(true);
+    }
+    ASSERT_EQ(cell.from, unit.state().robot_mode) << cell.what;
+    EXPECT_EQ(cell.status, cell.request(unit)) << cell.what;
+    EXPECT_EQ(cell.to, unit.state().robot_mode) << cell.what;
+    EXPECT_EQ(cell.to, unit.observe(arm.measure()).robot_mode) << cell.what;
+    const bool moving = cell.to == RobotMode::kMove;
+    EXPECT_EQ(moving ? MotionGeneratorMode::kNone : MotionGeneratorMode::kIdle,
+              unit.state().motion_generator_mode)
+        << cell.what;
+    EXPECT_EQ(moving ? ControllerMode::kExternalController : ControllerMode::kOther,
+              unit.state().controller_mode)
+        << cell.what;
+    EXPECT_EQ(cell.to == RobotMode::kUserStopped, unit.brakesClosed()) << cell.what;
+  }
+}
+
+TEST_F(ArmTest, NothingStartsBeforeTheFirstMeasurement) {
+  EXPECT_EQ(RequestStatus::kNotPossible, unit.startTorqueControl());
+  EXPECT_EQ((std::array<double, 7>{}), unit.actuate(nullptr));
+}
+
+TEST_F(ArmTest, MotionStartsWithoutTorqueFromTheMeasuredPose) {
+  arm.push = {{0, 30, 0, 0, 0, 0}};
+  run(2000);
+  const std::array<double, 7> q = arm.q();
+  startTorqueControl();
+  const std::array<double, 7> q_d = unit.state().q_d;
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(q[i], q_d[i], 1e-6);
+  }
+  arm.push.fill(0.0);
+  const RobotState& state = run(300, nullptr);
+  EXPECT_EQ((std::array<double, 7>{}), state.tau_J_d);
+  EXPECT_EQ(q_d, state.q_d) << "external torque control leaves q_d alone";
+  EXPECT_EQ((std::array<double, 7>{}), state.dq_d);
+  EXPECT_EQ((std::array<double, 7>{}), state.ddq_d);
+}
+
+TEST_F(ArmTest, SuccessRateBelongsToAMotion) {
+  EXPECT_EQ(0.0, run(5).control_command_success_rate);
+  startTorqueControl();
+  const franka_core::RobotCommand zero;
+  EXPECT_EQ(1.0, run(5, &zero).control_command_success_rate);
+  unit.stopMotion();
+  EXPECT_EQ(0.0, run(5).control_command_success_rate);
+  startTorqueControl();
+  EXPECT_EQ(1.0, run(5, &zero).control_command_success_rate);
+}
+
+TEST_F(ArmTest, StoppedMotionIsCaughtAndHeld) {
+  startTorqueControl();
+  const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
+  run(100, &push);
+  const double speed = unit.state().dq[0];
+  const double begin = unit.state().q[0];
+  EXPECT_GT(speed, 0.5);
+  unit.stopMotion();
+  EXPECT_TRUE(unit.settling());
+  run(1000);
+  EXPECT_FALSE(unit.settling());
+  const std::array<double, 7> held = unit.state().q_d;
+  // Joint 1 brakes with 15 rad/s^2.
+  EXPECT_NEAR(speed * speed / 30.0, held[0] - begin, 1e-3 * speed);
+  run(1000);
+  EXPECT_EQ(held, unit.state().q_d);
+  EXPECT_EQ((std::array<double, 7>{}), unit.state().tau_J_d);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(held[i], arm.q()[i], 1e-4);
+    EXPECT_NEAR(0.0, arm.dq()[i], 1e-3);
+  }
+}
+
+TEST_F(ArmTest, FinishedCommandEndsTheMotionInItsTick) {
+  startTorqueControl();
+  franka_core::RobotCommand command = torques({{5, 0, 0, 0, 0, 0, 0}});
+  run(10, &command);
+  command.torque_command_finished = true;
+  tick(unit, arm, &command);
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+  EXPECT_EQ((std::array<double, 7>{}), tick(unit, arm, &command).tau_J_d);
+}
+
+TEST_F(ArmTest, UserStopLocksTheArmAndReleaseHoldsIt) {
+  startTorqueControl();
+  const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
+  run(100, &push);
+  unit.setUserStop(true);
+  tick(unit, arm, &push);
+  EXPECT_EQ((std::array<double, 7>{}), arm.torques());
+  const std::array<double, 7> stopped = arm.q();
+  arm.push = {{0, 0, -50, 0, 0, 0}};
+  run(1000, &push);
+  EXPECT_EQ(stopped, arm.q());
+  EXPECT_EQ((std::array<double, 7>{}), unit.state().tau_J_d);
+  EXPECT_NEAR(50, unit.state().O_F_ext_hat_K[2], 0.25) << "the brakes' torque shows on the sensors";
+  arm.push.fill(0.0);
+  run(10);
+  unit.setUserStop(false);
+  run(1000, &push);  // commands have no effect outside Move
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(stopped[i], arm.q()[i], 1e-5);
+  }
+}
+
+TEST_F(ArmTest, SettersFollowTheRuleOfTheFace) {
+  const auto all = [](ControlUnit& u) {
+    const ControlUnitParameters& p = u.parameters();
+    return std::array<RequestStatus, 4>{u.setEE(p.NE_T_EE), u.setK(p.EE_T_K), u.setLoad(p.load),
+                                        u.setCollisionBehavior(p.acceleration, p.nominal)};
+  };
+  for (const bool in_motion : {true, false}) {
+    parameters.setters_in_motion = in_motion;
+    rebuild();
+    tick(unit, arm);
+    for (const RequestStatus status : all(unit)) {
+      EXPECT_EQ(RequestStatus::kSuccess, status);
+    }
+    unit.startTorqueControl();
+    for (const RequestStatus status : all(unit)) {
+      EXPECT_EQ(in_motion ? RequestStatus::kSuccess : RequestStatus::kNotPossible, status);
+    }
+    unit.setUserStop(true);
+    for (const RequestStatus status : all(unit)) {
+      EXPECT_EQ(RequestStatus::kSuccess, status);
+    }
+  }
+}
+
+TEST_F(ArmTest, FramesComeTogetherAndMoveTheDesiredPoseToo) {
+  run(2);
+  const std::array<double, 16> frame{{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1}};
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setEE(frame));
+  const RobotState& state = run(2);
+  EXPECT_EQ(frame, state.NE_T_EE);
+  const double s = std::sqrt(0.5);
+  const std::array<double, 16> expected{
+      {s, s, 0, 0, -s, s, 0, 0, 0, 0, 1, 0, 0.3 * s, 0.1 * s, 0.4034, 1}};
+  for (std::size_t i = 0; i < 16; i++) {
+    EXPECT_NEAR(expected[i], state.F_T_EE[i], 1e-12) << i;
+    EXPECT_NEAR(state.O_T_EE[i], state.O_T_EE_d[i], 1e-6) << i;
+    EXPECT_EQ(state.O_T_EE_d[i], state.O_T_EE_c[i]) << i;
+  }
+}
+
+TEST_F(ArmTest, LoadAndEndEffectorAreCombined) {
+  franka_core::Payload load;
+  load.mass = 0.24;
+  load.com = {{0, 0, 0.2}};
+  load.inertia = {{1e-3, 0, 0, 0, 2e-3, 0, 0, 0, 3e-3}};
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad(load));
+  const RobotState& state = unit.state();
+  const franka_core::Payload& ee = parameters.end_effector;
+  EXPECT_DOUBLE_EQ(ee.mass + 0.24, state.m_total);
+  for (std::size_t i = 0; i < 3; i++) {
+    EXPECT_NEAR((ee.mass * ee.com[i] + 0.24 * load.com[i]) / (ee.mass + 0.24), state.F_x_Ctotal[i],
+                1e-12);
+  }
+  EXPECT_EQ(load.inertia, state.I_load);
+  EXPECT_EQ(ee.inertia, state.I_ee);
+  EXPECT_GT(state.I_total[0], state.I_load[0] + state.I_ee[0]);
+}
+
+TEST_F(ArmTest, BadFramesAreRefusedAndChangeNothing) {
+  std::array<double, 16> identity = franka_core::kIdentityTransform;
+  const auto with = [&](std::size_t index, double value) {
+    std::array<double, 16> frame = identity;
+    frame[index] = value;
+    return frame;
+  };
+  std::array<double, 16> mirrored = with(10, -1.0);
+  std::array<double, 16> sheared = identity;  // unit columns and rows, but no right angles
+  const double s = std::sqrt(0.5);
+  sheared[0] = s, sheared[1] = s, sheared[4] = s, sheared[5] = s;
+  for (const std::array<double, 16>& bad :
+       {with(0, 1.1), with(3, 0.5), with(15, 0.0), with(12, kNan), with(13, INFINITY), mirrored,
+        sheared, std::array<double, 16>{}}) {
+    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setEE(bad));
+    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setK(bad));
+  }
+  EXPECT_EQ(identity, unit.state().NE_T_EE);
+  EXPECT_EQ(identity, unit.state().EE_T_K);
+  std::array<double, 16> four_digits = identity;
+  four_digits[0] = 0.7071, four_digits[1] = -0.7071, four_digits[4] = 0.7071,
+  four_digits[5] = 0.7071;
+  EXPECT_EQ(RequestStatus::kSuccess, unit.setEE(four_digits));
+}
+
+TEST_F(ArmTest, BadLoadsAreRefusedAndChangeNothing) {
+  const auto load = [](double mass, std::array<double, 3> com, std::array<double, 9> inertia) {
+    franka_core::Payload payload;
+    payload.mass = mass;
+    payload.com = com;
+    payload.inertia = inertia;
+    return payload;
+  };
+  const std::array<double, 9> zero{};
+  for (const franka_core::Payload& bad :
+       {load(-0.1, {{0, 0, 0}}, zero), load(kNan, {{0, 0, 0}}, zero),
+        load(INFINITY, {{0, 0, 0}}, zero), load(1, {{0, kNan, 0}}, zero),
+        load(1, {{0, 0, 0}}, {{kNan, 0, 0, 0, 0, 0, 0, 0, 0}}),
+        load(1, {{0, 0, 0}}, {{1, 0.5, 0, -0.5, 1, 0, 0, 0, 1}}),
+        load(1, {{0, 0, 0}}, {{-1, 0, 0, 0, 1, 0, 0, 0, 1}}),
+        load(1, {{0, 0, 0}}, {{1, 2, 0, 2, 1, 0, 0, 0, 1}})}) {
+    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setLoad(bad));
+  }
+  EXPECT_EQ(0.0, unit.state().m_load);
+  EXPECT_EQ(RequestStatus::kSuccess, unit.setLoad(load(0.1024, {{0, 0, 0.1}}, zero)));
+}
+
+TEST_F(ArmTest, LoadsBeyondAnyArmAreRefusedWithValueLimitAndUnit) {
+  struct Case {
+    double mass;
+    std::array<double, 3> com;
+    double moment;
+    const char* sentence;  // a part of it; empty: taken
+  };
+  const Case cases[] = {
+      {0, {{0, 0, 0}}, 0, ""},
+      {10, {{0, 0, 1}}, 10, ""},
+      {10.01, {{0, 0, 0}}, 0, "The mass is 10.01 kg; it must lie between 0 and 10 kg"},
+      {730, {{0.1, 0, 0}}, 0, "The mass is 730 kg"},
+      {1e300, {{0, 0, 0}}, 0, "The mass is 1e+300 kg"},
+      {1, {{0, 0, 1.01}}, 0, "is 1.01 m from the flange; it must be within 1 m"},
+      {1, {{0.8, 0.8, 0}}, 0, " m from the flange"},
+      {1, {{100, 0, 0}}, 0, "is 100 m from the flange"},  // meant as millimetres
+      {1, {{0, 0, 0}}, 10.01, "an entry of 10.01 kg m^2; none may be beyond 10 kg m^2"},
+      {1, {{0, 0, 0}}, 1e12, "an entry of 1e+12 kg m^2"},
+      {INFINITY, {{0, 0, 0}}, 0, "finite numbers"},
+      {1, {{0, kNan, 0}}, 0, "finite numbers"},
+  };
+  for (const Case& test : cases) {
+    SCOPED_TRACE(test.mass);
+    franka_core::Payload load{test.mass, test.com, {}};
+    load.inertia[0] = load.inertia[4] = load.inertia[8] = test.moment;
+    const bool good = *test.sentence == '\0';
+    EXPECT_EQ(good ? RequestStatus::kSuccess : RequestStatus::kInvalidArgument, unit.setLoad(load));
+    const std::string fault = payloadFault(load);
+    EXPECT_EQ(good, fault.empty()) << fault;
+    EXPECT_NE(std::string::npos, fault.find(test.sentence)) << fault;
+  }
+}
+
+TEST_F(ArmTest, CompensationOfAHeavyLoadStaysWithinTheMotors) {
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad({10, {{1, 0, 0}}, {}}));
+  const std::array<double, 7> limit{{87, 87, 87, 87, 12, 12, 12}};
+  double largest = 0;
+  for (int k = 0; k < 3; k++) {
+    unit.observe(arm.measure());
+    const std::array<double, 7> tau = unit.actuate(nullptr);
+    for (std::size_t i = 0; i < 7; i++) {
+      // The arm stands where it is held: the rest is compensation.
+      EXPECT_LE(std::abs(tau[i]), limit[i] + 1e-6) << i;
+      largest = std::max(largest, std::abs(tau[i]) / limit[i]);
+    }
+  }
+  EXPECT_NEAR(1.0, largest, 1e-6) << "the load is beyond what the motors hold";
+}
+
+TEST_F(ArmTest, FramesFarFromTheArmAreRefused) {
+  std::array<double, 16> frame = franka_core::kIdentityTransform;
+  frame[12] = 10.0;
+  EXPECT_EQ(RequestStatus::kSuccess, unit.setEE(frame));
+  EXPECT_EQ(RequestStatus::kSuccess, unit.setK(frame));
+  for (const double far : {10.1, -1e3, 1e11, 1e308}) {
+    frame[12] = far;
+    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setEE(frame)) << far;
+    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setK(frame)) << far;
+  }
+}
+
+TEST_F(ArmTest, BadThresholdsAreRefusedAndChangeNothing) {
+  for (const double bad : {-1.0, kNan, static_cast<double>(INFINITY)}) {
+    CollisionThresholds torque = parameters.nominal;
+    torque.lower_torque[6] = bad;
+    CollisionThresholds force = parameters.nominal;
+    force.upper_force[5] = bad;
+    EXPECT_EQ(RequestStatus::kInvalidArgument,
+              unit.setCollisionBehavior(torque, parameters.nominal));
+    EXPECT_EQ(RequestStatus::kInvalidArgument,
+              unit.setCollisionBehavior(parameters.nominal, force));
+  }
+  EXPECT_EQ(parameters.nominal.upper_force, unit.parameters().nominal.upper_force);
+}
+
+TEST_F(ArmTest, RestartForgetsThePastAndHoldsTheNewPose) {
+  startTorqueControl();
+  const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
+  run(200, &push);
+  unit.stopMotion();
+  const std::array<double, 7> elsewhere{{0.5, 0, -0.5, -2, 0.3, 1.8, 0}};
+  arm.put(elsewhere);
+  unit.restart();
+  const std::uint64_t id = unit.state().message_id;
+  const RobotState first = tick(unit, arm);
+  EXPECT_EQ(id + 1, first.message_id);
+  EXPECT_EQ(elsewhere, first.q_d);
+  EXPECT_EQ((std::array<double, 7>{}), first.tau_ext_hat_filtered);
+  EXPECT_EQ((std::array<double, 7>{}), first.dtau_J);
+  run(500);
+  EXPECT_EQ((std::array<double, 7>{}), unit.state().joint_collision);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(elsewhere[i], arm.q()[i], 1e-9);
+  }
+}
+
+TEST_F(ArmTest, TeleportWithoutRestartIsPulledBack) {
+  // Shows that the previous test can fail.
+  run(10);
+  arm.put({{0.5, 0, -0.5, -2, 0.3, 1.8, 0}});
+  run(5000);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(kReady[i], arm.q()[i], 1e-3);
+  }
+}
+
+std::string whyNot(const ControlUnitParameters& parameters) {
+  try {
+    ControlUnit unit(parameters);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ControlUnitParameters, ThatMakeNoSenseAreRefusedWithTheirName) {
+  const auto changed = [](const std::function<void(ControlUnitParameters&)>& change) {
+    ControlUnitParameters parameters = pandaWithHand();
+    change(parameters);
+    return whyNot(parameters);
+  };
+  EXPECT_EQ("", changed([](ControlUnitParameters&) {}));
+  EXPECT_NE(std::string::npos, changed([](auto& p) {
+                                 p.NE_T_EE[0] = 2;
+                               }).find("parameter NE_T_EE is no frame on the arm: column 1"));
+  EXPECT_NE(std::string::npos, changed([](auto& p) { p.F_T_NE[15] = 0; }).find("F_T_NE"));
+  EXPECT_NE(std::string::npos, changed([](auto& p) { p.EE_T_K[12] = kNan; }).find("EE_T_K"));
+  EXPECT_NE(std::string::npos, changed([](auto& p) { p.end_effector.mass = -1; }).find("m_ee"));
+  EXPECT_NE(std::string::npos, changed([](auto& p) { p.load.com[0] = kNan; }).find("F_x_Cload"));
+  EXPECT_NE(std::string::npos,
+            changed([](auto& p) { p.gravity[2] = kNan; }).find("gravity_vector"));
+  EXPECT_NE(std::string::npos, changed([](auto& p) { p.substeps = 0; }).find("substeps is 0"));
+  EXPECT_NE(std::string::npos,
+            changed([](auto& p) { p.rotor_inertia[3] = -0.1; }).find("rotor_inertia"));
+  EXPECT_NE(std::string::npos, changed([](auto& p) { p.max_torque[0] = kNan; }).find("max_torque"));
+  EXPECT_NE(std::string::npos,
+            changed([](auto& p) { p.nominal.lower_force[0] = -1; }).find("collision_config"));
+}
+
+}  // namespace
+
+}  // namespace franka_sim::test

@@ -1,0 +1,197 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The same inputs give the same bits, and a tick neither allocates nor locks.
+#include <rt_guard/rt_guard.h>
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "arm_fixture.h"
+#include "fake_hand.h"
+
+namespace franka_sim::test {
+
+namespace {
+
+/// All bits of the joint-space fields, poses and wrenches of a state.
+void append(std::vector<double>& log, const franka_core::RobotState& s) {
+  for (const auto* field : {&s.tau_J, &s.tau_J_d, &s.dtau_J, &s.q, &s.q_d, &s.dq, &s.theta,
+                            &s.dtheta, &s.tau_ext_hat_filtered}) {
+    log.insert(log.end(), field->begin(), field->end());
+  }
+  log.insert(log.end(), s.O_T_EE.begin(), s.O_T_EE.end());
+  log.insert(log.end(), s.O_F_ext_hat_K.begin(), s.O_F_ext_hat_K.end());
+  log.insert(log.end(), s.K_F_ext_hat_K.begin(), s.K_F_ext_hat_K.end());
+  log.push_back(static_cast<double>(s.robot_mode));
+  log.push_back(s.control_command_success_rate);
+}
+
+/// Idle, motion, a push, lost commands, a new load, the user stop and its release.
+template <typename AfterTick>
+void story(AfterTick&& after_tick) {
+  const ControlUnitParameters parameters = pandaWithHand();
+  ControlUnit unit(parameters);
+  FakeArm arm(parameters.model, kReady);
+  arm.payload = parameters.end_effector;
+  franka_core::Payload load;
+  load.mass = 0.1;
+  load.com = {{0, 0, 0.1}};
+  for (int i = 0; i < 4000; i++) {
+    if (i == 500) {
+      unit.startTorqueControl();
+    } else if (i == 1000) {
+      arm.push = {{5, -10, 20, 1, 0, -1}};
+    } else if (i == 1500) {
+      unit.setLoad(load);
+      unit.setK(parameters.F_T_NE);
+    } else if (i == 2000) {
+      unit.stopMotion();
+    } else if (i == 3000) {
+      unit.setUserStop(true);
+    } else if (i == 3300) {
+      unit.setUserStop(false);
+      unit.automaticErrorRecovery();
+    }
+    franka_core::RobotCommand command;
+    command.tau_J_d[i % 7] = 0.3 * std::sin(0.01 * i);
+    const bool lost = i % 11 == 0;
+    rt_guard::Scope scope;
+    const ArmMeasurement measurement = arm.measure();
+    const franka_core::RobotState& state = unit.observe(measurement);
+    arm.applyTorques(unit.actuate(lost ? nullptr : &command));
+    arm.setBrakes(unit.brakesClosed());
+    const bool clean = scope.allocations() == 0 && scope.locks() == 0;
+    arm.step();
+    after_tick(state, clean);
+  }
+}
+
+TEST(Repeatability, SameInputsGiveTheSameBits) {
+  std::vector<double> runs[2];
+  for (std::vector<double>& log : runs) {
+    story([&](const franka_core::RobotState& state, bool) { append(log, state); });
+  }
+  ASSERT_EQ(runs[0].size(), runs[1].size());
+  EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
+}
+
+TEST(Repeatability, ATickOfTheControlUnitNeitherAllocatesNorLocks) {
+  int dirty = 0;
+  story([&](const franka_core::RobotState&, bool clean) { dirty += clean ? 0 : 1; });
+  EXPECT_EQ(0, dirty);
+}
+
+/// Over the FCI: a Cartesian motion, a collision, its reflex, recovery, and joints again.
+template <typename AfterTick>
+void fciStory(AfterTick&& after_tick) {
+  ControlUnitParameters parameters = pandaWithHand();
+  behaveAsOverFci(parameters, 5);
+  ControlUnit unit(parameters);
+  FakeArm arm(parameters.model, kReady);
+  arm.payload = parameters.end_effector;
+  franka_core::fci::MoveRequest move;
+  franka_core::RobotCommand command;
+  for (int i = 0; i < 4000; i++) {
+    rt_guard::Scope scope;
+    if (i == 10) {
+      move.motion_generator_mode = franka_core::MotionGeneratorMode::kCartesianVelocity;
+      move.controller_mode = franka_core::ControllerMode::kCartesianImpedance;
+      unit.startMotion(move);
+    } else if (i == 1000) {
+      arm.push = {{0, -80, 0, 0, 0, 0}};
+    } else if (i == 1200) {
+      arm.push.fill(0.0);
+    } else if (i == 1500) {
+      unit.startErrorRecovery();
+    } else if (i == 2500) {
+      move.motion_generator_mode = franka_core::MotionGeneratorMode::kJointVelocity;
+      move.controller_mode = franka_core::ControllerMode::kJointImpedance;
+      unit.startMotion(move);
+    }
+    command.O_dP_EE_c[1] = i < 1000 ? 2e-5 * (i - 10) : 0.0;
+    command.dq_c[0] = i > 2500 ? 1e-4 * (i - 2500) : 0.0;
+    const franka_core::RobotState& state = unit.observe(arm.measure());
+    arm.applyTorques(unit.actuate(i % 11 == 0 ? nullptr : &command));
+    arm.setBrakes(unit.brakesClosed());
+    const bool clean = scope.allocations() == 0 && scope.locks() == 0;
+    arm.step();
+    after_tick(state, clean);
+  }
+}
+
+TEST(Repeatability, MotionsReflexAndRecoveryGiveTheSameBitsAndNeitherAllocateNorLock) {
+  std::vector<double> runs[2];
+  int dirty = 0;
+  std::array<int, 7> modes{};
+  for (std::vector<double>& log : runs) {
+    fciStory([&](const franka_core::RobotState& state, bool clean) {
+      append(log, state);
+      dirty += clean ? 0 : 1;
+      modes[static_cast<std::size_t>(state.robot_mode)]++;
+    });
+  }
+  ASSERT_EQ(runs[0].size(), runs[1].size());
+  EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
+  EXPECT_EQ(0, dirty);
+  EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kMove)], 2 * 2000);
+  EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kReflex)], 2 * 200);
+  EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kAutomaticErrorRecovery)], 2);
+}
+
+TEST(Repeatability, RequestsNeitherAllocateNorLock) {
+  ControlUnit unit(pandaWithHand());
+  ArmMeasurement m;
+  m.q = kReady;
+  unit.observe(m);
+  const ControlUnitParameters p = unit.parameters();
+  rt_guard::Scope scope;
+  unit.startTorqueControl();
+  unit.setEE(p.NE_T_EE);
+  unit.setK(p.EE_T_K);
+  unit.setLoad(p.load);
+  unit.setCollisionBehavior(p.acceleration, p.nominal);
+  unit.setUserStop(true);
+  unit.automaticErrorRecovery();
+  unit.setUserStop(false);
+  unit.restart();
+  EXPECT_EQ(0u, scope.allocations());
+  EXPECT_EQ(0u, scope.locks());
+}
+
+TEST(Repeatability, TheGuardItselfCounts) {
+  rt_guard::Scope scope;
+  std::vector<double>* leak = new std::vector<double>(100);
+  const std::size_t counted = scope.allocations();
+  delete leak;
+  EXPECT_TRUE(counted >= 2 || !rt_guard::kActive);
+}
+
+TEST(Repeatability, TheGripperIsRepeatableAndClean) {
+  std::vector<double> runs[2];
+  std::size_t dirty = 0;
+  for (std::vector<double>& log : runs) {
+    GripperUnit gripper{GripperParameters{}};
+    FakeHand hand;
+    for (int i = 0; i < 3000; i++) {
+      rt_guard::Scope scope;
+      if (i == 10) {
+        gripper.move(0.08, 0.1);
+      } else if (i == 1000) {
+        gripper.grasp(0.02, 0.005, 0.005, 0.05, 10);
+      } else if (i == 2800) {
+        gripper.stop();
+      }
+      hand.applyForces(gripper.step(hand.measure(), 1e-3));
+      dirty += scope.allocations() + scope.locks();
+      hand.step();
+      log.push_back(hand.width());
+    }
+  }
+  EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
+  EXPECT_EQ(0u, dirty);
+}
+
+}  // namespace
+
+}  // namespace franka_sim::test

@@ -1,0 +1,89 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One rule for transforms at every entrance of the control unit.
+#include <franka_core/transform.h>
+#include <franka_sim/robot/parameter_checks.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "fci_fixture.h"
+#include "transform_sweep.h"
+
+namespace franka_sim::test {
+namespace {
+
+using TransformEntrances = FciTest;
+
+TEST_F(TransformEntrances, SettersAndParametersTakeOrRefuseDustAlike) {
+  for (const DustyMatrix& dusty : dustOn(parameters.F_T_NE)) {
+    const RequestStatus expected =
+        dusty.accepted ? RequestStatus::kSuccess : RequestStatus::kInvalidArgument;
+    EXPECT_EQ(expected, unit.setEE(dusty.matrix)) << dusty;
+    EXPECT_EQ(expected, unit.setK(dusty.matrix)) << dusty;
+    franka_core::fci::CartesianLimit wall;
+    wall.object_frame = dusty.matrix;
+    EXPECT_EQ(expected, unit.setVirtualWall(0, wall)) << dusty;
+    ControlUnitParameters changed = parameters;
+    changed.NE_T_EE = dusty.matrix;
+    try {
+      checkParameters(changed);
+      EXPECT_TRUE(dusty.accepted) << dusty;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_FALSE(dusty.accepted) << dusty;
+      EXPECT_NE(std::string::npos, std::string(error.what()).find("exactly 0 0 0 1"))
+          << error.what();
+    }
+  }
+}
+
+TEST_F(TransformEntrances, CommandedPosesTakeOrRefuseDustAlike) {
+  for (const unsigned protocol : {5U, 10U}) {
+    behaveAsOverFci(parameters, protocol);
+    for (const double cutoff : {1000.0, 100.0}) {
+      standAt(kReady);
+      for (const DustyMatrix& dusty : dustOn(unit.state().O_T_EE_c)) {
+        standAt(kReady);
+        franka_core::fci::SetFiltersRequest filters;
+        filters.cartesian_position = cutoff;
+        ASSERT_EQ(RequestStatus::kSuccess, unit.setFilters(filters));
+        startMove(MotionGeneratorMode::kCartesianPosition);
+        RobotCommand command;
+        command.O_T_EE_c = dusty.matrix;
+        run(3, &command);
+        EXPECT_EQ(dusty.accepted ? std::vector<int>{} : std::vector<int>{31}, raised())
+            << dusty << ", protocol " << protocol << ", filter " << cutoff;
+      }
+    }
+  }
+}
+
+TEST(TransformFault, SaysWhatIsWrongAndAgreesWithTheCheck) {
+  struct Row {
+    std::array<double, 16> matrix;
+    const char* part;
+  };
+  const std::array<double, 16> identity = franka_core::kIdentityTransform;
+  const auto with = [&](std::size_t entry, double value) {
+    std::array<double, 16> matrix = identity;
+    matrix[entry] = value;
+    return matrix;
+  };
+  const double third = 1.0 / std::sqrt(3.0);
+  for (const Row& row :
+       {Row{with(3, 1e-17), "1e-17 0 0 1"}, Row{with(12, NAN), "not a number"},
+        Row{with(0, 1.1), "column 1"}, Row{with(4, 1e-4), "columns 1 and 2"},
+        Row{with(10, -1.0), "mirrors"},
+        Row{{third, third, third, 0, third, third, third, 0, third, third, third, 0, 0, 0, 0, 1},
+            "right angles"}}) {
+    EXPECT_FALSE(franka_core::isRigidTransform(row.matrix));
+    const std::string fault = franka_core::transformFault(row.matrix);
+    EXPECT_NE(std::string::npos, fault.find(row.part)) << fault;
+  }
+  EXPECT_TRUE(franka_core::isRigidTransform(identity));
+  EXPECT_EQ("", franka_core::transformFault(identity));
+}
+
+}  // namespace
+}  // namespace franka_sim::test

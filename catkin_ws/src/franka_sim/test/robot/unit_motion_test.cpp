@@ -1,0 +1,463 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The life of a motion: start, run, end of every kind, and what people do to a robot meanwhile.
+#include <algorithm>
+#include <tuple>
+
+#include "fci_fixture.h"
+
+namespace franka_sim::test {
+
+namespace {
+
+constexpr std::array<RobotMode, 7> kModes{RobotMode::kOther,
+                                          RobotMode::kIdle,
+                                          RobotMode::kMove,
+                                          RobotMode::kGuiding,
+                                          RobotMode::kReflex,
+                                          RobotMode::kUserStopped,
+                                          RobotMode::kAutomaticErrorRecovery};
+
+/// A machine brought to a mode, by the shortest way.
+ModeMachine machineIn(RobotMode mode) {
+  ModeMachine machine;
+  switch (mode) {
+    case RobotMode::kOther:
+      machine.handle(ModeEvent::kBrakesClosed);
+      break;
+    case RobotMode::kMove:
+      machine.handle(ModeEvent::kMotionStarted);
+      break;
+    case RobotMode::kGuiding:
+      machine.handle(ModeEvent::kGuidingStarted);
+      break;
+    case RobotMode::kReflex:
+      machine.handle(ModeEvent::kError);
+      break;
+    case RobotMode::kUserStopped:
+      machine.handle(ModeEvent::kUserStopPressed);
+      break;
+    case RobotMode::kAutomaticErrorRecovery:
+      machine.handle(ModeEvent::kError);
+      machine.handle(ModeEvent::kRecoveryStarted);
+      break;
+    default:
+      break;
+  }
+  EXPECT_EQ(mode, machine.mode());
+  return machine;
+}
+
+TEST(ModeTable, EveryEventInEveryMode) {
+  // Rows: modes in the order of kModes. Columns: events in the order of ModeEvent. '.': no change;
+  // else the first letter of the mode that follows (I M G R U A, O for Other).
+  const char* const table[7] = {
+      "...........I",  // Other
+      "M.R...G.U.O.",  // Idle
+      ".IR...G.U.O.",  // Move
+      ".......IU.O.",  // Guiding
+      "...A..G.U.O.",  // Reflex
+      ".........IO.",  // UserStopped
+      "....IR..U.O.",  // AutomaticErrorRecovery
+  };
+  const std::string letters = "OIMGRUA";
+  for (std::size_t row = 0; row < 7; row++) {
+    for (int event = 0; event < kModeEventCount; event++) {
+      ModeMachine machine = machineIn(kModes[row]);
+      const char expected = table[row][event];
+      EXPECT_EQ(expected != '.', machine.handle(static_cast<ModeEvent>(event)))
+          << row << " " << event;
+      const RobotMode after =
+          expected == '.' ? kModes[row] : static_cast<RobotMode>(letters.find(expected));
+      EXPECT_EQ(after, machine.mode()) << row << " " << event;
+      EXPECT_EQ(after == RobotMode::kOther || after == RobotMode::kUserStopped,
+                machine.brakesClosed());
+    }
+  }
+}
+
+class UnitMotion : public FciTest {
+ protected:
+  /// Joint 1 by 0.3 rad and back to rest, within a second.
+  RobotCommand swing(int i, double amplitude = 0.3) const {
+    RobotCommand command;
+    command.q_c = begin;
+    command.q_c[0] += amplitude * smoothStep(1e-3 * (i + 1));
+    command.dq_c[0] = amplitude * smoothSpeed(1e-3 * (i + 1));
+    command.motion_generation_finished = i >= 1100;
+    return command;
+  }
+
+  /// With the torques of a client that follows the generator.
+  static RobotCommand followed(RobotCommand command, const RobotState& state) {
+    for (std::size_t j = 0; j < 7; j++) {
+      const double wanted = 300 * (state.q_d[j] - state.q[j]) + 20 * (state.dq_d[j] - state.dq[j]);
+      command.tau_J_d[j] = state.tau_J_d[j] + std::clamp(wanted - state.tau_J_d[j], -0.99, 0.99);
+    }
+    return command;
+  }
+
+  void startSwing(ControllerMode controller = ControllerMode::kJointImpedance) {
+    begin = unit.state().q_d;
+    startMove(MotionGeneratorMode::kJointPosition, controller);
+  }
+
+  void reflex() {
+    ignoreCollisions();
+    tickWith([](ArmMeasurement& m) { m.tau_J[0] = 110; });
+    ASSERT_EQ(RobotMode::kReflex, unit.state().robot_mode);
+  }
+
+  std::array<double, 7> begin{};
+};
+
+TEST_F(UnitMotion, RunsToItsEndUnderEachController) {
+  for (const ControllerMode controller :
+       {ControllerMode::kJointImpedance, ControllerMode::kCartesianImpedance}) {
+    standAt(kReady);
+    startSwing(controller);
+    double error = 0.0;
+    const int ticks = drive(2000, [&](int i, const RobotState& state) {
+      EXPECT_EQ(MotionGeneratorMode::kJointPosition, state.motion_generator_mode);
+      EXPECT_EQ(controller, state.controller_mode);
+      for (std::size_t j = 12; j < 15; j++) {
+        error = std::max(error, std::abs(state.O_T_EE[j] - state.O_T_EE_d[j]));
+      }
+      return swing(i);
+    });
+    EXPECT_EQ(1101, ticks);
+    EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+    // The sensor-side inertia of the rotors is not fed forward (decision 2): a lag, no offset.
+    EXPECT_LT(error, 0.01);
+    run(1000);
+    EXPECT_EQ(Status::kSuccess, unit.takeMotionEnd());
+    EXPECT_FALSE(unit.takeMotionEnd()) << "told once";
+    EXPECT_NEAR(begin[0] + 0.3, unit.state().q_d[0], 1e-9);
+    EXPECT_NEAR(begin[0] + 0.3, arm.q()[0], 1e-4);
+    EXPECT_EQ((std::array<double, 7>{}), unit.state().tau_J_d);
+  }
+}
+
+TEST_F(UnitMotion, CartesianPoseIsFollowedAndShown) {
+  standAt(kReady);
+  const std::array<double, 16> start = unit.state().O_T_EE_c;
+  startMove(MotionGeneratorMode::kCartesianPosition, ControllerMode::kCartesianImpedance);
+  drive(1200, [&](int i, const RobotState& state) {
+    RobotCommand command;
+    command.O_T_EE_c = start;
+    command.O_T_EE_c[14] += 0.1 * smoothStep(1e-3 * (i + 1));
+    for (std::size_t k = 0; k < 16; k++) {
+      EXPECT_NEAR(state.O_T_EE_c[k], state.O_T_EE_d[k], 1e-11);
+    }
+    EXPECT_NEAR(state.O_dP_EE_c[2], state.O_dP_EE_d[2], 2e-3);
+    return command;
+  });
+  EXPECT_EQ(RobotMode::kMove, unit.state().robot_mode);
+  EXPECT_NEAR(start[14] + 0.1, unit.state().O_T_EE_c[14], 1e-9);
+  EXPECT_NEAR(start[14] + 0.1, unit.state().O_T_EE[14], 1e-3);
+  EXPECT_EQ(unit.state().elbow_c, unit.state().elbow_d);
+}
+
+TEST_F(UnitMotion, TorquesAndGeneratorRunTogether) {
+  startSwing(ControllerMode::kExternalController);
+  drive(900, [&](int i, const RobotState& state) { return followed(swing(i), state); });
+  EXPECT_EQ(RobotMode::kMove, unit.state().robot_mode);
+  EXPECT_NEAR(unit.state().q_d[0], unit.state().q[0], 0.03);
+  EXPECT_GT(unit.state().q[0], 0.2);
+}
+
+TEST_F(UnitMotion, AccelerationThresholdsHoldUnderInternalControllersOnly) {
+  CollisionThresholds high = parameters.acceleration;
+  high.lower_torque.fill(1e6);
+  high.upper_torque.fill(1e6);
+  high.lower_force.fill(1e6);
+  high.upper_force.fill(1e6);
+  for (const auto& [controller, mode] :
+       {std::pair{ControllerMode::kJointImpedance, RobotMode::kMove},
+        std::pair{ControllerMode::kExternalController, RobotMode::kReflex}}) {
+    standAt(kReady);
+    ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(high, parameters.nominal));
+    startSwing(controller);
+    // Accelerates by more than a tenth of the limit all the while.
+    drive(300, [&](int i, const RobotState& state) {
+      if (i == 150) {
+        arm.push = {{0, -30, 0, 0, 0, 0}};
+      }
+      if (i >= 100) {
+        EXPECT_GT(state.ddq_d[0], 1.5);
+      }
+      return followed(swing(i, 0.6), state);
+    });
+    EXPECT_EQ(mode, unit.state().robot_mode);
+    for (const int flag : raised()) {
+      EXPECT_TRUE(flag == 6 || flag == 7) << flag;
+    }
+    arm.push.fill(0.0);
+  }
+}
+
+TEST_F(UnitMotion, RequestsThatMakeNoSenseAreRefused) {
+  const auto refused = [&](auto change) {
+    auto bad = request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance);
+    change(bad);
+    return unit.startMotion(bad) == Status::kInvalidArgumentRejected &&
+           unit.state().robot_mode == RobotMode::kIdle;
+  };
+  EXPECT_TRUE(refused([](auto& r) { r.max_path_deviation.translation = 0; }));
+  EXPECT_TRUE(refused([](auto& r) { r.max_goal_deviation.elbow = std::nan(""); }));
+  EXPECT_TRUE(refused([](auto& r) { r.motion_generator_mode = MotionGeneratorMode::kNone; }));
+  EXPECT_TRUE(refused([](auto& r) { r.motion_generator_mode = MotionGeneratorMode::kIdle; }));
+  EXPECT_TRUE(refused([](auto& r) { r.controller_mode = ControllerMode::kOther; }));
+  EXPECT_TRUE(refused([](auto& r) { r.use_async_motion_generator = true; }));
+}
+
+TEST_F(UnitMotion, SingularStartIsToldAfterTheStart) {
+  // Stretched: shoulder, elbow and wrist on one line.
+  standAt({{0, 0.5, 0, franka_core::kElbowFlip, 0, 1.5, 0}});
+  EXPECT_EQ(Status::kMotionStarted,
+            unit.startMotion(
+                request(MotionGeneratorMode::kCartesianVelocity, ControllerMode::kJointImpedance)));
+  EXPECT_EQ(Status::kStartAtSingularPoseRejected, unit.takeMotionEnd());
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+}
+
+TEST_F(UnitMotion, StopMoveBrakesAndAnswersAtRest) {
+  startSwing();
+  drive(500, [&](int i, const RobotState&) { return swing(i); });
+  const double speed = unit.state().dq_d[0];
+  ASSERT_GT(speed, 0.5);
+  const double from = unit.state().q_d[0];
+  EXPECT_FALSE(unit.stopMove());
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+  EXPECT_EQ(Status::kCommandNotPossibleRejected,
+            unit.startMotion(
+                request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
+  int ticks = 0;
+  while (unit.settling()) {
+    EXPECT_FALSE(unit.takeStopEnd());
+    EXPECT_FALSE(unit.takeMotionEnd());
+    ASSERT_LT(ticks++, 200);
+    test::tick(unit, arm);
+  }
+  EXPECT_NEAR(speed / 15.0, 1e-3 * ticks, 2e-3);
+  EXPECT_NEAR(speed * speed / 30.0, unit.state().q_d[0] - from, 1e-3 * speed);
+  EXPECT_EQ(Status::kSuccess, unit.takeStopEnd());
+  EXPECT_EQ(Status::kPreempted, unit.takeMotionEnd());
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.stopMove());
+  startSwing();
+}
+
+TEST_F(UnitMotion, SwitchesOfTheLawAreWithoutAStep) {
+  // A load that is not configured makes the hold carry torque into the motion and out of it.
+  arm.payload.mass += 1.0;
+  ignoreCollisions();
+  run(2000);
+  std::array<double, 7> last = arm.torques();
+  double step = 0.0;
+  const auto measure = [&] {
+    for (std::size_t j = 0; j < 7; j++) {
+      step = std::max(step, std::abs(arm.torques()[j] - last[j]));
+    }
+    last = arm.torques();
+  };
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setJointImpedance({{200, 200, 200, 200, 200, 200, 200}}));
+  startSwing();
+  drive(300, [&](int, const RobotState&) {
+    measure();
+    return swing(-1);
+  });
+  unit.stopMove();
+  for (int i = 0; i < 300; i++) {
+    test::tick(unit, arm);
+    measure();
+  }
+  // The blend gives 1 Nm a tick, the laws their own. Unblended, joint 4 steps by more than 3 Nm.
+  EXPECT_LT(step, 1.5);
+}
+
+TEST_F(UnitMotion, ReflexBrakesReleasesAndRecoversAtRest) {
+  startSwing();
+  arm.push = {{0, -60, 0, 0, 0, 0}};
+  drive(500, [&](int i, const RobotState&) { return swing(i); });
+  ASSERT_EQ(RobotMode::kReflex, unit.state().robot_mode);
+  EXPECT_EQ(Status::kReflexAborted, unit.takeMotionEnd());
+  EXPECT_EQ(Status::kCommandNotPossibleRejected,
+            unit.startMotion(
+                request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.stopMove());
+  arm.push.fill(0.0);
+  const auto reason = unit.state().reflex_reason;
+  ASSERT_FALSE(unit.startErrorRecovery());
+  EXPECT_EQ(RobotMode::kAutomaticErrorRecovery, unit.state().robot_mode);
+  std::optional<Status> end;
+  for (int i = 0; i < 6000 && !end; i++) {
+    test::tick(unit, arm);
+    end = unit.takeRecoveryEnd();
+  }
+  EXPECT_EQ(Status::kSuccess, end);
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+  EXPECT_TRUE(raised().empty());
+  EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_collision);
+  EXPECT_EQ(reason, unit.state().reflex_reason) << "kept until the next motion";
+  startSwing();
+  EXPECT_EQ((std::array<bool, 41>{}), unit.state().reflex_reason);
+  EXPECT_EQ(1101, drive(2000, [&](int i, const RobotState&) { return swing(i); }));
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+}
+
+TEST_F(UnitMotion, APushAtRestIsAReflexToo) {
+  arm.push = {{0, 60, 0, 0, 0, 0}};
+  run(200);
+  EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
+  EXPECT_FALSE(unit.takeMotionEnd());
+}
+
+TEST_F(UnitMotion, RecoveryNeedsTheUserWhereOnlyTheUserHelps) {
+  EXPECT_EQ(Status::kSuccess, unit.startErrorRecovery()) << "nothing to recover from";
+  unit.setUserStop(true);
+  EXPECT_EQ(Status::kManualErrorRecoveryRequiredRejected, unit.startErrorRecovery());
+  unit.setUserStop(false);
+  run(3);
+
+  ignoreCollisions();
+  arm.put({{2.91, -0.785, 0, -2.356, 0, 1.571, 0.785}});
+  run(1);
+  ASSERT_EQ(std::vector<int>{0}, raised());
+  EXPECT_EQ(Status::kManualErrorRecoveryRequiredRejected, unit.startErrorRecovery());
+  unit.setGuiding(true);
+  EXPECT_EQ(RobotMode::kGuiding, unit.state().robot_mode);
+  arm.put({{2.5, -0.785, 0, -2.356, 0, 1.571, 0.785}});
+  run(3);
+  unit.setGuiding(false);
+  EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode) << "the error is still to be recovered";
+  EXPECT_FALSE(unit.startErrorRecovery());
+  run(500);
+  EXPECT_EQ(Status::kSuccess, unit.takeRecoveryEnd());
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+}
+
+TEST_F(UnitMotion, UserStopEndsMotionAndRecovery) {
+  startSwing();
+  drive(300, [&](int i, const RobotState&) { return swing(i); });
+  unit.setUserStop(true);
+  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
+  EXPECT_TRUE(unit.brakesClosed());
+  EXPECT_EQ(Status::kEmergencyAborted, unit.takeMotionEnd());
+  EXPECT_EQ(
+      Status::kCommandNotPossibleRejected,
+      unit.startMotion(request(MotionGeneratorMode::kNone, ControllerMode::kExternalController)));
+  run(100);
+  unit.setUserStop(false);
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+  run(100);
+  EXPECT_TRUE(raised().empty());
+
+  reflex();
+  ASSERT_FALSE(unit.startErrorRecovery());
+  unit.setUserStop(true);
+  EXPECT_EQ(Status::kEmergencyAborted, unit.takeRecoveryEnd());
+  unit.setUserStop(false);
+  EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode) << "the error has not been cleared";
+}
+
+TEST_F(UnitMotion, BrakesGuidingAndFciEndAMotion) {
+  const std::tuple<void (*)(ControlUnit&), void (*)(ControlUnit&), RobotMode> cases[] = {
+      {[](ControlUnit& u) { u.closeBrakes(); }, [](ControlUnit& u) { u.openBrakes(); },
+       RobotMode::kOther},
+      {[](ControlUnit& u) { u.setGuiding(true); }, [](ControlUnit& u) { u.setGuiding(false); },
+       RobotMode::kGuiding},
+      {[](ControlUnit& u) { u.setFciActive(false); }, [](ControlUnit& u) { u.setFciActive(true); },
+       RobotMode::kIdle}};
+  for (const auto& [begin_it, end_it, mode] : cases) {
+    standAt(kReady);
+    startSwing();
+    drive(20, [&](int i, const RobotState&) { return swing(i); });
+    begin_it(unit);
+    EXPECT_EQ(mode, unit.state().robot_mode);
+    EXPECT_EQ(Status::kAborted, unit.takeMotionEnd());
+    run(50);
+    EXPECT_EQ(Status::kCommandNotPossibleRejected,
+              unit.startMotion(
+                  request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
+    end_it(unit);
+    EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+    run(50);
+    startSwing();
+  }
+}
+
+TEST_F(UnitMotion, BrakesOpenIntoAPressedUserStop) {
+  unit.closeBrakes();
+  unit.setUserStop(true);
+  EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
+  unit.openBrakes();
+  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
+}
+
+TEST_F(UnitMotion, GuidingFollowsTheHandAlongFreeAxesOnly) {
+  ASSERT_EQ(RequestStatus::kSuccess,
+            unit.setGuidingMode({{false, true, false, false, false, false}}, false));
+  unit.setGuiding(true);
+  const std::array<double, 16> from = unit.state().O_T_EE;
+  arm.push = {{4, 4, 4, 0, 0, 0}};
+  run(400);
+  const RobotState& state = unit.state();
+  EXPECT_EQ(RobotMode::kGuiding, state.robot_mode);
+  EXPECT_GT(std::abs(state.O_T_EE[13] - from[13]), 0.02);
+  EXPECT_LT(std::abs(state.O_T_EE[12] - from[12]), 0.005);
+  EXPECT_LT(std::abs(state.O_T_EE[14] - from[14]), 0.005);
+  EXPECT_EQ(state.q, state.q_d) << "what is wanted follows the hand";
+  EXPECT_EQ((std::array<double, 7>{}), state.tau_J_d);
+  arm.push.fill(0.0);
+  unit.setGuiding(false);
+  run(1000);
+  const std::array<double, 7> left = arm.q();
+  run(500);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(left[i], arm.q()[i], 1e-5);
+  }
+}
+
+TEST_F(UnitMotion, SettersAreRefusedInMoveAndChecked) {
+  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setJointImpedance({{-1, 0, 0, 0, 0, 0, 0}}));
+  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setJointImpedance({{14251, 0, 0, 0, 0, 0, 0}}));
+  EXPECT_EQ(RequestStatus::kSuccess, unit.setJointImpedance({{14250, 0, 0, 0, 0, 0, 0}}));
+  EXPECT_EQ(RequestStatus::kInvalidArgument,
+            unit.setCartesianImpedance({{3000, 3000, 9.9, 300, 300, 300}}));
+  EXPECT_EQ(RequestStatus::kInvalidArgument,
+            unit.setCartesianImpedance({{3000, 3000, 10, 300, 301, 300}}));
+  EXPECT_EQ(RequestStatus::kSuccess, unit.setCartesianImpedance({{10, 3000, 10, 1, 300, 1}}));
+  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setFilters({0.5, 1000, 1000, 1000, 1000}));
+  EXPECT_EQ(RequestStatus::kInvalidArgument,
+            unit.setFilters({1000, 1000, 1000, 1000, std::nan("")}));
+  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setVirtualWall(8, {}));
+  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setProtocolVersion(2));
+  EXPECT_EQ(nullptr, unit.virtualWall(-1));
+  startSwing();
+  EXPECT_EQ(RequestStatus::kNotPossible, unit.setJointImpedance({}));
+  EXPECT_EQ(RequestStatus::kNotPossible, unit.setCartesianImpedance({{10, 10, 10, 1, 1, 1}}));
+  EXPECT_EQ(RequestStatus::kNotPossible, unit.setGuidingMode({}, true));
+  EXPECT_EQ(RequestStatus::kNotPossible, unit.setFilters({}));
+  EXPECT_EQ(RequestStatus::kNotPossible, unit.setVirtualWall(0, {}));
+  EXPECT_EQ(RequestStatus::kNotPossible, unit.setProtocolVersion(5));
+  EXPECT_EQ(RequestStatus::kNotPossible, unit.setEE(franka_core::kIdentityTransform));
+}
+
+TEST_F(UnitMotion, FiltersSmoothTheCommands) {
+  ASSERT_EQ(RequestStatus::kSuccess, unit.setFilters({1000, 10, 1000, 1000, 1000}));
+  startMove(MotionGeneratorMode::kJointVelocity);
+  double last = 0.0;
+  const double gain = 1e-3 / (1e-3 + 1.0 / (2 * 3.14159265358979323846 * 10));
+  drive(30, [&](int, const RobotState& state) {
+    EXPECT_NEAR(last, state.dq_d[0], 1e-12);
+    RobotCommand command;
+    command.dq_c[0] = 0.1;  // a step that unfiltered is 100 rad/s^2
+    last += gain * (0.1 - last);
+    return command;
+  });
+  EXPECT_EQ(RobotMode::kMove, unit.state().robot_mode);
+}
+
+}  // namespace
+
+}  // namespace franka_sim::test

@@ -1,0 +1,127 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The arm is put elsewhere while something waits for an answer: nothing waits for ever.
+#include "fci_fixture.h"
+
+namespace franka_sim::test {
+namespace {
+
+const std::array<double, 7> kElsewhere{{0.5, 0.1, -0.5, -2, 0.3, 1.8, 0.2}};
+
+class UnitRestart : public FciTest {
+ protected:
+  /// Joint 1 on its way with about 1 rad/s.
+  void swing() {
+    startMove(MotionGeneratorMode::kJointPosition);
+    drive(300, [](int i, const RobotState&) {
+      RobotCommand command;
+      command.q_c = kReady;
+      command.q_c[0] += 0.6 * smoothStep(1e-3 * i);
+      return command;
+    });
+    ASSERT_EQ(RobotMode::kMove, unit.state().robot_mode);
+    ASSERT_GT(unit.state().dq_d[0], 0.5);
+  }
+  void putElsewhere() {
+    arm.put(kElsewhere);
+    unit.restart();
+  }
+  void expectToStayElsewhere() {
+    run(500);
+    EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+    EXPECT_EQ(std::vector<int>{}, raised());
+    for (std::size_t i = 0; i < 7; i++) {
+      EXPECT_NEAR(kElsewhere[i], arm.q()[i], 1e-6) << i;
+    }
+  }
+};
+
+TEST_F(UnitRestart, AnswersAStopThatStillBrakes) {
+  swing();
+  EXPECT_FALSE(unit.stopMove());
+  run(5);
+  ASSERT_TRUE(unit.settling());
+  ASSERT_FALSE(unit.takeStopEnd());
+  putElsewhere();
+  EXPECT_EQ(Status::kSuccess, unit.takeStopEnd());
+  EXPECT_EQ(Status::kPreempted, unit.takeMotionEnd());
+  EXPECT_FALSE(unit.settling());
+  expectToStayElsewhere();
+  // Nothing of it is left for the next motion.
+  startMove(MotionGeneratorMode::kJointPosition);
+  run(21);
+  EXPECT_FALSE(unit.takeStopEnd());
+}
+
+TEST_F(UnitRestart, EndsAMotionWhoseWayDoesNotLeadFromThere) {
+  swing();
+  putElsewhere();
+  EXPECT_EQ(Status::kAborted, unit.takeMotionEnd());
+  expectToStayElsewhere();
+}
+
+TEST_F(UnitRestart, LetsARecoveryComeToItsEnd) {
+  swing();
+  arm.push = {{0, 200, 0, 0, 0, 0}};
+  drive(200, [](int, const RobotState& state) {
+    RobotCommand command;
+    command.q_c = state.q_d;
+    return command;
+  });
+  arm.push.fill(0.0);
+  ASSERT_EQ(RobotMode::kReflex, unit.state().robot_mode);
+  ASSERT_FALSE(unit.startErrorRecovery());
+  putElsewhere();
+  std::optional<Status> end;
+  for (int i = 0; i < 1000 && !end; i++) {
+    run(1);
+    end = unit.takeRecoveryEnd();
+  }
+  EXPECT_EQ(Status::kSuccess, end);
+  expectToStayElsewhere();
+}
+
+TEST_F(UnitRestart, LeavesThePhaseOfAcceleration) {
+  parameters.acceleration.upper_force.fill(1e3);
+  rebuild();
+  run(1);
+  swing();
+  ASSERT_EQ(1e3, unit.thresholds().upper_force[0]);
+  putElsewhere();
+  run(1);
+  EXPECT_EQ(parameters.nominal.upper_force, unit.thresholds().upper_force);
+}
+
+TEST_F(UnitRestart, GuidedAxesAreHeldWhereTheArmIsNow) {
+  ASSERT_EQ(RequestStatus::kSuccess,
+            unit.setGuidingMode({{false, false, false, false, false, false}}, false));
+  unit.setGuiding(true);
+  run(10);
+  putElsewhere();
+  run(500);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(kElsewhere[i], arm.q()[i], 1e-3) << i;
+  }
+}
+
+TEST_F(UnitRestart, AStopThatAReflexOvertakesIsAnsweredAsSuch) {
+  swing();
+  EXPECT_FALSE(unit.stopMove());
+  run(5);
+  tickWith([](ArmMeasurement& m) { m.tau_J[0] += 60.0; });
+  EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
+  EXPECT_EQ(Status::kReflexAborted, unit.takeStopEnd());
+  EXPECT_EQ(Status::kPreempted, unit.takeMotionEnd());
+}
+
+TEST_F(UnitRestart, AStopWaitsNoLongerWhenTorquesOvertakeTheBraking) {
+  swing();
+  EXPECT_FALSE(unit.stopMove());
+  run(5);
+  ASSERT_EQ(RequestStatus::kSuccess, unit.startTorqueControl());
+  EXPECT_EQ(Status::kSuccess, unit.takeStopEnd());
+}
+
+}  // namespace
+}  // namespace franka_sim::test

@@ -1,0 +1,455 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""franka_sim as the user meets it: its command line, and the control interface of one line a command."""
+
+import socket
+import struct
+import subprocess
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from fci_session import program, start, stop
+from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, REFLEX, Client
+
+USER_STOPPED = 5  # robot_mode
+ROBOTS = Path(__file__).resolve().parents[1] / "robots"
+
+WORLD = """<mujoco><worldbody>
+  <light pos="0 0 3"/>
+  <body name="stone" pos="0.6 0.4 0.05"><freejoint/><geom type="box" size="0.03 0.03 0.03" mass="0.1"/></body>
+  <geom type="plane" size="2 2 0.1"/>
+</worldbody></mujoco>"""
+
+
+def run(*arguments):
+    return subprocess.run([program(), *arguments], capture_output=True, text=True, timeout=30)
+
+
+@contextmanager
+def simulated(address, *arguments):
+    """A robot, and a function that sends it a line and returns the answer."""
+    process = start("--ip", address, *arguments)
+    try:
+        with socket.create_connection((address, 1340), timeout=20) as connection:
+            stream = connection.makefile("rw", newline="\n")
+
+            def say(text):
+                stream.write(text + "\n")
+                stream.flush()
+                return stream.readline().rstrip("\n")
+
+            yield say, process
+    finally:
+        stop(process)
+        assert process.returncode == 0
+
+
+def test_help_names_every_option():
+    result = run("--help")
+    assert result.returncode == 0
+    for option in (
+        "--robot",
+        "--ip",
+        "--protocol",
+        "--pace",
+        "--world",
+        "--hand",
+        "--linger",
+        "--patience",
+        "--viewer",
+        "--control-port",
+    ):
+        assert option in result.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments, sentence",
+    [
+        (["--robot", "ur5"], "there are panda and fr3"),
+        (["--robot", "panda", "--protocol", "10"], "a panda speaks 3 to 5"),
+        (["--robot", "fr3", "--protocol", "5"], "a fr3 speaks 6 to 10"),
+        (["--protocol", "x"], "a number from 3 to 10"),
+        (["--pace", "0"], "a factor from"),
+        (["--pace", "nan"], "a factor from"),
+        (["--control-port", "70000"], "0 to 65535"),
+        (["--linger", "-1"], "seconds from 0 to 60"),
+        (["--pace", "lockstep", "--patience", "0"], "seconds from 0.01 to 86400, or forever"),
+        (["--pace", "lockstep", "--patience", "nan"], "seconds from 0.01 to 86400, or forever"),
+        (["--patience", "forever"], "only a robot that waits for its client has patience"),
+        (["--base", "1,2"], "three numbers"),
+        (["--base", "1,2,3,4,5"], "three numbers"),
+        (["--base", "1,2,x"], "three numbers"),
+        (["--hand", "claw"], "there are gripper, vacuum and none"),
+        (["--robot", "panda", "--robot", "fr3"], "--ip 127.0.0.1: two robots have it"),
+        (["--robot", "panda", "--robot", "fr3", "--ip", "127.0.0.2"], "stand within each other"),
+        (
+            "--arm-id a --robot fr3 --ip 127.0.22.9 --robot fr3 --base 0,1,0 --arm-id a".split(),
+            "--arm-id a: two robots have it",
+        ),
+        (["--nonsense"], "no option"),
+        (["--nonsense=3"], "no option"),
+        (["--friction", "x"], "--friction x: there are none and fr3"),
+        (["--friction=x"], "--friction x: there are none and fr3"),
+        (["--control-port", "1337"], "1337 to 1339 are those of robot, gripper and vacuum gripper"),
+        (["--control-port=1339"], "1337 to 1339 are those of robot"),
+        (["--ip=localhost"], "--ip localhost: this is not an IPv4 address"),
+        (["--ip="], "is not an IPv4 address"),
+        (["--viewer=yes"], "--viewer takes no value"),
+        (["--base", "1e11,0,0"], "give metres, 1000 at most"),
+        (["--base=0,-1001,0"], "give metres, 1000 at most"),
+        (["--ip"], "needs a value"),
+        (["--urdf", str(ROBOTS / "panda.urdf"), "--arm-id", "nobody"], "nobody"),
+    ],
+)
+def test_a_wrong_command_line_is_refused_with_a_sentence(arguments, sentence):
+    result = run(*arguments)
+    assert result.returncode == 2
+    assert sentence in result.stderr
+
+
+@pytest.mark.parametrize(
+    "arguments, sentence",
+    [
+        (["--viewer", "--ip", "127.0.22.11"], "There is no display"),
+        (["--ip", "192.0.2.1"], "does not have that address"),
+        (["--world", "nowhere.xml"], "There is no world 'nowhere.xml'"),
+        (["--urdf", "/nowhere.urdf"], "Cannot read the file '/nowhere.urdf'"),
+    ],
+)
+def test_what_cannot_be_is_said(arguments, sentence, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    result = run(*arguments)
+    assert result.returncode == 1
+    assert sentence in result.stderr
+
+
+def test_two_robots_need_two_addresses():
+    with simulated("127.0.22.1"):
+        result = run("--ip", "127.0.22.1")
+        assert result.returncode == 1
+        assert "Another simulated robot runs there" in result.stderr
+        with simulated("127.0.22.2", "--robot", "fr3") as (say, _):
+            assert say("state").startswith("ok Idle")
+
+
+def joints(say):
+    return [float(word) for word in say("state").split(", q ")[1].split()]
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
+def test_switches_of_the_robot(pace):
+    with simulated("127.0.22.3", "--pace", pace) as (say, _):
+        told, joints = say("state").split(", q ")
+        assert told == "ok Idle, client of protocol 0, errors none"
+        ready = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
+        assert [float(word) for word in joints.split()] == pytest.approx(ready, abs=2e-4)
+        assert say("user_stop on") == "ok"
+        assert say("state").startswith("ok User stopped")
+        assert say("user_stop off") == "ok"
+        assert say("state").startswith("ok Idle")
+        assert say("guiding on") == "ok"
+        assert say("state").startswith("ok Guiding")
+        assert say("guiding off") == "ok"
+        assert say("brakes close") == "ok"
+        assert say("state").startswith("ok Other")
+        assert say("brakes open") == "ok"
+        assert say("state").startswith("ok Idle")
+
+
+def test_what_it_does_not_understand_it_says():
+    with simulated("127.0.22.4") as (say, _):
+        assert say("dance").startswith("error: There is no command 'dance'")
+        assert say("user_stop") == "error: Words are missing: user_stop on|off."
+        assert say("user_stop maybe") == "error: 'maybe' is neither on nor off."
+        assert say("push") == "error: Words are missing: push BODY FX FY FZ MILLISECONDS."
+        assert say("push nobody 1 0 0 10").startswith("error: ")
+        assert say("push panda_hand nan 0 0 10") == "error: 'nan' is not a finite number."
+        assert say("loss 2") == "error: The probability of a loss is a number from 0 to 1."
+        for seed in ("-1", "18446744073709551616", "1e300", "0.5"):
+            assert say(f"loss 0 {seed}").startswith(f"error: '{seed}' is no seed: give a whole number")
+        assert say("loss 0 18446744073709551615") == "ok"
+        assert say("delay 3") == "error: Commands are delayed by 0, 1 or 2 ticks."
+        assert say("load -1 0 0 0").startswith("error: The load was refused")
+        assert "push BODY" in say("help")
+        assert say("load 0.5 0 0 0.1") == "ok"
+
+
+def test_a_push_moves_the_held_arm_and_lets_it_come_back(tmp_path):
+    world = tmp_path / "world.xml"
+    world.write_text(WORLD)
+
+    with simulated("127.0.22.5", "--pace", "lockstep", "--world", str(world)) as (say, _):
+
+        def until(condition):
+            deadline = time.monotonic() + 20
+            while not condition():
+                assert time.monotonic() < deadline
+
+        def displacement():
+            return max(abs(a - b) for a, b in zip(joints(say), before))
+
+        before = joints(say)
+        assert say("place stone 0.5 -0.3 0.2") == "ok"
+        # So long that it is seen: time runs flat out.
+        assert say("push panda_hand 0 8 0 6000") == "ok"
+        until(lambda: displacement() > 1e-4)
+        until(lambda: displacement() < 1e-4)
+        # It was let go in the air and lies on the ground.
+        until(lambda: float(say("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
+
+
+def ask(address, line):
+    with socket.create_connection((address, 1340), timeout=20) as connection:
+        stream = connection.makefile("rw", newline="\n")
+        stream.write(line + "\n")
+        stream.flush()
+        return stream.readline().rstrip("\n")
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
+def test_robots_of_one_world_have_addresses_and_names_of_their_own(pace):
+    arms = "--robot panda"
+    arms += " --robot panda --ip 127.0.22.8 --base 0.5,1,0,1.5708"
+    arms += " --robot fr3 --ip 127.0.22.9 --base 0,-1,0"
+    with simulated("127.0.22.7", "--pace", pace, *arms.split()) as (say, process):
+        heads = {}
+        for name in ("panda", "panda_2", "fr3"):
+            heads[name] = [float(word) for word in say(f"where {name}_link0").split()[1:]]
+        assert heads["panda_2"] == pytest.approx([0.5, 1, 0])
+        assert heads["fr3"] == pytest.approx([0, -1, 0])
+        # The second one looks along y.
+        hand = [float(word) for word in say("where panda_2_link7").split()[1:]]
+        first = [float(word) for word in say("where panda_link7").split()[1:]]
+        assert hand == pytest.approx([0.5 - first[1], 1 + first[0], first[2]], abs=2e-3)
+        # A switch is one robot's, the world is everyone's.
+        assert ask("127.0.22.8", "user_stop on") == "ok"
+        assert ask("127.0.22.8", "state").startswith("ok User stopped")
+        assert say("state").startswith("ok Idle")
+        assert ask("127.0.22.9", "state").startswith("ok Idle")
+        assert ask("127.0.22.9", "reset") == "ok"
+        assert ask("127.0.22.9", "quit") == "ok"
+        assert process.wait(10) == 0
+
+
+def test_a_vacuum_gripper_takes_the_gripper_s_place():
+    with simulated("127.0.22.10", "--hand", "vacuum") as (say, _):
+        for port, served in ((1337, True), (1338, False), (1339, True)):
+            with socket.socket() as probe:
+                probe.settimeout(10)
+                assert (probe.connect_ex(("127.0.22.10", port)) == 0) == served
+        assert say("part on") == "ok"
+        assert say("part perhaps") == "error: 'perhaps' is neither on nor off."
+        assert say("pump red") == "ok"
+        assert say("pump blue") == "error: 'blue' is none of green, yellow, orange and red."
+    with simulated("127.0.22.10") as (say, _):
+        assert say("part on").startswith("error: There is no command 'part'")
+
+
+def test_every_option_takes_its_value_behind_an_equals_sign_too():
+    options = "--robot=fr3 --protocol=10 --base=0,1,0 --arm-id=left --friction=fr3 --hand=none"
+    options += " --control-port=1340 --pace=lockstep --world=stone.xml --linger=0"
+    with simulated("127.0.22.12", *options.split()) as (say, _):
+        assert say("where left_link0") == "ok 0 1 0"
+    process = start("--ip=127.0.22.12")
+    stop(process)
+    assert process.returncode == 0
+
+
+# What no robot meets, at each line that takes a size: words, and the unit that must be named.
+TOO_LARGE = [
+    ("place stone 1e11 0 0", " m"),
+    ("place stone 0 0 -1001", " m"),
+    ("place stone 0 1e308 0", " m"),
+    ("push stone 1e12 0 0 10", " N"),
+    ("push panda_hand 0 0 -10001 10", " N"),
+    ("load 730 0 0 0", "730 kg"),
+    ("load 10.1 0 0 0", "between 0 and 10 kg"),
+    ("load 1 0 0 100", "100 m from the flange"),
+    ("load 1 0.8 0.8 0", "within 1 m"),
+    ("load 1e300 0 0 0", " kg"),
+    ("wall 0 1e11 0 0 1 1 1", " m"),
+    ("wall 0 0 0 0 1 1 1e6", " m"),
+]
+
+
+def test_sizes_no_robot_meets_are_refused_and_change_nothing():
+    with simulated("127.0.22.13", "--world", "stone.xml", "--base=-0.5,0,0", "--pace=lockstep") as (say, _):
+        before = say("state"), say("where stone")
+        for line, part in TOO_LARGE:
+            answer = say(line)
+            assert answer.startswith("error: ") and part in answer, (line, answer)
+        assert (say("state"), say("where stone")) == before
+        for line in ("load 10 0 0 1", "load 0 0 0 0", "place stone 0 0 1", "push stone 0 0 1 1"):
+            assert say(line) == "ok"
+        assert "the world stands still" not in say("state").lower()
+
+
+FEATHER = """<mujoco><worldbody><body name="feather" pos="5 5 5"><freejoint/>
+  <inertial pos="0 0 0" mass="1e-7" diaginertia="1e-7 1e-7 1e-7"/><geom type="sphere" size="0.01"/></body>
+</worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
+def test_a_world_that_diverges_stops_is_told_and_can_be_reset(pace, tmp_path):
+    world = tmp_path / "feather.xml"
+    world.write_text(FEATHER)
+    with simulated("127.0.22.14", "--pace", pace, "--world", str(world)) as (say, process):
+        with Client("127.0.22.14", 5) as client:
+            client.connect()
+            assert say("push feather 1e4 0 0 10") == "ok"
+            deadline = time.monotonic() + 20
+            while "The physics diverged" not in say("state"):
+                assert time.monotonic() < deadline
+            stopped = say("state")
+            assert stopped.startswith("ok Other"), "brakes are closed: nothing can be commanded"
+            assert "of body 'feather'" in stopped and "until it is reset" in stopped
+            assert say("push feather 1 0 0 10").startswith("error: The physics diverged")
+            assert say("place feather 0 0 1").startswith("error: The physics diverged")
+            assert say("where feather").startswith("ok 5 5 "), "it did not begin anew by itself"
+            client.state()
+            assert say("reset") == "ok"
+            assert say("state").startswith("ok Idle, client of protocol 5, errors none")
+            assert say("place feather 0 1 1") == "ok"
+            client.state()
+    assert "franka_sim: The physics diverged: the acceleration of body 'feather'" in process.stdout.read()
+
+
+def test_a_body_that_the_robot_begins_in_is_told_and_the_example_stands_right():
+    page = (ROBOTS.parents[3] / "docs" / "franka_sim.md").read_text()
+    example = next(line.split() for line in page.splitlines() if line.startswith("    franka_sim "))
+    assert "stone.xml" in example
+    for base, within in (([], False), (["--base=0,0,0"], True)):
+        with simulated("127.0.22.15", *example[1:], *base) as (_, process):
+            pass
+        assert ("begins within other bodies" in process.stdout.read()) == within
+
+
+def test_the_hash_waits_for_a_world_at_rest():
+    with simulated("127.0.22.16", "--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0") as (say, _):
+        before = joints(say)
+        # For 3 s of its time the hand is pushed, then it comes back.
+        assert say("push panda_hand 0 8 0 3000") == "ok"
+        assert say("hash") == "ok cbf29ce484222325", "of no commands"
+        settled = say("state")
+        assert joints(say) == pytest.approx(before, abs=1e-4)
+        assert say("state") == settled, "time stands still"
+
+
+def lines_of(connection, text):
+    connection.sendall(text.encode())
+    return connection.makefile("r", newline="\n")
+
+
+def test_one_who_types_slowly_and_one_who_comes_second_get_a_sentence():
+    with simulated("127.0.22.17") as (say, _):
+        assert say("state").startswith("ok Idle")
+        with socket.create_connection(("127.0.22.17", 1340), timeout=20) as second:
+            stream = lines_of(second, "state\nhelp\n")
+            assert stream.readline().startswith("error: Another client holds this control interface")
+            assert stream.readline() == "", "and the connection ends"
+        assert say("state").startswith("ok Idle")
+
+
+def test_a_line_is_answered_also_to_one_who_has_ended_its_side():
+    process = start("--ip=127.0.22.18")
+    try:
+        for _ in range(3):
+            with socket.create_connection(("127.0.22.18", 1340), timeout=20) as connection:
+                connection.sendall(b"user_stop on\nstate\nuser_stop off\n")
+                connection.shutdown(socket.SHUT_WR)
+                answers = connection.makefile("r").read().splitlines()
+            assert answers[0] == answers[2] == "ok"
+            assert answers[1].startswith("ok User stopped")
+    finally:
+        stop(process)
+
+
+def test_lines_are_answered_once_a_state_shows_their_effect():
+    with simulated("127.0.22.19") as (say, _), Client("127.0.22.19", 5) as client:
+        client.connect()
+        for pressed in (True, False) * 10:
+            assert say("user_stop " + ("on" if pressed else "off")) == "ok"
+            # Whatever waits in the socket now was sent before the answer came.
+            assert client.newest_state().mode == (USER_STOPPED if pressed else IDLE)
+
+
+def test_after_a_recovery_the_next_state_says_idle():
+    with simulated("127.0.22.20"), Client("127.0.22.20", 5) as client:
+        client.connect()
+        for _ in range(2):
+            client.start(JOINT_IMPEDANCE, JOINT_POSITION)  # and no command follows
+            client.state_until(lambda state: state.mode == REFLEX)
+            assert client.reply()[1][0] == 6, "the motion was aborted"
+            client.request(12)  # automatic error recovery
+            assert client.reply()[1][0] == 0
+            # Whatever waits in the socket now was sent before the answer came.
+            assert client.newest_state().mode == IDLE
+
+
+@pytest.mark.parametrize("pace", ["realtime", "lockstep", "0.5"])
+def test_a_fresh_hand_reads_the_same_width_at_any_pace(pace):
+    with simulated("127.0.22.21", "--pace", pace):
+        # Gripper protocol: Connect [u16 version, u16 port]; states are 23 bytes, the width behind the id.
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as states:
+            states.bind(("", 0))
+            states.settimeout(20)
+            with socket.create_connection(("127.0.22.21", 1338), timeout=20) as hand:
+                hand.sendall(struct.pack("<HIIHH", 0, 1, 14, 3, states.getsockname()[1]))
+                for _ in range(3):
+                    data = states.recv(100)
+                    assert struct.unpack_from("<d", data, 4)[0] == pytest.approx(0.002, abs=1e-5)
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "0.5"])
+def test_franka_info_judges_a_robot_of_another_pace_without_lateness(pace):
+    info = Path(program()).with_name("franka_info")
+    with simulated("127.0.22.22", "--pace", pace):
+        result = subprocess.run([str(info), "127.0.22.22", "0.5"], capture_output=True, text=True, timeout=60)
+    assert "of the clock's: a simulated robot" in result.stdout
+    assert "states come late" not in result.stdout
+    lost = "states are lost" in result.stdout  # as happens to a client that a busy machine holds up
+    assert ("Verdict         ready to be controlled" in result.stdout) == (not lost)
+    assert result.returncode == lost
+
+
+def test_quit_ends_it():
+    with simulated("127.0.22.6") as (say, process):
+        assert say("quit") == "ok"
+        assert process.wait(10) == 0
+
+
+@pytest.fixture
+def lingering():
+    """Starts a robot with a client, tells it to end, and returns both."""
+    processes = []
+
+    def begin(seconds):
+        processes.append(start("--ip", "127.0.22.10", "--linger", str(seconds)))
+        client = Client("127.0.22.10", 5)
+        assert client.connect() == (0, 5)
+        processes[-1].terminate()
+        return processes[-1], client
+
+    yield begin
+    for process in processes:
+        process.kill()
+        process.wait()
+
+
+def test_clients_may_go_first(lingering):
+    process, client = lingering(30)
+    with client:
+        begin = time.monotonic()
+        while time.monotonic() - begin < 0.5:
+            client.state()
+        assert process.poll() is None
+    assert process.wait(10) == 0
+
+
+def test_who_does_not_go_is_left_in_the_end(lingering):
+    process, client = lingering(0.3)
+    with client:
+        assert process.wait(10) == 0
+        assert client.ended()

@@ -1,0 +1,69 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <actionlib/server/simple_action_server.h>
+#include <franka_msgs/ErrorRecoveryAction.h>
+#include <franka_msgs/SetJointConfiguration.h>
+#include <franka_sim_mujoco/robot_hw_sim.h>
+#include <franka_sim_mujoco/sim_arm.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace franka_sim_mujoco {
+
+/// Puts a joint of the robot elsewhere, between ticks. @throws std::runtime_error with a sentence
+/// where it cannot stand
+using PlaceJoint = std::function<void(const std::string& joint, double position)>;
+
+/// The services and the recovery action of a simulated arm: under `franka_control` in its
+/// namespace what the robot's own node offers there and set_user_stop, in the namespace itself
+/// set_franka_model_configuration. They run in service and action threads and reach the arm between
+/// ticks. Bad requests are answered with success = false and a sentence, and change nothing.
+class ArmServices {
+ public:
+  /// @param restart_controllers whether the controllers that command the arm are restarted after a
+  /// recovery and after the joints were put elsewhere
+  ArmServices(const ros::NodeHandle& node, const std::string& arm_id, SimArm& arm,
+              BetweenTicks between_ticks, PlaceJoint place_joint, bool restart_controllers);
+  ~ArmServices();
+  ArmServices(const ArmServices&) = delete;
+  ArmServices& operator=(const ArmServices&) = delete;
+
+ private:
+  template <typename Service>
+  void offer(ros::NodeHandle& node, const std::string& name,
+             std::function<void(const typename Service::Request&)> handler);
+  template <typename Service>
+  void offerBetweenTicks(const std::string& name,
+                         std::function<void(const typename Service::Request&)> handler);
+  void offerFrames();
+  void offerCollisionBehavior();
+  void offerImpedances();
+  void offerUserStop();
+  void offerConnection(const std::string& name, bool connects);
+  void offerConfiguration();
+  void placeJoints(const franka_msgs::SetJointConfiguration::Request& request);
+  void recover();
+  void recoverUnit();
+  bool recovering();
+  void restartArmControllers();
+  std::vector<std::string> runningArmControllers();
+  /// @throws std::runtime_error with a sentence unless the unit accepted
+  void check(franka_sim::RequestStatus status, const std::string& why_invalid);
+
+  ros::NodeHandle node_;
+  ros::NodeHandle control_node_;
+  std::string arm_id_;
+  SimArm& arm_;
+  BetweenTicks between_ticks_;
+  PlaceJoint place_joint_;
+  bool restart_controllers_;
+  std::vector<ros::ServiceServer> servers_;
+  actionlib::SimpleActionServer<franka_msgs::ErrorRecoveryAction> recovery_;
+};
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,89 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <control_toolbox/pid.h>
+#include <franka_sim/physics/joint_drive.h>
+#include <franka_sim_mujoco/robot_hw_sim.h>
+#include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/joint_state_interface.h>
+#include <joint_limits_interface/joint_limits_interface.h>
+
+#include <list>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace franka_sim_mujoco {
+
+/// Joints of devices that are no Franka arm or hand (a lift, a mobile base, another gripper),
+/// driven as gazebo_ros_control's default hardware drives them: the interfaces that a joint's
+/// transmission declares; commands kept within the URDF's limits; and, while a controller commands
+///   efforts:     the effort acts [Nm|N];
+///   positions:   the joint goes there and is kept there, or a PID does it;
+///   velocities:  the joint moves so, or a PID does it.
+/// A PID is used where the parameters <namespace>/gazebo_ros_control/pid_gains/<joint>/{p,i,d,...}
+/// are given; its output is limited to the URDF's effort. Without a controller, joints that take
+/// positions or velocities stand where they are, and joints that take efforts alone run free.
+///
+/// Made in the stepping thread while it stands still; read, write and doSwitch belong to it and
+/// neither allocate nor throw (the PIDs publish their state when asked to).
+class DeviceJoints {
+ public:
+  /// @param node of the robot's namespace, where gains are looked up
+  DeviceJoints(const ros::NodeHandle& node, franka_sim::World& world, std::string robot);
+
+  /// Adds the joint of a SimpleTransmission; one that follows another (mimic) only shows its state.
+  /// @throws std::invalid_argument with a sentence: unknown joint, or bad gains
+  void add(const transmission_interface::TransmissionInfo& transmission, const urdf::Model& model);
+  bool empty() const noexcept { return joints_.empty(); }
+  std::set<std::string> names() const;
+
+  /// After the last `add`: puts the handles in.
+  void registerHandles(hardware_interface::JointStateInterface& states,
+                       hardware_interface::EffortJointInterface& efforts,
+                       hardware_interface::PositionJointInterface& positions,
+                       hardware_interface::VelocityJointInterface& velocities);
+
+  void read() noexcept;
+  void write(const ros::Duration& period);
+  void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                const std::list<hardware_interface::ControllerInfo>& stop_list) noexcept;
+  /// Joints may be elsewhere: forgets what was commanded.
+  void worldWasReset() noexcept;
+
+ private:
+  enum class Method { kNone, kEffort, kPosition, kVelocity };
+
+  struct Joint {
+    std::string name;
+    urdf::JointConstSharedPtr described;
+    franka_sim::JointDrive* drive{nullptr};
+    franka_sim::JointMeasurement measured;
+    double effort{0}, position{0}, velocity{0};  ///< commands
+    bool takes_effort{false}, takes_position{false}, takes_velocity{false};
+    std::optional<control_toolbox::Pid> pid;
+    Method method{Method::kNone};
+    double followed{0};  ///< where a commanded velocity has led to
+  };
+
+  void readInterfaces(const transmission_interface::JointInfo& info, Joint* joint) const;
+  void readGains(Joint* joint) const;
+  void registerLimits(const Joint& joint, const hardware_interface::JointHandle& handle,
+                      Method method);
+  void choose(Joint* joint, Method method) noexcept;
+  void write(Joint* joint, const ros::Duration& period);
+  static double positionError(const Joint& joint) noexcept;
+  static double limited(const Joint& joint, double effort) noexcept;
+
+  ros::NodeHandle node_;
+  franka_sim::World& world_;
+  std::string robot_;
+  std::list<Joint> joints_;  ///< of addresses that stay
+  joint_limits_interface::EffortJointSaturationInterface effort_limits_;
+  joint_limits_interface::PositionJointSaturationInterface position_limits_;
+  joint_limits_interface::VelocityJointSaturationInterface velocity_limits_;
+};
+
+}  // namespace franka_sim_mujoco

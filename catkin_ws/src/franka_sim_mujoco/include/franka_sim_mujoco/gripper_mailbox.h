@@ -1,0 +1,59 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/gripper_unit.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace franka_sim_mujoco {
+
+/// A command on its way to the gripper and what has become of it.
+struct GripperCommand {
+  enum class Kind { kHoming, kMove, kGrasp, kStop };
+  enum class Fate { kWaiting, kRunning, kSucceeded, kFailed, kInterrupted, kRefused };
+
+  Kind kind{Kind::kStop};
+  double width{0}, epsilon_inner{0}, epsilon_outer{0};  ///< [m]
+  double speed{0};                                      ///< [m/s]
+  double force{0};                                      ///< [N]
+  /// Written by the loop; once it is neither waiting nor running it does not change any more.
+  std::atomic<Fate> fate{Fate::kWaiting};
+
+  bool isSettled() const noexcept {
+    const Fate now = fate.load(std::memory_order_acquire);
+    return now != Fate::kWaiting && now != Fate::kRunning;
+  }
+};
+
+/// Hands commands from action threads to the loop and their outcomes back, without a lock in the
+/// loop.
+///
+/// There is one slot: a command that comes before the last one was taken out takes its place, and
+/// the last one counts as interrupted, as it would have been a tick later. Any thread may post;
+/// serve, settle and interruptAll belong to the loop and neither lock nor allocate nor free.
+class GripperMailbox {
+ public:
+  /// Any thread but the loop.
+  void post(const std::shared_ptr<GripperCommand>& command);
+
+  /// Gives the newest command to the unit, before its step.
+  void serve(franka_sim::GripperUnit& unit) noexcept;
+  /// Passes the outcome on, after the unit's step.
+  void settle(const franka_sim::GripperUnit& unit) noexcept;
+  /// Everything on its way is given up.
+  void interruptAll() noexcept;
+
+ private:
+  std::atomic<GripperCommand*> slot_{nullptr};
+  GripperCommand* running_{nullptr};           // the loop's
+  franka_sim::GripperUnit::Ticket ticket_{0};  // the loop's
+  std::mutex mutex_;
+  /// Owns every command until it is settled: the loop only has plain pointers.
+  std::vector<std::shared_ptr<GripperCommand>> kept_;
+};
+
+}  // namespace franka_sim_mujoco

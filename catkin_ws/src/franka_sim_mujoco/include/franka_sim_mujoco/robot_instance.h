@@ -1,0 +1,131 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <controller_manager/controller_manager.h>
+#include <franka_hw/thrown_report.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim_mujoco/robot_hw_sim.h>
+#include <franka_sim_mujoco/served_robot.h>
+#include <ros/node_handle.h>
+#include <urdf/model.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <pluginlib/class_loader.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace franka_sim_mujoco {
+
+class JointStatePublisher;
+class TransformPublisher;
+
+/// What is asked for when a robot is put into the world.
+struct SpawnOrder {
+  std::string name;
+  std::string urdf;
+  std::string robot_namespace;
+  franka_sim::Pose pose;
+  std::map<std::string, double> initial_positions;
+};
+
+/// A spawn order, read and checked: everything that needs neither the world nor the stepping
+/// thread.
+struct RobotPlan {
+  franka_sim::RobotDescription description;
+  std::string robot_namespace;
+  std::string arm_id;
+  std::string robot_type;  ///< "panda" or "fr3"; empty for a body without such an arm
+  franka_sim::JointPhysics arm_physics;
+  std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a body without hardware
+  std::string fci_ip;         ///< where it is served instead, by a ServedRobot; empty: nowhere
+  int control_ticks{1};       ///< controlPeriod in ticks of 1 ms
+  /// Names of the controllers that its launch file starts: parameter `awaited_controllers` in its
+  /// namespace, separated by blanks.
+  std::vector<std::string> awaited_controllers;
+  /// At which it publishes `joint_states` [Hz of simulated time]: parameter `joint_state_rate`;
+  /// nothing: it does not, a node of its own may do so.
+  std::optional<double> joint_state_rate;
+  /// Whether it publishes the transforms of its links: parameter `publish_transforms`.
+  bool publish_transforms{false};
+  urdf::Model urdf;
+  std::vector<transmission_interface::TransmissionInfo> transmissions;
+};
+
+/// Reads the URDF, its <gazebo> plugin element and transmissions, the arm's physics parameters.
+/// Any thread. @throws std::runtime_error with a sentence
+RobotPlan planRobot(const SpawnOrder& order);
+
+using HardwareLoader = pluginlib::ClassLoader<RobotHWSim>;
+
+/// Durations of the parts of a tick, summed up while a benchmark runs [ns].
+struct TickTimes {
+  std::int64_t read{0}, update{0}, write{0};
+};
+
+/// A robot in the world with its hardware plugin and controller manager, or served over the FCI, or
+/// a mere body. Made, run and taken out of
+/// the robots by the stepping thread; destroyed by any thread afterwards.
+class RobotInstance {
+ public:
+  /// Enters the robot into the world and starts its hardware; nothing is left behind when it
+  /// throws.
+  /// @throws std::runtime_error with a sentence
+  RobotInstance(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
+                BetweenTicks between_ticks);
+  ~RobotInstance();
+  RobotInstance(const RobotInstance&) = delete;
+  RobotInstance& operator=(const RobotInstance&) = delete;
+
+  const std::string& name() const noexcept { return name_; }
+  /// Whether one of these joints is the robot's.
+  bool hasAnyOf(const std::vector<std::string>& joints) const;
+
+  /// What the host has to run where the robot is served; else null.
+  franka_sim::fci::SimRobot* served() noexcept { return served_ ? &served_->robot() : nullptr; }
+
+  /// Whether controllers that its launch file starts do not run yet: for kLongestStart ticks at
+  /// most, then with a warning.
+  bool isStarting() const noexcept { return start_ticks_left_ > 0; }
+  static constexpr int kLongestStart = 30000;  ///< [ticks], the spawner's own patience
+
+  /// Read, controllers, write; nothing for a served robot. 1 kHz loop. @param times when not null,
+  /// durations are added to it
+  void tick(const ros::Time& time, TickTimes* times);
+
+  /// @throws std::runtime_error with a sentence while a client of the FCI moves the robot: its
+  /// motion would jump.
+  void requireRest() const;
+  /// The world has stopped: what clients of a served robot run is aborted.
+  void halt();
+  /// The world was put back; controllers are restarted in the next tick.
+  void worldWasReset();
+
+ private:
+  void start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
+             BetweenTicks between_ticks);
+  void serve(const RobotPlan& plan, franka_sim::World& world, BetweenTicks between_ticks);
+  void startHardware(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
+                     BetweenTicks between_ticks);
+  void reviewStart();
+  void updateControllers(const ros::Time& time, const ros::Duration& period);
+
+  std::string name_;
+  std::set<std::string> joints_;
+  int control_ticks_;
+  int ticks_to_control_{0};
+  bool restart_controllers_{false};
+  int start_ticks_left_{0};
+  std::vector<std::string> awaited_controllers_;
+  franka_hw::ThrownReport thrown_report_;
+  std::unique_ptr<ServedRobot> served_;
+  std::shared_ptr<RobotHWSim> hardware_;  ///< destroyed after the manager that uses it
+  std::unique_ptr<controller_manager::ControllerManager> manager_;
+  std::unique_ptr<JointStatePublisher> joint_states_;
+  std::unique_ptr<TransformPublisher> transforms_;
+};
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,48 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <exception>
+#include <functional>
+#include <string>
+
+namespace franka_sim_mujoco {
+
+/// What a service says where it could not do what was asked; some types have another field for it.
+template <typename Response>
+auto explain(Response& response, const std::string& text) -> decltype((void)response.error) {
+  response.error = text;
+}
+template <typename Response>
+auto explain(Response& response, const std::string& text)
+    -> decltype((void)response.status_message) {
+  response.status_message = text;
+}
+inline void explain(std_srvs::SetBool::Response& response, const std::string& text) {
+  response.message = text;
+}
+inline void explain(std_srvs::Trigger::Response& response, const std::string& text) {
+  response.message = text;
+}
+
+/// Runs a handler and answers: true, or false, nothing else, and a sentence.
+/// @param handler may throw what the user should read
+/// @param tell is given that sentence too, for the log
+template <typename Response>
+void answer(Response& response, const std::function<void()>& handler,
+            const std::function<void(const char*)>& tell) {
+  try {
+    handler();
+    response.success = true;
+  } catch (const std::exception& error) {
+    tell(error.what());
+    response = Response();
+    response.success = false;
+    explain(response, error.what());
+  }
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,57 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim_mujoco/service_answer.h>
+#include <ros/advertise_service_options.h>
+#include <ros/callback_queue.h>
+#include <ros/console.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace franka_sim_mujoco {
+
+/// Offers services that answer success=false and a sentence instead of failing the call. They have
+/// threads of their own, so that a controller switch that waits for a paused simulation cannot keep
+/// anyone from unpausing it.
+class ServiceHandlers {
+ public:
+  /// @param node in whose namespace they are offered
+  explicit ServiceHandlers(ros::NodeHandle node);
+  /// No handler runs any more when it returns.
+  ~ServiceHandlers();
+  ServiceHandlers(const ServiceHandlers&) = delete;
+  ServiceHandlers& operator=(const ServiceHandlers&) = delete;
+
+  /// @param handler may throw what the user should read
+  template <typename Service>
+  void offer(const std::string& name,
+             std::function<void(typename Service::Request&, typename Service::Response&)> handler) {
+    auto options = ros::AdvertiseServiceOptions::create<Service>(
+        name,
+        [handler, name](typename Service::Request& request, typename Service::Response& response) {
+          answer(
+              response, [&] { handler(request, response); },
+              [&](const char* sentence) {
+                ROS_WARN_NAMED("franka_sim_mujoco", "%s: %s", name.c_str(), sentence);
+              });
+          return true;
+        },
+        ros::VoidConstPtr(), &queue_);
+    servers_.push_back(node_.advertiseService(options));
+  }
+  /// A std_srvs/Empty service, as Gazebo has them: a failure fails the call.
+  void offerEmpty(const std::string& name, std::function<void()> action);
+
+ private:
+  ros::NodeHandle node_;
+  ros::CallbackQueue queue_;
+  std::vector<ros::ServiceServer> servers_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace franka_sim_mujoco

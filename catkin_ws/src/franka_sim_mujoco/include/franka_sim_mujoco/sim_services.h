@@ -1,0 +1,36 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim_mujoco/service_handlers.h>
+#include <ros/node_handle.h>
+
+namespace franka_sim_mujoco {
+
+class Simulation;
+
+/// The simulation's services: time (pause, step, factor, reset), robots and objects (spawn,
+/// delete), things (poses, velocities, joints, pushes, contacts), gravity, snapshots, benchmark;
+/// and those of Gazebo, with its types.
+class SimServices {
+ public:
+  /// @param node in whose namespace they are offered; pause_physics and unpause_physics too
+  SimServices(ros::NodeHandle node, Simulation& simulation);
+  SimServices(const SimServices&) = delete;
+  SimServices& operator=(const SimServices&) = delete;
+
+ private:
+  void offerTime();
+  void offerRobots();
+  void offerBodies();
+  void offerStates();
+  void offerWorld();
+  void offerGazebo();
+  void offerGazeboStates();
+  void offerGazeboModels();
+
+  Simulation& simulation_;
+  ServiceHandlers services_;
+};
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,151 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/fci/host.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim_mujoco/clock_publisher.h>
+#include <franka_sim_mujoco/pace.h>
+#include <franka_sim_mujoco/request_queue.h>
+#include <franka_sim_mujoco/robot_instance.h>
+
+#include <atomic>
+#include <cstdint>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace franka_sim_mujoco {
+
+struct SimulationOptions {
+  std::string world_file;        ///< MJCF or SDF; empty: the empty world
+  double real_time_factor{1.0};  ///< see paceOf
+  double clock_rate{0.0};        ///< most messages of /clock a wall second [Hz]; 0: clockRateOf
+  bool paused{false};
+};
+
+/// What is in the world, and how it runs.
+struct SimulationInventory {
+  std::vector<std::string> robots, objects, bodies, joints, cameras;
+  std::array<double, 3> gravity{};
+  bool paused{false};
+  double real_time_factor{1};
+};
+
+/// Where the simulation stands.
+struct SimulationState {
+  std::uint64_t tick{0};  ///< since the start; a reset does not set it back
+  ros::Time time;
+  std::uint64_t state_hash{0};  ///< World::stateHash
+};
+
+/// The world, the robots in it and the one thread that steps them: requests; then the host keeps
+/// the pace and hears the clients of served robots; then for each other robot readSim, controllers,
+/// writeSim; then the physics, then /clock.
+///
+/// While a robot waits for the controllers that its launch file starts (RobotPlan), time does not
+/// run faster than real time: the nodes that start them need the processors.
+///
+/// ROS time begins at 1 ms and grows by 1 ms a tick; it never goes back, also not when the world is
+/// reset. All public functions may be called from any thread and throw std::runtime_error with a
+/// sentence.
+class Simulation {
+ public:
+  /// Builds the world. @throws std::runtime_error what World throws, or for a wrong factor
+  Simulation(const SimulationOptions& options, ros::NodeHandle& node);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  void start();
+  /// Ends the stepping thread; requests are refused from now on.
+  void stop();
+  /// Whether a tick failed, which ended the simulation.
+  bool failed() const noexcept { return failed_; }
+
+  void setPaused(bool paused);
+  void setRealTimeFactor(double factor);
+  /// Advances a paused simulation without waiting for the pace and returns when that is done.
+  SimulationState step(std::uint32_t ticks);
+  SimulationState state();
+  /// Everything to where it was first put; controllers are restarted. A world that has stopped
+  /// (World::stopped) runs again.
+  void reset();
+
+  void spawn(const SpawnOrder& order);
+  void remove(const std::string& robot);
+  /// @returns what the text asks for and nobody simulates, as World::unsupported, and which robots
+  /// the object begins in
+  std::string spawnObject(const std::string& name, const std::string& text,
+                          const franka_sim::Pose& pose);
+  void removeObject(const std::string& name);
+  SimulationInventory inventory();
+
+  /// Puts joints elsewhere; robots that have one of them start their controllers anew.
+  /// @param velocities as many as names
+  void setJoints(const std::vector<std::string>& names, const std::vector<double>& positions,
+                 const std::vector<double>& velocities);
+
+  /// Keeps the world's state under a name (at most kMostSnapshots). @returns its hash
+  std::uint64_t takeSnapshot(const std::string& name);
+  /// Puts the world back; control units and controllers start anew. @returns its hash
+  std::uint64_t restoreSnapshot(const std::string& name);
+  static constexpr std::size_t kMostSnapshots = 32;
+
+  /// Runs work on the world in the stepping thread, between ticks.
+  void withWorld(const std::function<void(franka_sim::World&)>& work);
+
+  /// What each part of a tick takes of the stepping thread's computing time [us], over `ticks`
+  /// ticks without waiting. Physics includes the publishing of /clock.
+  struct Benchmark {
+    double tick{0}, physics{0}, read{0}, update{0}, write{0}, bare{0};
+  };
+  Benchmark benchmark(std::uint32_t ticks);
+
+ private:
+  void loop();
+  void advance();
+  void standStill();
+  void finishStepping();
+  /// Reports what is wrong with the world; one that has stopped pauses the simulation.
+  void watchWorld();
+  /// @throws std::runtime_error with a sentence where the world has stopped
+  void requireRunningWorld() const;
+  /// After the world was put back as a whole.
+  void worldWasReset();
+  /// Holds the pace down while robots start, and sets it going afterwards.
+  void reviewPace();
+  void applyPace();
+  SimulationState stateNow() const;
+  ros::Time time() const;
+  /// @throws std::runtime_error with a sentence while a client moves a robot
+  void requireRest() const;
+  RobotInstance* find(const std::string& name);
+
+  RequestQueue requests_;
+  HardwareLoader loader_;
+  franka_sim::World world_;
+  std::vector<std::unique_ptr<RobotInstance>> robots_;
+  std::map<std::string, franka_sim::Snapshot> snapshots_;
+  ClockPublisher clock_;
+  franka_sim::fci::Host host_;
+  ShortSleeps short_sleeps_;
+  TickTimes times_;
+  bool timing_{false};
+  double real_time_factor_;
+  double clock_rate_;
+  bool starting_{false};  ///< as the pace is now
+  bool paused_;
+  bool paused_by_fault_{false};  ///< the world has stopped
+  std::uint64_t tick_count_{0};
+  std::uint32_t steps_left_{0};
+  std::optional<std::promise<SimulationState>> stepped_;
+  std::atomic<bool> stop_{false}, failed_{false};
+  std::thread thread_;
+};
+
+}  // namespace franka_sim_mujoco

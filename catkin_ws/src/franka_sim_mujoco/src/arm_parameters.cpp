@@ -1,0 +1,214 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/world.h>
+#include <franka_sim/robot/parameter_checks.h>
+#include <franka_sim_mujoco/arm_parameters.h>
+#include <franka_sim_mujoco/param_reader.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+/// Flange to the hand's nominal end effector (manual: turned by -45 deg about z, 10.34 cm along
+/// it).
+constexpr std::array<double, 16> kHandF_T_NE{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0,      0,
+                                             0,      0,       1, 0, 0,      0,      0.1034, 1};
+
+/// A rotation that was typed with three or four digits: the columns are brought to length one,
+/// which gives back cos(45 deg) and leaves exact matrices as they are.
+std::array<double, 16> withUnitColumns(std::array<double, 16> transform) {
+  for (std::size_t column = 0; column < 3; ++column) {
+    double* entry = transform.data() + 4 * column;
+    const double length =
+        std::sqrt(entry[0] * entry[0] + entry[1] * entry[1] + entry[2] * entry[2]);
+    // Only rounding is repaired; what is no rotation is left for the check to refuse.
+    if (std::abs(length - 1.0) < 1e-3) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        entry[row] /= length;
+      }
+    }
+  }
+  return transform;
+}
+
+void readTransform(const ros::NodeHandle& node, const std::string& name,
+                   std::array<double, 16>& transform) {
+  readArray(node, name, transform);
+  transform = withUnitColumns(transform);
+  const std::string fault = franka_sim::frameFault(transform);
+  if (!fault.empty()) {
+    throw std::invalid_argument(
+        "The parameter " + node.resolveName(name) +
+        " is no column-major 4x4 transform to a frame on the arm: " + fault + ".");
+  }
+}
+
+void readPayload(const ros::NodeHandle& node, const std::string& mass, const std::string& com,
+                 const std::string& inertia, franka_core::Payload& payload) {
+  payload.mass = readNumber(node, mass).value_or(payload.mass);
+  readArray(node, com, payload.com);
+  readArray(node, inertia, payload.inertia);
+  const std::string fault = franka_sim::payloadFault(payload);
+  if (!fault.empty()) {
+    throw std::invalid_argument("The parameters " + node.resolveName(mass) + ", " + com + " and " +
+                                inertia + " are not those of a body. " + fault);
+  }
+}
+
+void readThresholds(const ros::NodeHandle& node, const std::string& phase,
+                    franka_sim::CollisionThresholds& thresholds) {
+  readArray(node, "collision_config/lower_torque_thresholds_" + phase, thresholds.lower_torque);
+  readArray(node, "collision_config/upper_torque_thresholds_" + phase, thresholds.upper_torque);
+  readArray(node, "collision_config/lower_force_thresholds_" + phase, thresholds.lower_force);
+  readArray(node, "collision_config/upper_force_thresholds_" + phase, thresholds.upper_force);
+  const std::string fault = checkThresholds(thresholds);
+  if (!fault.empty()) {
+    throw std::invalid_argument("The parameters " + node.resolveName("collision_config") + "/*_" +
+                                phase + " are wrong: " + fault);
+  }
+  const std::string remark = thresholdRemark(thresholds);
+  if (!remark.empty()) {
+    ROS_WARN_STREAM_NAMED("franka_hw_sim", "The parameters " << node.resolveName("collision_config")
+                                                             << "/*_" << phase << ": " << remark);
+  }
+}
+
+template <std::size_t N>
+std::string checkPair(const std::array<double, N>& lower, const std::array<double, N>& upper,
+                      const std::string& what) {
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::string which = what + " threshold " + std::to_string(i + 1);
+    if (!std::isfinite(lower[i]) || !std::isfinite(upper[i]) || lower[i] < 0.0 || upper[i] < 0.0) {
+      return "The " + which + " must be a finite number that is not negative.";
+    }
+  }
+  return "";
+}
+
+template <std::size_t N>
+std::string pairRemark(const std::array<double, N>& lower, const std::array<double, N>& upper,
+                       const std::string& what) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (lower[i] > upper[i]) {
+      char numbers[80];
+      std::snprintf(numbers, sizeof(numbers), "(%g) is above the upper one (%g)", lower[i],
+                    upper[i]);
+      return "The lower " + what + " threshold " + std::to_string(i + 1) + " " + numbers +
+             ": collisions begin before contacts.";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string checkThresholds(const franka_sim::CollisionThresholds& thresholds) {
+  const std::string fault = checkPair(thresholds.lower_torque, thresholds.upper_torque, "torque");
+  return fault.empty() ? checkPair(thresholds.lower_force, thresholds.upper_force, "force") : fault;
+}
+
+std::string thresholdRemark(const franka_sim::CollisionThresholds& thresholds) {
+  const std::string remark = pairRemark(thresholds.lower_torque, thresholds.upper_torque, "torque");
+  return remark.empty() ? pairRemark(thresholds.lower_force, thresholds.upper_force, "force")
+                        : remark;
+}
+
+std::string readArmId(const ros::NodeHandle& node, const std::string& robot_namespace,
+                      const std::string& robot_name) {
+  std::string from_namespace = robot_namespace;
+  from_namespace.erase(std::remove(from_namespace.begin(), from_namespace.end(), '/'),
+                       from_namespace.end());
+  const std::string fallback = from_namespace.empty() ? robot_name : from_namespace;
+  const std::string arm_id = readString(node, "arm_id").value_or(fallback);
+  if (arm_id.empty()) {
+    throw std::invalid_argument("The parameter " + node.resolveName("arm_id") +
+                                " is empty; it must be the prefix of the arm's joint names.");
+  }
+  return arm_id;
+}
+
+std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std::string& arm_id,
+                                         const std::array<double, 7>& fallback) {
+  std::array<double, 7> stiffness = fallback;
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    const std::string name =
+        "motion_generators/position/gains/" + arm_id + "_joint" + std::to_string(i + 1) + "/p";
+    stiffness[i] = readNumber(node, name).value_or(stiffness[i]);
+  }
+  if (!franka_sim::isJointStiffness(stiffness)) {
+    throw std::invalid_argument(
+        "The parameters " + node.resolveName("motion_generators/position/gains") + "/" + arm_id +
+        "_joint<1 to 7>/p are stiffnesses; they must lie between 0 and 14250 Nm/rad.");
+  }
+  return stiffness;
+}
+
+std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& arm_id) {
+  std::string found;
+  const auto note = [&](const std::string& name) {
+    found += (found.empty() ? "" : ", ") + node.resolveName("motion_generators") + "/" + name;
+  };
+  if (node.hasParam("motion_generators/velocity/gains")) {
+    note("velocity/gains");
+  }
+  for (const std::string gain : {"i", "d"}) {
+    bool present = false;
+    for (int joint = 1; joint <= 7 && !present; ++joint) {
+      present = readNumber(node, "motion_generators/position/gains/" + arm_id + "_joint" +
+                                     std::to_string(joint) + "/" + gain)
+                    .value_or(0.0) != 0.0;
+    }
+    if (present) {
+      note("position/gains/*/" + gain);
+    }
+  }
+  return found;
+}
+
+std::array<double, 3> gravityInBase(franka_sim::World& world, const std::string& base) {
+  const std::array<double, 3> g = world.gravity();
+  const std::array<double, 4> q = world.bodyPose(base).orientation;
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  return {
+      (1 - 2 * (y * y + z * z)) * g[0] + 2 * (x * y + w * z) * g[1] + 2 * (x * z - w * y) * g[2],
+      2 * (x * y - w * z) * g[0] + (1 - 2 * (x * x + z * z)) * g[1] + 2 * (y * z + w * x) * g[2],
+      2 * (x * z + w * y) * g[0] + 2 * (y * z - w * x) * g[1] + (1 - 2 * (x * x + y * y)) * g[2]};
+}
+
+franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
+                                                    const std::string& urdf,
+                                                    const std::string& arm_id, bool has_hand,
+                                                    const std::array<double, 3>& gravity) {
+  franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdf, arm_id)};
+  parameters.gravity = gravity;
+  readArray(node, "gravity_vector", parameters.gravity);
+
+  // With all three given, a hand that has no inertial in the URDF is no fault.
+  const bool explicit_end_effector =
+      node.hasParam("m_ee") && node.hasParam("I_ee") && node.hasParam("F_x_Cee");
+  if (!explicit_end_effector) {
+    parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, arm_id);
+  }
+  readPayload(node, "m_ee", "F_x_Cee", "I_ee", parameters.end_effector);
+  readPayload(node, "m_load", "F_x_Cload", "I_load", parameters.load);
+
+  if (has_hand) {
+    parameters.F_T_NE = kHandF_T_NE;
+  }
+  readTransform(node, "F_T_NE", parameters.F_T_NE);
+  readTransform(node, "NE_T_EE", parameters.NE_T_EE);
+  readTransform(node, "EE_T_K", parameters.EE_T_K);
+
+  readThresholds(node, "nominal", parameters.nominal);
+  parameters.acceleration = parameters.nominal;
+  readThresholds(node, "acceleration", parameters.acceleration);
+  return parameters;
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,360 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <controller_manager_msgs/ListControllers.h>
+#include <controller_manager_msgs/SwitchController.h>
+#include <franka_core/transform.h>
+#include <franka_msgs/SetCartesianImpedance.h>
+#include <franka_msgs/SetEEFrame.h>
+#include <franka_msgs/SetForceTorqueCollisionBehavior.h>
+#include <franka_msgs/SetFullCollisionBehavior.h>
+#include <franka_msgs/SetJointImpedance.h>
+#include <franka_msgs/SetKFrame.h>
+#include <franka_msgs/SetLoad.h>
+#include <franka_sim/robot/parameter_checks.h>
+#include <franka_sim_mujoco/arm_parameters.h>
+#include <franka_sim_mujoco/arm_services.h>
+#include <franka_sim_mujoco/service_answer.h>
+#include <ros/console.h>
+#include <ros/service.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr char kLog[] = "franka_hw_sim";
+constexpr double kSwitchTimeout = 3.0;     ///< [s]
+constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit gives up after 5 s of its own
+constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
+constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
+
+/// The messages hold boost arrays.
+template <std::size_t N, typename Array>
+std::array<double, N> toArray(const Array& values) {
+  std::array<double, N> result;
+  std::copy(values.begin(), values.end(), result.begin());
+  return result;
+}
+
+std::string notATransform(const std::string& name, const std::array<double, 16>& matrix) {
+  return name + " is no column-major 4x4 transform to a frame on the arm: " +
+         franka_sim::frameFault(matrix) + ".";
+}
+
+/// Logs what is odd. @throws std::runtime_error with a sentence for the first threshold that makes
+/// no sense
+franka_sim::CollisionThresholds checked(const franka_sim::CollisionThresholds& thresholds,
+                                        const std::string& phase) {
+  const std::string fault = checkThresholds(thresholds);
+  if (!fault.empty()) {
+    throw std::runtime_error(phase + fault);
+  }
+  const std::string remark = thresholdRemark(thresholds);
+  if (!remark.empty()) {
+    ROS_WARN_STREAM_NAMED(kLog, phase << remark);
+  }
+  return thresholds;
+}
+
+}  // namespace
+
+ArmServices::ArmServices(const ros::NodeHandle& node, const std::string& arm_id, SimArm& arm,
+                         BetweenTicks between_ticks, PlaceJoint place_joint,
+                         bool restart_controllers)
+    : node_(node),
+      control_node_(node, "franka_control"),
+      arm_id_(arm_id),
+      arm_(arm),
+      between_ticks_(std::move(between_ticks)),
+      place_joint_(std::move(place_joint)),
+      restart_controllers_(restart_controllers),
+      recovery_(
+          control_node_, "error_recovery",
+          [this](const franka_msgs::ErrorRecoveryGoalConstPtr& /*goal*/) { recover(); }, false) {
+  offerFrames();
+  offerCollisionBehavior();
+  offerImpedances();
+  offerUserStop();
+  offerConnection("connect", true);
+  offerConnection("disconnect", false);
+  offerConfiguration();
+  recovery_.start();
+}
+
+ArmServices::~ArmServices() {
+  for (ros::ServiceServer& server : servers_) {
+    server.shutdown();
+  }
+  recovery_.shutdown();
+}
+
+template <typename Service>
+void ArmServices::offer(ros::NodeHandle& node, const std::string& name,
+                        std::function<void(const typename Service::Request&)> handler) {
+  using Request = typename Service::Request;
+  using Response = typename Service::Response;
+  const boost::function<bool(Request&, Response&)> callback =
+      [this, name, handler](Request& request, Response& response) {
+        answer(
+            response, [&] { handler(request); },
+            [&](const char* sentence) {
+              ROS_ERROR_NAMED(kLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), sentence);
+            });
+        return true;
+      };
+  servers_.push_back(node.advertiseService<Request, Response>(name, callback));
+}
+
+template <typename Service>
+void ArmServices::offerBetweenTicks(const std::string& name,
+                                    std::function<void(const typename Service::Request&)> handler) {
+  offer<Service>(control_node_, name, [this, handler](const typename Service::Request& request) {
+    between_ticks_([&] { handler(request); });
+  });
+}
+
+// --- configuration -------------------------------------------------------------------------------
+
+void ArmServices::offerFrames() {
+  offerBetweenTicks<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
+    const std::array<double, 16> NE_T_EE = toArray<16>(request.NE_T_EE);
+    check(arm_.unit().setEE(NE_T_EE), notATransform("NE_T_EE", NE_T_EE));
+  });
+  offerBetweenTicks<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
+    const std::array<double, 16> EE_T_K = toArray<16>(request.EE_T_K);
+    check(arm_.unit().setK(EE_T_K), notATransform("EE_T_K", EE_T_K));
+  });
+  offerBetweenTicks<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
+    const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
+                                    toArray<9>(request.load_inertia)};
+    check(arm_.unit().setLoad(load), "The load was refused. " + franka_sim::payloadFault(load));
+  });
+}
+
+void ArmServices::offerCollisionBehavior() {
+  offerBetweenTicks<franka_msgs::SetForceTorqueCollisionBehavior>(
+      "set_force_torque_collision_behavior", [this](const auto& request) {
+        const franka_sim::CollisionThresholds thresholds =
+            checked({toArray<7>(request.lower_torque_thresholds_nominal),
+                     toArray<7>(request.upper_torque_thresholds_nominal),
+                     toArray<6>(request.lower_force_thresholds_nominal),
+                     toArray<6>(request.upper_force_thresholds_nominal)},
+                    "");
+        check(arm_.unit().setCollisionBehavior(thresholds, thresholds), kNotThresholds);
+      });
+  offerBetweenTicks<franka_msgs::SetFullCollisionBehavior>(
+      "set_full_collision_behavior", [this](const auto& request) {
+        const franka_sim::CollisionThresholds acceleration =
+            checked({toArray<7>(request.lower_torque_thresholds_acceleration),
+                     toArray<7>(request.upper_torque_thresholds_acceleration),
+                     toArray<6>(request.lower_force_thresholds_acceleration),
+                     toArray<6>(request.upper_force_thresholds_acceleration)},
+                    "Acceleration phase: ");
+        const franka_sim::CollisionThresholds nominal =
+            checked({toArray<7>(request.lower_torque_thresholds_nominal),
+                     toArray<7>(request.upper_torque_thresholds_nominal),
+                     toArray<6>(request.lower_force_thresholds_nominal),
+                     toArray<6>(request.upper_force_thresholds_nominal)},
+                    "Nominal phase: ");
+        check(arm_.unit().setCollisionBehavior(acceleration, nominal), kNotThresholds);
+      });
+}
+
+void ArmServices::offerImpedances() {
+  offerBetweenTicks<franka_msgs::SetJointImpedance>(
+      "set_joint_impedance", [this](const auto& request) {
+        check(arm_.unit().setJointImpedance(toArray<7>(request.joint_stiffness)),
+              "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
+      });
+  offerBetweenTicks<
+      franka_msgs::SetCartesianImpedance>("set_cartesian_impedance", [this](const auto& request) {
+    check(arm_.unit().setCartesianImpedance(toArray<6>(request.cartesian_stiffness)),
+          "cartesian_stiffness must hold three numbers from 10 to 3000 N/m and three from 1 to 300 "
+          "Nm/rad.");
+  });
+}
+
+// --- hands on the robot --------------------------------------------------------------------------
+
+void ArmServices::offerUserStop() {
+  offer<std_srvs::SetBool>(control_node_, "set_user_stop", [this](const auto& request) {
+    between_ticks_([&] { arm_.setUserStop(request.data); });
+    ROS_WARN_NAMED(kLog,
+                   request.data ? "%s: user stop pressed: commands of controllers have no effect"
+                                : "%s: user stop released: call franka_control/error_recovery to "
+                                  "connect the controllers again",
+                   arm_id_.c_str());
+  });
+}
+
+void ArmServices::offerConnection(const std::string& name, bool connects) {
+  offerBetweenTicks<std_srvs::Trigger>(name, [this, connects](const auto& /*request*/) {
+    if (arm_.connected() == connects) {
+      throw std::runtime_error(connects ? "The arm is connected already."
+                                        : "The arm is disconnected already.");
+    }
+    if (arm_.setConnected(connects) != franka_sim::RequestStatus::kSuccess) {
+      throw std::runtime_error(
+          "A controller commands the arm: stop it (controller_manager/switch_controller) "
+          "before disconnecting.");
+    }
+  });
+}
+
+// --- another configuration of the joints ---------------------------------------------------------
+
+void ArmServices::offerConfiguration() {
+  offer<franka_msgs::SetJointConfiguration>(node_, "set_franka_model_configuration",
+                                            [this](const auto& request) { placeJoints(request); });
+}
+
+void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request& request) {
+  const std::vector<std::string>& names = request.joint_names;
+  if (names.empty() || (names.size() == 1 && names.front().empty())) {
+    throw std::runtime_error("No joints are named in joint_names.");
+  }
+  if (names.size() != request.joint_positions.size()) {
+    throw std::runtime_error("joint_names holds " + std::to_string(names.size()) +
+                             " names, but joint_positions " +
+                             std::to_string(request.joint_positions.size()) + " positions.");
+  }
+  std::vector<std::string> complaints;
+  between_ticks_([&] {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      try {
+        place_joint_(names[i], request.joint_positions[i]);
+      } catch (const std::exception& error) {
+        complaints.emplace_back(error.what());
+      }
+    }
+    if (restart_controllers_) {
+      arm_.jointsWerePlaced();
+    } else {
+      arm_.worldWasReset();
+    }
+  });
+  for (const std::string& complaint : complaints) {
+    ROS_WARN_NAMED(kLog, "%s: set_franka_model_configuration: %s", arm_id_.c_str(),
+                   complaint.c_str());
+  }
+  if (complaints.size() == names.size()) {
+    throw std::runtime_error("No joint could be put anywhere. " + complaints.front());
+  }
+  if (restart_controllers_) {
+    restartArmControllers();
+  }
+}
+
+// --- recovery ------------------------------------------------------------------------------------
+
+void ArmServices::check(franka_sim::RequestStatus status, const std::string& why_invalid) {
+  switch (status) {
+    case franka_sim::RequestStatus::kSuccess:
+      return;
+    case franka_sim::RequestStatus::kInvalidArgument:
+      throw std::runtime_error(why_invalid);
+    case franka_sim::RequestStatus::kNotPossible:
+      throw std::runtime_error(
+          arm_.unit().state().robot_mode == franka_core::RobotMode::kMove
+              ? "This cannot be done while a controller moves the arm: stop that controller "
+                "(controller_manager/switch_controller), then try again."
+              : "This cannot be done in the arm's present mode (" +
+                    std::to_string(static_cast<int>(arm_.unit().state().robot_mode)) +
+                    " in franka_msgs/FrankaState).");
+  }
+}
+
+void ArmServices::recover() {
+  try {
+    recoverUnit();
+    if (restart_controllers_) {
+      restartArmControllers();
+    }
+    recovery_.setSucceeded();
+  } catch (const std::exception& error) {
+    ROS_WARN_NAMED(kLog, "%s: error_recovery: %s", arm_id_.c_str(), error.what());
+    recovery_.setAborted(franka_msgs::ErrorRecoveryResult(), error.what());
+  }
+}
+
+void ArmServices::recoverUnit() {
+  between_ticks_([this] {
+    if (arm_.userStopped()) {
+      throw std::runtime_error(
+          "The user stop is pressed: release it (service franka_control/set_user_stop) before "
+          "recovering.");
+    }
+    if (arm_.recover() != franka_sim::RequestStatus::kSuccess) {
+      throw std::runtime_error(
+          "The arm cannot recover by itself: it stands beyond a joint limit or is led by hand. Put "
+          "it elsewhere (service set_franka_model_configuration).");
+    }
+  });
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(kRecoveryTimeout);
+  while (recovering()) {
+    if (ros::WallTime::now() > deadline) {
+      throw std::runtime_error("The recovery did not end within " +
+                               std::to_string(static_cast<int>(kRecoveryTimeout)) +
+                               " s. Is the simulation paused?");
+    }
+    ros::WallDuration(kRecoveryPoll).sleep();
+  }
+  if (arm_.needsRecovery()) {
+    throw std::runtime_error("The arm did not come to rest: the recovery has failed.");
+  }
+}
+
+bool ArmServices::recovering() {
+  bool recovering = false;
+  between_ticks_([&] { recovering = arm_.recovering(); });
+  return recovering;
+}
+
+std::vector<std::string> ArmServices::runningArmControllers() {
+  const std::string service = node_.resolveName("controller_manager/list_controllers");
+  controller_manager_msgs::ListControllers list;
+  // Not waitForService: it sleeps in simulated time, for ever while the simulation is paused.
+  if (!ros::service::exists(service, false) || !ros::service::call(service, list)) {
+    throw std::runtime_error("The controllers cannot be restarted: " + service +
+                             " does not answer.");
+  }
+  std::vector<std::string> names;
+  for (const auto& controller : list.response.controller) {
+    bool commands_arm = false;
+    for (const auto& claim : controller.claimed_resources) {
+      for (const std::string& resource : claim.resources) {
+        commands_arm = commands_arm || resource.rfind(arm_id_ + "_joint", 0) == 0 ||
+                       resource == arm_id_ + "_robot";
+      }
+    }
+    if (controller.state == "running" && commands_arm) {
+      names.push_back(controller.name);
+    }
+  }
+  return names;
+}
+
+void ArmServices::restartArmControllers() {
+  const std::vector<std::string> names = runningArmControllers();
+  if (names.empty()) {
+    return;
+  }
+  const std::string service = node_.resolveName("controller_manager/switch_controller");
+  controller_manager_msgs::SwitchController restart;
+  restart.request.start_controllers = names;
+  restart.request.stop_controllers = names;
+  restart.request.strictness = controller_manager_msgs::SwitchController::Request::STRICT;
+  restart.request.start_asap = true;
+  restart.request.timeout = kSwitchTimeout;
+  if (!ros::service::call(service, restart) || !restart.response.ok) {
+    throw std::runtime_error("The arm is ready but its controllers could not be restarted by " +
+                             service + ". Is the simulation paused? Restart them by hand.");
+  }
+}
+
+}  // namespace franka_sim_mujoco

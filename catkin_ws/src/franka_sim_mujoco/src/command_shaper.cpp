@@ -1,0 +1,233 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka/lowpass_filter.h>
+#include <franka/rate_limiting.h>
+#include <franka_core/joint_limiter.h>
+#include <franka_core/transform.h>
+#include <franka_sim/robot/tick.h>
+#include <franka_sim/robot/transforms.h>
+#include <franka_sim_mujoco/command_shaper.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+using franka_hw::ControlMode;
+using Joints = std::array<double, 7>;
+
+// Kept free of every limit, as by libfranka's limiter, so that rounding never exceeds one.
+constexpr double kMargin = franka::kLimitEps;
+
+Joints withMargin(Joints limits) noexcept {
+  for (double& limit : limits) {
+    limit -= kMargin;
+  }
+  return limits;
+}
+
+template <std::size_t N>
+bool allFinite(const std::array<double, N>& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool contains(ControlMode mode, ControlMode part) noexcept {
+  return (mode & part) != ControlMode::None;
+}
+
+bool isFiltered(const ShapingOptions& options) noexcept {
+  return options.cutoff_frequency < franka::kMaxCutoffFrequency;
+}
+
+template <std::size_t N>
+void filter(const ShapingOptions& options, const std::array<double, N>& last,
+            std::array<double, N>& values) {
+  if (!isFiltered(options)) {
+    return;
+  }
+  for (std::size_t i = 0; i < N; ++i) {
+    values[i] = franka::lowpassFilter(kTick, values[i], last[i], options.cutoff_frequency);
+  }
+}
+
+franka_core::JointVelocityRange rangeOf(const franka_sim::MotionLimits& limits,
+                                        const Joints& q) noexcept {
+  if (limits.position_velocity) {
+    return franka_core::rangeAt(
+        franka_core::followable(limits.velocity_near_ends, withMargin(limits.arm.ddq),
+                                withMargin(limits.arm.dddq), kMargin),
+        q);
+  }
+  franka_core::JointVelocityRange range{};
+  range.highest = withMargin(limits.arm.dq);
+  std::transform(range.highest.begin(), range.highest.end(), range.lowest.begin(), std::negate<>());
+  return range;
+}
+
+void limitVelocities(const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
+                     Joints& dq) noexcept {
+  dq =
+      franka_core::limitVelocities(rangeOf(limits, state.q_d), withMargin(limits.arm.ddq),
+                                   withMargin(limits.arm.dddq), dq, state.dq_d, state.ddq_d, kTick);
+}
+
+Joints shapePositions(const ShapingOptions& options, Joints q, const franka_core::RobotState& state,
+                      const franka_sim::MotionLimits& limits) {
+  filter(options, state.q_d, q);
+  if (options.rate_limiting) {
+    Joints dq;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      dq[i] = (q[i] - state.q_d[i]) / kTick;
+    }
+    limitVelocities(state, limits, dq);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      q[i] = state.q_d[i] + dq[i] * kTick;
+    }
+  }
+  return q;
+}
+
+Joints shapeVelocities(const ShapingOptions& options, Joints dq,
+                       const franka_core::RobotState& state,
+                       const franka_sim::MotionLimits& limits) noexcept {
+  filter(options, state.dq_d, dq);
+  if (options.rate_limiting) {
+    limitVelocities(state, limits, dq);
+  }
+  return dq;
+}
+
+franka_sim::Transform shapePose(const ShapingOptions& options, franka_sim::Transform pose,
+                                const franka_core::RobotState& state,
+                                const franka_sim::MotionLimits& limits) {
+  if (isFiltered(options)) {
+    pose = franka::cartesianLowpassFilter(kTick, pose, state.O_T_EE_c, options.cutoff_frequency);
+  }
+  // As in the client's loop: what is no transform after the filter goes to the robot, which judges.
+  if (options.rate_limiting && franka_core::isHomogeneousTransformation(pose)) {
+    const auto& [v, a, j] = limits.arm.translation;
+    const auto& [w, dw, ddw] = limits.arm.rotation;
+    pose =
+        franka::limitRate(v - kMargin, a - kMargin, j - kMargin, w - kMargin, dw - kMargin,
+                          ddw - kMargin, pose, state.O_T_EE_c, state.O_dP_EE_c, state.O_ddP_EE_c);
+  }
+  return pose;
+}
+
+std::array<double, 6> shapeTwist(const ShapingOptions& options, std::array<double, 6> twist,
+                                 const franka_core::RobotState& state,
+                                 const franka_sim::MotionLimits& limits) {
+  filter(options, state.O_dP_EE_c, twist);
+  if (options.rate_limiting) {
+    const auto& [v, a, j] = limits.arm.translation;
+    const auto& [w, dw, ddw] = limits.arm.rotation;
+    twist = franka::limitRate(v - kMargin, a - kMargin, j - kMargin, w - kMargin, dw - kMargin,
+                              ddw - kMargin, twist, state.O_dP_EE_c, state.O_ddP_EE_c);
+  }
+  return twist;
+}
+
+void setElbow(const std::array<double, 2>& elbow, franka_core::RobotCommand& command) noexcept {
+  command.valid_elbow = elbow[0] != 0.0 || elbow[1] != 0.0;
+  command.elbow_c = elbow;
+}
+
+void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbow,
+                const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
+                franka_core::RobotCommand& command) {
+  if (!command.valid_elbow || !allFinite(elbow)) {
+    return;
+  }
+  double& q3 = command.elbow_c[0];
+  if (isFiltered(options)) {
+    q3 = franka::lowpassFilter(kTick, q3, state.elbow_c[0], options.cutoff_frequency);
+  }
+  if (options.rate_limiting) {
+    const auto& [v, a, j] = limits.arm.elbow;
+    q3 = franka::limitRate(v - kMargin, a - kMargin, j - kMargin, q3, state.elbow_c[0],
+                           state.delbow_c[0], state.ddelbow_c[0]);
+  }
+}
+
+Joints shapeTorques(const ShapingOptions& options, Joints torque,
+                    const franka_core::RobotState& state, const franka_sim::MotionLimits& limits) {
+  filter(options, state.tau_J_d, torque);
+  return options.rate_limiting
+             ? franka::limitRate(withMargin(limits.arm.dtau), torque, state.tau_J_d)
+             : torque;
+}
+
+// The command as the controllers want it, each kind shaped by a function of its own. What is not
+// finite is handed on.
+void shapeAll(const ShapingOptions& options, ControlMode mode, const ArmCommands& wanted,
+              const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
+              franka_core::RobotCommand& command) {
+  if (contains(mode, ControlMode::JointTorque) && options.torques && allFinite(wanted.torque)) {
+    command.tau_J_d = shapeTorques(options, wanted.torque, state, limits);
+  }
+  if (contains(mode, ControlMode::JointPosition) && allFinite(wanted.position)) {
+    command.q_c = shapePositions(options, wanted.position, state, limits);
+  }
+  if (contains(mode, ControlMode::JointVelocity) && allFinite(wanted.velocity)) {
+    command.dq_c = shapeVelocities(options, wanted.velocity, state, limits);
+  }
+  if (contains(mode, ControlMode::CartesianPose)) {
+    if (allFinite(wanted.pose)) {
+      command.O_T_EE_c = shapePose(options, wanted.pose, state, limits);
+    }
+    shapeElbow(options, wanted.pose_elbow, state, limits, command);
+  }
+  if (contains(mode, ControlMode::CartesianVelocity)) {
+    if (allFinite(wanted.twist)) {
+      command.O_dP_EE_c = shapeTwist(options, wanted.twist, state, limits);
+    }
+    shapeElbow(options, wanted.twist_elbow, state, limits, command);
+  }
+}
+
+franka_core::RobotCommand unshaped(ControlMode mode, const ArmCommands& wanted) noexcept {
+  franka_core::RobotCommand command;
+  if (contains(mode, ControlMode::JointTorque)) {
+    command.tau_J_d = wanted.torque;
+  }
+  if (contains(mode, ControlMode::JointPosition)) {
+    command.q_c = wanted.position;
+  }
+  if (contains(mode, ControlMode::JointVelocity)) {
+    command.dq_c = wanted.velocity;
+  }
+  if (contains(mode, ControlMode::CartesianPose)) {
+    command.O_T_EE_c = wanted.pose;
+    setElbow(wanted.pose_elbow, command);
+  }
+  if (contains(mode, ControlMode::CartesianVelocity)) {
+    command.O_dP_EE_c = wanted.twist;
+    setElbow(wanted.twist_elbow, command);
+  }
+  return command;
+}
+
+}  // namespace
+
+franka_core::RobotCommand shapeCommand(const ShapingOptions& options, ControlMode mode,
+                                       const ArmCommands& wanted,
+                                       const franka_core::RobotState& state,
+                                       const franka_sim::MotionLimits& limits) noexcept {
+  franka_core::RobotCommand command = unshaped(mode, wanted);
+  command.message_id = state.message_id;
+  try {
+    shapeAll(options, mode, wanted, state, limits, command);
+  } catch (...) {
+    // libfranka's functions throw for what is checked here before; another libfranka may check
+    // more.
+    command = unshaped(mode, wanted);
+    command.message_id = state.message_id;
+  }
+  return command;
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,263 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/world.h>
+#include <franka_sim_mujoco/device_joints.h>
+#include <joint_limits_interface/joint_limits_urdf.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr char kLog[] = "device_joints";
+/// A blocked joint that is to move at a velocity runs on from where it is, not from where it would
+/// be: so far its target may be ahead of it. Ours; five times the drive's lag at that velocity.
+constexpr double kLeadTime = 0.02;  ///< [s]
+
+using hardware_interface::JointHandle;
+using transmission_interface::TransmissionInfo;
+
+bool claims(const std::list<hardware_interface::ControllerInfo>& controllers,
+            const std::string& joint, const char* interface) noexcept {
+  for (const auto& controller : controllers) {
+    for (const auto& claim : controller.claimed_resources) {
+      if (claim.hardware_interface == interface && claim.resources.count(joint) > 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+DeviceJoints::DeviceJoints(const ros::NodeHandle& node, franka_sim::World& world, std::string robot)
+    : node_(node), world_(world), robot_(std::move(robot)) {}
+
+std::set<std::string> DeviceJoints::names() const {
+  std::set<std::string> names;
+  for (const Joint& joint : joints_) {
+    names.insert(joint.name);
+  }
+  return names;
+}
+
+// --- set-up --------------------------------------------------------------------------------------
+
+void DeviceJoints::add(const TransmissionInfo& transmission, const urdf::Model& model) {
+  if (transmission.joints_.size() != 1) {
+    throw std::invalid_argument("the transmission '" + transmission.name_ +
+                                "' must have one joint but has " +
+                                std::to_string(transmission.joints_.size()) + ".");
+  }
+  const auto& info = transmission.joints_.front();
+  const urdf::JointConstSharedPtr described = model.getJoint(info.name_);
+  if (!described) {
+    throw std::invalid_argument("the transmission '" + transmission.name_ + "' names the joint '" +
+                                info.name_ + "', which the URDF does not have.");
+  }
+  const auto known = std::find_if(joints_.begin(), joints_.end(),
+                                  [&](const Joint& joint) { return joint.name == info.name_; });
+  if (known != joints_.end()) {
+    readInterfaces(info, &*known);
+    return;
+  }
+  joints_.emplace_back();
+  Joint& joint = joints_.back();
+  joint.name = info.name_;
+  joint.described = described;
+  joint.drive = &world_.drive(robot_, joint.name);
+  readInterfaces(info, &joint);
+  if (described->mimic) {
+    ROS_WARN_NAMED(kLog, "'%s' follows '%s' (mimic): it shows its state and takes no commands.",
+                   joint.name.c_str(), described->mimic->joint_name.c_str());
+    joint.takes_effort = joint.takes_position = joint.takes_velocity = false;
+    return;
+  }
+  readGains(&joint);
+}
+
+void DeviceJoints::readInterfaces(const transmission_interface::JointInfo& info,
+                                  Joint* joint) const {
+  static const std::string kPackage = "hardware_interface/";
+  for (const std::string& written : info.hardware_interfaces_) {
+    const std::string name = written.compare(0, kPackage.size(), kPackage) == 0
+                                 ? written.substr(kPackage.size())
+                                 : written;
+    if (name == "EffortJointInterface") {
+      joint->takes_effort = true;
+    } else if (name == "PositionJointInterface") {
+      joint->takes_position = true;
+    } else if (name == "VelocityJointInterface") {
+      joint->takes_velocity = true;
+    } else if (name != "JointStateInterface") {
+      ROS_WARN_NAMED(kLog, "The hardware interface '%s' of the joint '%s' is unknown: ignored.",
+                     written.c_str(), info.name_.c_str());
+    }
+  }
+}
+
+void DeviceJoints::readGains(Joint* joint) const {
+  const ros::NodeHandle gains(node_, "gazebo_ros_control/pid_gains/" + joint->name);
+  if (!ros::param::has(gains.getNamespace())) {
+    return;
+  }
+  joint->pid.emplace();
+  if (!joint->pid->init(gains, true)) {
+    throw std::invalid_argument("the parameters " + gains.getNamespace() +
+                                " are no PID gains: p is missing, or one of p, i, d is no number.");
+  }
+}
+
+void DeviceJoints::registerHandles(hardware_interface::JointStateInterface& states,
+                                   hardware_interface::EffortJointInterface& efforts,
+                                   hardware_interface::PositionJointInterface& positions,
+                                   hardware_interface::VelocityJointInterface& velocities) {
+  for (Joint& joint : joints_) {
+    franka_sim::JointMeasurement& measured = joint.measured;
+    states.registerHandle(hardware_interface::JointStateHandle(
+        joint.name, &measured.position, &measured.velocity, &measured.effort));
+    const auto state = states.getHandle(joint.name);
+    const auto offer = [&](auto* interface, double* command, Method method) {
+      const JointHandle handle(state, command);
+      interface->registerHandle(handle);
+      registerLimits(joint, handle, method);
+    };
+    if (joint.takes_effort) {
+      offer(&efforts, &joint.effort, Method::kEffort);
+    }
+    if (joint.takes_position) {
+      offer(&positions, &joint.position, Method::kPosition);
+    }
+    if (joint.takes_velocity) {
+      offer(&velocities, &joint.velocity, Method::kVelocity);
+    }
+  }
+  worldWasReset();
+}
+
+void DeviceJoints::registerLimits(const Joint& joint, const JointHandle& handle, Method method) {
+  joint_limits_interface::JointLimits limits;
+  if (!joint_limits_interface::getJointLimits(joint.described, limits)) {
+    return;
+  }
+  if (method == Method::kEffort && limits.has_effort_limits && limits.has_velocity_limits) {
+    effort_limits_.registerHandle({handle, limits});
+  } else if (method == Method::kPosition) {
+    position_limits_.registerHandle({handle, limits});
+  } else if (method == Method::kVelocity && limits.has_velocity_limits) {
+    velocity_limits_.registerHandle({handle, limits});
+  }
+}
+
+// --- every tick ----------------------------------------------------------------------------------
+
+void DeviceJoints::read() noexcept {
+  for (Joint& joint : joints_) {
+    joint.measured = joint.drive->measure();
+  }
+}
+
+void DeviceJoints::write(const ros::Duration& period) {
+  effort_limits_.enforceLimits(period);
+  position_limits_.enforceLimits(period);
+  velocity_limits_.enforceLimits(period);
+  for (Joint& joint : joints_) {
+    write(&joint, period);
+  }
+}
+
+void DeviceJoints::write(Joint* joint, const ros::Duration& period) {
+  switch (joint->method) {
+    case Method::kNone:
+      return;
+    case Method::kEffort:
+      joint->drive->applyEffort(joint->effort);
+      return;
+    case Method::kPosition:
+      if (joint->pid) {
+        joint->drive->applyEffort(
+            limited(*joint, joint->pid->computeCommand(positionError(*joint), period)));
+      } else {
+        joint->drive->follow(joint->position);
+      }
+      return;
+    case Method::kVelocity:
+      if (joint->pid) {
+        const double error = joint->velocity - joint->measured.velocity;
+        joint->drive->applyEffort(limited(*joint, joint->pid->computeCommand(error, period)));
+      } else if (std::isfinite(joint->velocity)) {
+        const double lead = std::abs(joint->velocity) * kLeadTime;
+        joint->followed =
+            std::clamp(joint->followed + joint->velocity * period.toSec(),
+                       joint->measured.position - lead, joint->measured.position + lead);
+        joint->drive->follow(joint->followed);
+      }
+      return;
+  }
+}
+
+double DeviceJoints::positionError(const Joint& joint) noexcept {
+  const double error = joint.position - joint.measured.position;
+  return joint.described->type == urdf::Joint::CONTINUOUS ? std::remainder(error, 2.0 * M_PI)
+                                                          : error;
+}
+
+double DeviceJoints::limited(const Joint& joint, double effort) noexcept {
+  const auto& limits = joint.described->limits;
+  return limits && limits->effort > 0 ? std::clamp(effort, -limits->effort, limits->effort)
+                                      : effort;
+}
+
+// --- controllers come and go ---------------------------------------------------------------------
+
+void DeviceJoints::doSwitch(
+    const std::list<hardware_interface::ControllerInfo>& start_list,
+    const std::list<hardware_interface::ControllerInfo>& stop_list) noexcept {
+  static constexpr std::pair<Method, const char*> kMethods[] = {
+      {Method::kEffort, "hardware_interface::EffortJointInterface"},
+      {Method::kPosition, "hardware_interface::PositionJointInterface"},
+      {Method::kVelocity, "hardware_interface::VelocityJointInterface"},
+  };
+  for (Joint& joint : joints_) {
+    for (const auto& [method, interface] : kMethods) {
+      if (joint.method == method && claims(stop_list, joint.name, interface)) {
+        choose(&joint, Method::kNone);
+      }
+    }
+    for (const auto& [method, interface] : kMethods) {
+      if (claims(start_list, joint.name, interface)) {
+        choose(&joint, method);
+      }
+    }
+  }
+}
+
+void DeviceJoints::choose(Joint* joint, Method method) noexcept {
+  joint->measured = joint->drive->measure();
+  joint->method = method;
+  joint->effort = joint->velocity = 0.0;
+  joint->position = joint->followed = joint->measured.position;
+  position_limits_.reset();
+  if (joint->pid) {
+    joint->pid->reset();
+  }
+  if (method == Method::kNone && (joint->takes_position || joint->takes_velocity)) {
+    joint->drive->follow(joint->measured.position);
+  } else if (method == Method::kNone) {
+    joint->drive->applyEffort(0.0);
+  }
+}
+
+void DeviceJoints::worldWasReset() noexcept {
+  for (Joint& joint : joints_) {
+    choose(&joint, joint.method);
+  }
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,355 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka/lowpass_filter.h>
+#include <franka_core/error_names.h>
+#include <franka_core/transform.h>
+#include <franka_sim/fci/serving.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim_mujoco/arm_parameters.h>
+#include <franka_sim_mujoco/controller_check.h>
+#include <franka_sim_mujoco/franka_hw_sim.h>
+#include <franka_sim_mujoco/param_reader.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr char kLog[] = "franka_hw_sim";
+constexpr double kDefaultTauExtLowpassFilter = 1.0;
+constexpr double kReportPeriod = 1.0;  ///< [s]
+
+using franka_hw::ControlMode;
+using transmission_interface::TransmissionInfo;
+
+double readFilter(const ros::NodeHandle& node) {
+  const double alpha =
+      readNumber(node, "tau_ext_lowpass_filter").value_or(kDefaultTauExtLowpassFilter);
+  if (alpha < 0.0 || alpha > 1.0) {
+    throw std::invalid_argument("The parameter " + node.resolveName("tau_ext_lowpass_filter") +
+                                " is " + std::to_string(alpha) +
+                                "; it must lie between 0 (nothing passes) and 1 (no filter).");
+  }
+  return alpha;
+}
+
+double readCutoff(const ros::NodeHandle& node) {
+  const double cutoff =
+      readNumber(node, "cutoff_frequency").value_or(franka::kDefaultCutoffFrequency);
+  if (!(cutoff > 0.0)) {
+    throw std::invalid_argument("The parameter " + node.resolveName("cutoff_frequency") + " is " +
+                                std::to_string(cutoff) +
+                                " Hz; it must be positive (from 1000 on nothing is filtered).");
+  }
+  return cutoff;
+}
+
+franka_core::ControllerMode readController(const ros::NodeHandle& node) {
+  const std::string name = readString(node, "internal_controller").value_or("joint_impedance");
+  if (name == "joint_impedance") {
+    return franka_core::ControllerMode::kJointImpedance;
+  }
+  if (name == "cartesian_impedance") {
+    return franka_core::ControllerMode::kCartesianImpedance;
+  }
+  throw std::invalid_argument("The parameter " + node.resolveName("internal_controller") + " is '" +
+                              name + "'; it must be joint_impedance or cartesian_impedance.");
+}
+
+SimArmOptions readOptions(const ros::NodeHandle& node, bool reflexes) {
+  SimArmOptions options;
+  options.filter_alpha = readFilter(node);
+  options.shaping.rate_limiting = readBool(node, "rate_limiting").value_or(true);
+  options.shaping.cutoff_frequency = readCutoff(node);
+  options.shaping.torques = reflexes;
+  options.internal_controller = readController(node);
+  return options;
+}
+
+void warnOfGains(const ros::NodeHandle& node, const std::string& arm_id) {
+  const std::string gains = gainsWithoutEffect(node, arm_id);
+  if (!gains.empty()) {
+    ROS_WARN_NAMED(kLog,
+                   "%s: these parameters have no effect: %s. The robot's own controller follows "
+                   "positions and velocities; only position/gains/*/p counts, as its stiffness "
+                   "[Nm/rad], and its damping follows from that.",
+                   arm_id.c_str(), gains.c_str());
+  }
+}
+
+/// In parentheses, where there is something to say beyond the error's name.
+std::string detailOf(const SimArm::Abort& abort, std::size_t error) {
+  std::string detail;
+  if (error == franka_sim::indexOf(franka_sim::ErrorFlag::kJointReflex) &&
+      abort.joint_collision.happened) {
+    detail = franka_sim::describeJointCollision(abort.joint_collision);
+  } else if (error == franka_sim::indexOf(franka_sim::ErrorFlag::kCartesianReflex) &&
+             abort.cartesian_collision.happened) {
+    detail = franka_sim::describeCartesianCollision(abort.cartesian_collision,
+                                                    franka_sim::ThresholdFrame::kStiffness);
+  } else if (error == franka_sim::indexOf(franka_sim::MotionFlag::kInvalidFrame)) {
+    detail = "of the commanded pose " + franka_core::transformFault(abort.pose);
+  }
+  return detail.empty() ? "" : " (" + detail + ")";
+}
+
+std::string describe(const SimArm::Abort& abort) {
+  std::string text;
+  for (std::size_t i = 0; i < franka_core::kErrorNames.size(); ++i) {
+    if (abort.errors[i]) {
+      text += (text.empty() ? "" : ", ") + std::string(franka_core::kErrorNames[i]) +
+              detailOf(abort, i);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+FrankaHWSim::FrankaHWSim() = default;
+FrankaHWSim::~FrankaHWSim() = default;
+
+bool FrankaHWSim::initSim(const std::string& robot_namespace, ros::NodeHandle model_nh,
+                          RobotHandle robot, const urdf::Model* urdf_model,
+                          std::vector<TransmissionInfo> transmissions) {
+  try {
+    if (robot.world == nullptr || urdf_model == nullptr) {
+      throw std::invalid_argument("it was given no world or no robot model");
+    }
+    arm_id_ = readArmId(model_nh, robot_namespace, robot.name);
+    start(model_nh, robot, *urdf_model, transmissions);
+    return true;
+  } catch (const std::exception& error) {
+    failure_ = error.what();
+    return false;
+  }
+}
+
+void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
+                        const urdf::Model& model,
+                        const std::vector<TransmissionInfo>& transmissions) {
+  franka_sim::World& world = *robot.world;
+  const bool has_hand = world.hasHand(robot.name, arm_id_);
+  nameJoints(model, has_hand);
+  franka_sim::ControlUnitParameters parameters =
+      readArmParameters(node, robot.urdf, arm_id_, model.getLink(arm_id_ + "_hand") != nullptr,
+                        gravityInBase(world, arm_id_ + "_link0"));
+  parameters.protocol_version = franka_sim::fci::protocolsOf(robot.robot_type).newest;
+  parameters.has_hand = has_hand;
+  parameters.setters_in_motion = true;
+  parameters.reflexes = readBool(node, "reflexes").value_or(false);
+  parameters.substeps = franka_sim::World::kSubsteps;
+  parameters.rotor_inertia = robot.arm_physics.rotor_inertia;
+  parameters.coulomb_friction = robot.arm_physics.coulomb_friction;
+  parameters.viscous_friction = robot.arm_physics.damping;
+  arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_),
+                                  readOptions(node, parameters.reflexes));
+  arm_->unit().setJointImpedance(readJointStiffness(node, arm_id_, parameters.joint_stiffness));
+  warnOfGains(node, arm_id_);
+  hand_ = has_hand ? &world.hand(robot.name, arm_id_) : nullptr;
+
+  singularity_threshold_ = readNumber(node, "singularity_warning_threshold").value_or(-1.0);
+  devices_ = std::make_unique<DeviceJoints>(node, world, robot.name);
+  for (const TransmissionInfo& transmission : transmissions) {
+    addTransmission(transmission, model);
+  }
+  checkComplete();
+  registerAll();
+  registerLimits(model);
+
+  const bool restart_controllers =
+      readBool(node, "restart_controllers_after_recovery").value_or(true);
+  const PlaceJoint place_joint = [this, &world](const std::string& joint, double position) {
+    if (findJoint(joint) == nullptr && devices_->names().count(joint) == 0) {
+      throw std::runtime_error("'" + joint + "' is no joint of this robot that is driven.");
+    }
+    world.setJointPosition(joint, position);
+  };
+  services_ = std::make_unique<ArmServices>(node, arm_id_, *arm_, robot.between_ticks, place_joint,
+                                            restart_controllers);
+  initialized_ = std::make_unique<realtime_tools::RealtimePublisher<std_msgs::Bool>>(
+      node, "initialized", 1, true);
+  publishInitialized(false);
+  reporter_ = node.createWallTimer(ros::WallDuration(kReportPeriod),
+                                   [this](const ros::WallTimerEvent& /*event*/) { report(); });
+}
+
+void FrankaHWSim::nameJoints(const urdf::Model& model, bool has_hand) {
+  for (std::size_t i = 0; i < kArmJoints; ++i) {
+    joints_[i].name = arm_id_ + "_joint" + std::to_string(i + 1);
+    if (!model.getJoint(joints_[i].name)) {
+      throw std::invalid_argument("its URDF has no joint '" + joints_[i].name +
+                                  "'. Does the parameter arm_id ('" + arm_id_ +
+                                  "') say the same as the URDF's argument arm_id?");
+    }
+  }
+  if (has_hand) {
+    joints_[kArmJoints].name = arm_id_ + "_finger_joint1";
+    joints_[kArmJoints + 1].name = arm_id_ + "_finger_joint2";
+  }
+}
+
+void FrankaHWSim::readSim(ros::Time time, ros::Duration /*period*/) {
+  arm_->read(time);
+  const franka::RobotState& state = arm_->state();
+  for (std::size_t i = 0; i < kArmJoints; ++i) {
+    joints_[i].position = state.q[i];
+    joints_[i].velocity = state.dq[i];
+    joints_[i].effort = state.tau_J[i];
+  }
+  if (hand_ != nullptr) {
+    const franka_sim::HandMeasurement fingers = hand_->measure();
+    for (std::size_t i = 0; i < 2; ++i) {
+      joints_[kArmJoints + i].position = fingers.q[i];
+      joints_[kArmJoints + i].velocity = fingers.dq[i];
+      joints_[kArmJoints + i].effort = joints_[kArmJoints + i].command;
+    }
+  }
+  devices_->read();
+  if (!initialized_published_) {
+    publishInitialized(true);
+  }
+}
+
+void FrankaHWSim::writeSim(ros::Time /*time*/, ros::Duration period) {
+  holdJointLimits(period);
+  arm_->write();
+  if (hand_ != nullptr) {
+    std::array<double, 2> force{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double command = joints_[kArmJoints + i].command;
+      force[i] = std::isfinite(command) ? command : 0.0;
+    }
+    hand_->applyForces(force);
+  }
+  devices_->write(period);
+}
+
+void FrankaHWSim::eStopActive(bool active) {
+  if (active && arm_->mode() != ControlMode::None) {
+    arm_->control(ControlMode::None, ControlMode::None);
+  }
+}
+
+void FrankaHWSim::worldWasReset() {
+  arm_->worldWasReset();
+  devices_->worldWasReset();
+  position_limits_.reset();
+  for (Joint& joint : joints_) {
+    joint.command = 0.0;
+  }
+}
+
+// --- controllers come and go ---------------------------------------------------------------------
+
+bool FrankaHWSim::checkForConflict(
+    const std::list<hardware_interface::ControllerInfo>& controllers) const {
+  return conflict(controllers, arm_id_);
+}
+
+bool FrankaHWSim::prepareSwitch(
+    const std::list<hardware_interface::ControllerInfo>& start_list,
+    const std::list<hardware_interface::ControllerInfo>& /*stop_list*/) {
+  for (const auto& controller : start_list) {
+    const std::string reason = whyRefused(controller, arm_id_, devices_->names());
+    if (!reason.empty()) {
+      ROS_ERROR_NAMED(kLog, "%s", reason.c_str());
+      return false;
+    }
+  }
+  if (claimedMode(start_list, arm_id_) == ControlMode::None) {
+    return true;
+  }
+  if (!arm_->connected()) {
+    ROS_ERROR_NAMED(kLog,
+                    "%s: controllers cannot be started while the arm is disconnected: call the "
+                    "service franka_control/connect first.",
+                    arm_id_.c_str());
+    return false;
+  }
+  if (arm_->userStopped() || arm_->needsRecovery()) {
+    ROS_WARN_NAMED(
+        kLog,
+        "%s: %s: the controller starts but has no effect before %sfranka_control/"
+        "error_recovery is called.",
+        arm_id_.c_str(),
+        arm_->userStopped() ? "the user stop is pressed" : "an error has stopped the arm",
+        arm_->userStopped() ? "the stop is released and " : "");
+  }
+  return true;
+}
+
+void FrankaHWSim::doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                           const std::list<hardware_interface::ControllerInfo>& stop_list) {
+  devices_->doSwitch(start_list, stop_list);
+  const ControlMode starts = claimedMode(start_list, arm_id_);
+  const ControlMode stops = claimedMode(stop_list, arm_id_);
+  const ControlMode rest = arm_->mode() & ~stops;
+  if (starts != ControlMode::None || stops != ControlMode::None) {
+    position_limits_.reset();
+    arm_->control(rest | starts, rest);
+  } else if (start_list.empty() && stop_list.empty()) {
+    position_limits_.reset();
+    arm_->controlRestarts();
+  }
+}
+
+FrankaHWSim::SwitchState FrankaHWSim::switchResult() const {
+  switch (arm_->switchResult()) {
+    case SimArm::Switch::kOngoing:
+      return SwitchState::ONGOING;
+    case SimArm::Switch::kRefused:
+      return SwitchState::ERROR;
+    default:
+      return SwitchState::DONE;
+  }
+}
+
+FrankaHWSim::SwitchState FrankaHWSim::switchResult(
+    const hardware_interface::ControllerInfo& controller) const {
+  // Who commands nothing of the arm need not wait for it.
+  return commandsArm(controller, arm_id_) ? switchResult() : SwitchState::DONE;
+}
+
+void FrankaHWSim::publishInitialized(bool initialized) {
+  if (initialized_->trylock()) {
+    initialized_->msg_.data = initialized;
+    initialized_->unlockAndPublish();
+    initialized_published_ = initialized;
+  }
+}
+
+void FrankaHWSim::report() {
+  const std::uint64_t refused = arm_->refusedCommands();
+  if (refused != reported_commands_) {
+    ROS_WARN_NAMED(kLog,
+                   "%s: %llu commands were not finite numbers: the running controller computes NaN "
+                   "or infinity. "
+                   "Such torques are ignored, such motions end.",
+                   arm_id_.c_str(), static_cast<unsigned long long>(refused - reported_commands_));
+    reported_commands_ = refused;
+  }
+  const SimArm::Abort& abort = arm_->lastAbort();
+  if (abort.count != reported_aborts_) {
+    reported_aborts_ = abort.count;
+    ROS_ERROR_NAMED(kLog,
+                    "%s: the motion was ended by the robot: %s. Its controllers have no effect "
+                    "before the action franka_control/error_recovery is called.",
+                    arm_id_.c_str(), describe(abort).c_str());
+  }
+  if (model_->takeSingularityWarning()) {
+    ROS_WARN_NAMED(kLog,
+                   "%s: the arm is close to a singularity (singularity_warning_threshold %g).",
+                   arm_id_.c_str(), singularity_threshold_);
+  }
+}
+
+}  // namespace franka_sim_mujoco
+
+PLUGINLIB_EXPORT_CLASS(franka_sim_mujoco::FrankaHWSim, franka_sim_mujoco::RobotHWSim)

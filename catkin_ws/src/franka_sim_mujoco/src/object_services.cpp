@@ -1,0 +1,135 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// SimServices: objects, states, gravity and snapshots.
+
+#include <franka_sim/physics/sizes.h>
+#include <franka_sim_mujoco/DeleteObject.h>
+#include <franka_sim_mujoco/GetBodyState.h>
+#include <franka_sim_mujoco/GetJointStates.h>
+#include <franka_sim_mujoco/GetWorld.h>
+#include <franka_sim_mujoco/RestoreSnapshot.h>
+#include <franka_sim_mujoco/SetBodyState.h>
+#include <franka_sim_mujoco/SetGravity.h>
+#include <franka_sim_mujoco/SetJointStates.h>
+#include <franka_sim_mujoco/SpawnObject.h>
+#include <franka_sim_mujoco/TakeSnapshot.h>
+#include <franka_sim_mujoco/sim_messages.h>
+#include <franka_sim_mujoco/sim_services.h>
+#include <franka_sim_mujoco/simulation.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+void describe(Simulation& simulation, GetWorld::Response& response) {
+  const SimulationInventory inventory = simulation.inventory();
+  response.robots = inventory.robots;
+  response.objects = inventory.objects;
+  response.bodies = inventory.bodies;
+  response.joints = inventory.joints;
+  response.cameras = inventory.cameras;
+  response.gravity = toVector(inventory.gravity);
+  response.paused = inventory.paused;
+  response.real_time_factor = inventory.real_time_factor;
+  const SimulationState state = simulation.state();
+  response.tick = state.tick;
+  response.time = state.time;
+}
+
+void readJoints(Simulation& simulation, const std::vector<std::string>& names,
+                sensor_msgs::JointState& state) {
+  simulation.withWorld([&](franka_sim::World& world) {
+    state.name = names.empty() ? world.joints() : names;
+    for (const std::string& name : state.name) {
+      const franka_sim::JointMeasurement joint = world.joint(name);
+      state.position.push_back(joint.position);
+      state.velocity.push_back(joint.velocity);
+      state.effort.push_back(joint.effort);
+    }
+  });
+  state.header.stamp = simulation.state().time;
+}
+
+void setJoints(Simulation& simulation, const SetJointStates::Request& request) {
+  const std::vector<double> velocities = request.velocities.empty()
+                                             ? std::vector<double>(request.names.size(), 0.0)
+                                             : request.velocities;
+  if (request.positions.size() != request.names.size() ||
+      velocities.size() != request.names.size()) {
+    throw std::runtime_error(
+        "There are " + std::to_string(request.names.size()) + " joint names, " +
+        std::to_string(request.positions.size()) + " positions and " +
+        std::to_string(request.velocities.size()) +
+        " velocities; each joint needs a position, and a velocity unless all are 0.");
+  }
+  simulation.setJoints(request.names, request.positions, velocities);
+}
+
+}  // namespace
+
+void SimServices::offerWorld() {
+  services_.offer<SpawnObject>(
+      "spawn_object", [this](SpawnObject::Request& request, SpawnObject::Response& response) {
+        response.warning =
+            simulation_.spawnObject(request.name, request.xml, fromMessage(request.pose));
+      });
+  services_.offer<DeleteObject>("delete_object",
+                                [this](DeleteObject::Request& request, DeleteObject::Response&) {
+                                  simulation_.removeObject(request.name);
+                                });
+  services_.offer<GetWorld>("get_world",
+                            [this](GetWorld::Request& /*request*/, GetWorld::Response& response) {
+                              describe(simulation_, response);
+                            });
+  services_.offer<SetGravity>(
+      "set_gravity", [this](SetGravity::Request& request, SetGravity::Response&) {
+        const auto gravity = fromMessage(request.gravity);
+        simulation_.withWorld([&](franka_sim::World& world) { world.setGravity(gravity); });
+      });
+  services_.offer<TakeSnapshot>(
+      "take_snapshot", [this](TakeSnapshot::Request& request, TakeSnapshot::Response& response) {
+        response.state_hash = simulation_.takeSnapshot(request.name);
+      });
+  services_.offer<RestoreSnapshot>("restore_snapshot", [this](RestoreSnapshot::Request& request,
+                                                              RestoreSnapshot::Response& response) {
+    response.state_hash = simulation_.restoreSnapshot(request.name);
+  });
+}
+
+void SimServices::offerStates() {
+  services_.offer<GetBodyState>(
+      "get_body_state", [this](GetBodyState::Request& request, GetBodyState::Response& response) {
+        simulation_.withWorld([&](franka_sim::World& world) {
+          response.pose = toMessage(world.bodyPose(request.body));
+          response.twist = toMessage(world.bodyTwist(request.body));
+        });
+      });
+  services_.offer<SetBodyState>(
+      "set_body_state", [this](SetBodyState::Request& request, SetBodyState::Response&) {
+        const franka_sim::Pose pose = fromMessage(request.pose);
+        const franka_sim::Twist twist = fromMessage(request.twist);
+        // Before the pose is set: all or nothing.
+        sizes::check(twist.linear, sizes::kFastest, "m/s", "The linear velocity");
+        sizes::check(twist.angular, sizes::kFastest, "rad/s", "The angular velocity");
+        simulation_.withWorld([&](franka_sim::World& world) {
+          world.setBodyPose(request.body, pose);
+          world.setBodyTwist(request.body, twist);
+        });
+      });
+  services_.offer<GetJointStates>("get_joint_states", [this](GetJointStates::Request& request,
+                                                             GetJointStates::Response& response) {
+    readJoints(simulation_, request.names, response.state);
+  });
+  services_.offer<SetJointStates>(
+      "set_joint_states", [this](SetJointStates::Request& request, SetJointStates::Response&) {
+        setJoints(simulation_, request);
+      });
+}
+
+}  // namespace franka_sim_mujoco

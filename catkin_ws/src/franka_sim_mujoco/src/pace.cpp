@@ -1,0 +1,80 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/pace.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+#include <string>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr double kClockRate = 1000.0;  ///< [Hz] a tick each
+/// [Hz] Chosen here: no node hears of the time more than 5 ms late, and a Python node, which takes
+/// 0.1 ms for a message, spends a fiftieth of a processor on it.
+constexpr double kFastClockRate = 200.0;
+
+constexpr std::int64_t kLongestRun = 20000000;  ///< [ns]
+constexpr timespec kShortSleep{0, 1000000};
+/// Fewer within kLongestRun are locks that were met, not waiting for the next tick; or ticks that
+/// are 5 ms and more apart, of which a short sleep delays none.
+constexpr std::int64_t kFewSleeps = 4;
+
+std::int64_t sleepsOfThread() noexcept {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nvcsw;
+}
+
+std::int64_t nanoseconds(clockid_t clock) noexcept {
+  constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
+}
+
+// Who asks something of the simulation waits meanwhile, for ten seconds at most (RequestQueue).
+constexpr std::chrono::seconds kPatience{5};
+
+}  // namespace
+
+std::int64_t monotonicNanoseconds() noexcept { return nanoseconds(CLOCK_MONOTONIC); }
+
+std::int64_t threadNanoseconds() noexcept { return nanoseconds(CLOCK_THREAD_CPUTIME_ID); }
+
+void ShortSleeps::sleepIfDue() noexcept {
+  const std::int64_t now = monotonicNanoseconds();
+  if (now - looked_ns_ < kLongestRun) {
+    return;
+  }
+  if (sleepsOfThread() - sleeps_ < kFewSleeps) {
+    nanosleep(&kShortSleep, nullptr);
+  }
+  looked_ns_ = monotonicNanoseconds();
+  sleeps_ = sleepsOfThread();
+}
+
+franka_sim::fci::Pace paceOf(double real_time_factor) {
+  if (!std::isfinite(real_time_factor) || real_time_factor < 0.0 ||
+      (real_time_factor > 0.0 && real_time_factor < kSlowestPace)) {
+    throw std::runtime_error("The real time factor " + std::to_string(real_time_factor) +
+                             " is wrong: it must be 0 (as fast as possible) or at least " +
+                             std::to_string(kSlowestPace) + ".");
+  }
+  franka_sim::fci::Pace pace;
+  pace.lockstep = pace.flows = true;
+  pace.by_clock = real_time_factor > 0.0;
+  pace.factor = real_time_factor;
+  pace.patience = kPatience;
+  return pace;
+}
+
+double clockRateOf(double real_time_factor) noexcept {
+  return real_time_factor > 0.0 && real_time_factor <= 1.0 ? kClockRate : kFastClockRate;
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,86 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/resource_uri.h>
+#include <franka_sim_mujoco/resources.h>
+#include <ros/package.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <initializer_list>
+#include <sstream>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+using Folders = std::vector<std::string>;
+
+void appendList(const std::string& list, Folders& folders) {
+  std::istringstream parts(list);
+  for (std::string folder; std::getline(parts, folder, ':');) {
+    if (!folder.empty()) {
+      folders.push_back(folder);
+    }
+  }
+}
+
+/// What packages that depend on gazebo_ros export under these attributes.
+Folders exportedFolders(std::initializer_list<const char*> attributes) {
+  Folders folders;
+  for (const char* attribute : attributes) {
+    Folders lists;
+    ros::package::getPlugins("gazebo_ros", attribute, lists);
+    for (const std::string& list : lists) {
+      appendList(list, folders);
+    }
+  }
+  return folders;
+}
+
+Folders withVariable(const char* variable, const Folders& exported) {
+  Folders folders;
+  const char* value = std::getenv(variable);
+  appendList(value != nullptr ? value : "", folders);
+  folders.insert(folders.end(), exported.begin(), exported.end());
+  return folders;
+}
+
+std::string packageFile(const std::string& package, const std::string& file) {
+  const std::string folder = ros::package::getPath(package);
+  return folder.empty() ? folder : folder + "/" + file;
+}
+
+}  // namespace
+
+std::string resolveUri(const std::string& uri) {
+  static const std::string kModel = "model://";
+  if (uri.compare(0, kModel.size(), kModel) != 0) {
+    return franka_sim::fileOfUri(uri, packageFile);
+  }
+  const std::string name = uri.substr(kModel.size());
+  for (const std::string& folder : gazeboModelFolders()) {
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    std::error_code error;
+    if (std::filesystem::exists(file, error)) {
+      return file.string();
+    }
+  }
+  return franka_sim::fileOfUri("package://" + name, packageFile);
+}
+
+Folders gazeboModelFolders() {
+  static const Folders kExported = exportedFolders({"gazebo_model_path"});
+  return withVariable("GAZEBO_MODEL_PATH", kExported);
+}
+
+Folders gazeboResourceFolders() {
+  static const Folders kExported = exportedFolders({"gazebo_resource_path", "gazebo_media_path"});
+  return withVariable("GAZEBO_RESOURCE_PATH", kExported);
+}
+
+Folders gazeboPluginFolders() {
+  static const Folders kExported = exportedFolders({"plugin_path"});
+  return kExported;
+}
+
+}  // namespace franka_sim_mujoco

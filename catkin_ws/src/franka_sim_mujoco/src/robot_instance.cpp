@@ -1,0 +1,223 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/joint_state_publisher.h>
+#include <franka_sim_mujoco/pace.h>
+#include <franka_sim_mujoco/robot_instance.h>
+#include <franka_sim_mujoco/transform_publisher.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr char kLog[] = "franka_sim_mujoco";
+
+/// The URDF names the hardware by the original's name; where the package franka_gazebo is not ours
+/// (it steps aside for the original) the same hardware has our own. So has Gazebo's default.
+std::string availableName(HardwareLoader& loader, const std::string& type) {
+  if (!loader.isClassAvailable(type)) {
+    for (const std::string original : {"franka_gazebo/", "gazebo_ros_control/"}) {
+      if (type.compare(0, original.size(), original) == 0) {
+        return "franka_sim_mujoco/" + type.substr(original.size());
+      }
+    }
+  }
+  return type;
+}
+
+/// So many ticks apart it is looked whether the awaited controllers run.
+constexpr int kStartReview = 50;
+
+/// Adds the time since its making to a sum, when there is one.
+class Stopwatch {
+ public:
+  explicit Stopwatch(bool runs) noexcept : last_(runs ? threadNanoseconds() : 0) {}
+  void lap(std::int64_t& sum) noexcept {
+    const std::int64_t now = threadNanoseconds();
+    sum += now - last_;
+    last_ = now;
+  }
+
+ private:
+  std::int64_t last_;
+};
+
+}  // namespace
+
+RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
+                             HardwareLoader& loader, BetweenTicks between_ticks)
+    : name_(plan.description.name), control_ticks_(plan.control_ticks) {
+  for (const auto& joint : plan.urdf.joints_) {
+    joints_.insert(joint.first);
+  }
+  world.addRobot(plan.description);
+  try {
+    start(plan, world, loader, std::move(between_ticks));
+  } catch (...) {
+    transforms_.reset();
+    joint_states_.reset();
+    manager_.reset();
+    hardware_.reset();
+    world.removeRobot(name_);
+    throw;
+  }
+}
+
+RobotInstance::~RobotInstance() = default;
+
+void RobotInstance::start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
+                          BetweenTicks between_ticks) {
+  if (!plan.fci_ip.empty()) {
+    serve(plan, world, std::move(between_ticks));
+  } else if (!plan.hardware_type.empty()) {
+    startHardware(plan, world, loader, std::move(between_ticks));
+  } else {
+    ROS_INFO_NAMED(kLog, "'%s' names no robotSimType: it stands in the world without hardware.",
+                   name_.c_str());
+  }
+}
+
+void RobotInstance::serve(const RobotPlan& plan, franka_sim::World& world,
+                          BetweenTicks between_ticks) {
+  try {
+    served_ = std::make_unique<ServedRobot>(plan, world, std::move(between_ticks));
+  } catch (const std::exception& error) {
+    throw std::runtime_error("'" + name_ + "' cannot be served at " + plan.fci_ip + ": " +
+                             error.what());
+  }
+  ROS_INFO_NAMED(kLog, "'%s' is served over the FCI at %s.", name_.c_str(), plan.fci_ip.c_str());
+}
+
+void RobotInstance::startHardware(const RobotPlan& plan, franka_sim::World& world,
+                                  HardwareLoader& loader, BetweenTicks between_ticks) {
+  const std::string type = availableName(loader, plan.hardware_type);
+  try {
+    hardware_ = loader.createSharedInstance(type);
+  } catch (const pluginlib::PluginlibException& error) {
+    throw std::runtime_error("The hardware plugin '" + type + "' of '" + name_ +
+                             "' cannot be loaded: " + error.what());
+  }
+  const ros::NodeHandle node(plan.robot_namespace);
+  RobotHandle robot{
+      &world,         name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks),
+      plan.robot_type};
+  if (!hardware_->initSim(plan.robot_namespace, node, std::move(robot), &plan.urdf,
+                          plan.transmissions)) {
+    const std::string reason = hardware_->failure();
+    throw std::runtime_error("The hardware of '" + name_ + "' (" + type + ") does not start: " +
+                             (reason.empty() ? "the log of the simulation says why." : reason));
+  }
+  manager_ = std::make_unique<controller_manager::ControllerManager>(hardware_.get(), node);
+  if (plan.joint_state_rate) {
+    joint_states_ = std::make_unique<JointStatePublisher>(node, *plan.joint_state_rate, plan.urdf,
+                                                          *hardware_, world);
+  }
+  if (plan.publish_transforms) {
+    transforms_ = std::make_unique<TransformPublisher>(node, plan.urdf);
+  }
+  awaited_controllers_ = plan.awaited_controllers;
+  start_ticks_left_ = awaited_controllers_.empty() ? 0 : kLongestStart;
+}
+
+bool RobotInstance::hasAnyOf(const std::vector<std::string>& joints) const {
+  return std::any_of(joints.begin(), joints.end(),
+                     [this](const std::string& joint) { return joints_.count(joint) > 0; });
+}
+
+void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
+  if (!hardware_) {
+    return;
+  }
+  Stopwatch watch(times != nullptr);
+  TickTimes unused;
+  TickTimes& sums = times != nullptr ? *times : unused;
+  const ros::Duration tick(franka_sim::World::kTick);
+  if (ticks_to_control_ > 0) {
+    --ticks_to_control_;
+  } else {
+    const ros::Duration period(control_ticks_ * franka_sim::World::kTick);
+    hardware_->readSim(time, period);
+    if (times != nullptr) {
+      watch.lap(sums.read);
+    }
+    updateControllers(time, period);
+    if (times != nullptr) {
+      watch.lap(sums.update);
+    }
+    restart_controllers_ = false;
+    ticks_to_control_ = control_ticks_ - 1;
+  }
+  if (joint_states_) {
+    joint_states_->tick(time);
+  }
+  hardware_->writeSim(time, tick);
+  if (times != nullptr) {
+    watch.lap(sums.write);
+  }
+  if (isStarting() && --start_ticks_left_ % kStartReview == 0) {
+    reviewStart();
+  }
+}
+
+void RobotInstance::reviewStart() {
+  std::vector<std::string> missing = awaited_controllers_;
+  for (const controller_manager::ControllerSpec& spec : manager_->getControllers()) {
+    if (spec.c->isRunning()) {
+      missing.erase(std::remove(missing.begin(), missing.end(), spec.info.name), missing.end());
+    }
+  }
+  if (missing.empty()) {
+    start_ticks_left_ = 0;
+  } else if (!isStarting()) {
+    std::string names;
+    for (const std::string& name : missing) {
+      names += (names.empty() ? "'" : "', '") + name;
+    }
+    ROS_WARN_NAMED(kLog,
+                   "'%s' has waited %d s of simulated time for its launch file to start %s': time "
+                   "does not wait for that any longer.",
+                   name_.c_str(), kLongestStart / 1000, names.c_str());
+  }
+}
+
+void RobotInstance::updateControllers(const ros::Time& time, const ros::Duration& period) {
+  try {
+    manager_->update(time, period, restart_controllers_);
+  } catch (const std::exception& error) {
+    // One controller is no reason to end the simulation of everything else.
+    thrown_report_.report(name_, error.what(),
+                          "The robot is stopped until another controller is started in its place.");
+    hardware_->eStopActive(true);
+  }
+}
+
+void RobotInstance::requireRest() const {
+  if (served_ && served_->isCommanded()) {
+    throw std::runtime_error("A client moves '" + name_ +
+                             "' over the FCI: end its motion before anything is put elsewhere.");
+  }
+}
+
+void RobotInstance::halt() {
+  if (served_) {
+    served_->robot().halt();
+  }
+}
+
+void RobotInstance::worldWasReset() {
+  if (served_) {
+    served_->robot().restart();
+  }
+  if (hardware_) {
+    hardware_->worldWasReset();
+    restart_controllers_ = true;
+    ticks_to_control_ = 0;
+  }
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,218 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/fci/serving.h>
+#include <franka_sim/physics/physics_config.h>
+#include <franka_sim_mujoco/arm_parameters.h>
+#include <franka_sim_mujoco/param_reader.h>
+#include <franka_sim_mujoco/resources.h>
+#include <franka_sim_mujoco/robot_instance.h>
+#include <franka_sim_mujoco/robot_type.h>
+#include <ros/console.h>
+#include <ros/package.h>
+#include <tinyxml2.h>
+#include <transmission_interface/transmission_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr char kLog[] = "franka_sim_mujoco";
+
+/// What the URDF's <gazebo><plugin> element says about hardware.
+struct PluginElement {
+  std::string hardware_type, robot_namespace;
+  double control_period{1e-3};
+};
+
+std::string childText(const tinyxml2::XMLElement& element, const char* name) {
+  const tinyxml2::XMLElement* child = element.FirstChildElement(name);
+  return child != nullptr && child->GetText() != nullptr ? child->GetText() : "";
+}
+
+PluginElement readPluginElement(const std::string& urdf) {
+  PluginElement result;
+  tinyxml2::XMLDocument document;
+  if (document.Parse(urdf.c_str()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) {
+    throw std::runtime_error("The robot description is not XML: " +
+                             std::string(document.ErrorStr()));
+  }
+  for (const auto* gazebo = document.RootElement()->FirstChildElement("gazebo"); gazebo != nullptr;
+       gazebo = gazebo->NextSiblingElement("gazebo")) {
+    for (const auto* plugin = gazebo->FirstChildElement("plugin"); plugin != nullptr;
+         plugin = plugin->NextSiblingElement("plugin")) {
+      const char* library = plugin->Attribute("filename");
+      if (plugin->FirstChildElement("robotSimType") != nullptr) {
+        result.hardware_type = childText(*plugin, "robotSimType");
+      } else if (library != nullptr &&
+                 std::string(library).find("gazebo_ros_control") != std::string::npos) {
+        result.hardware_type = "gazebo_ros_control/DefaultRobotHWSim";
+      } else {
+        continue;
+      }
+      result.robot_namespace = childText(*plugin, "robotNamespace");
+      const auto* period = plugin->FirstChildElement("controlPeriod");
+      if (period != nullptr &&
+          (period->QueryDoubleText(&result.control_period) != tinyxml2::XML_SUCCESS ||
+           !(result.control_period > 0.0 && result.control_period <= 1.0))) {
+        throw std::runtime_error("The controlPeriod of the robot description is '" +
+                                 childText(*plugin, "controlPeriod") +
+                                 "'; it must be a time in seconds, above 0 and up to 1.");
+      }
+      return result;
+    }
+  }
+  return result;
+}
+
+/// "panda" or "fr3"; the log tells which, and why.
+std::string chooseRobotType(const ros::NodeHandle& node, const RobotPlan& plan) {
+  const std::string parameter = node.resolveName("robot_type");
+  const std::optional<std::string> asked = readString(node, "robot_type");
+  if (asked && !isRobotType(*asked)) {
+    throw std::invalid_argument("The parameter " + parameter + " is '" + *asked +
+                                "'; it must be panda or fr3.");
+  }
+  const RobotType type = tellRobotType(asked, plan.urdf, plan.arm_id);
+  if (!type.warning.empty()) {
+    ROS_WARN_NAMED(kLog, "'%s' is simulated as %s, as the parameter %s says, although %s.",
+                   plan.description.name.c_str(), type.name.c_str(), parameter.c_str(),
+                   type.warning.c_str());
+  } else {
+    ROS_INFO_NAMED(kLog, "'%s' is simulated as %s: %s (parameter %s).",
+                   plan.description.name.c_str(), type.name.c_str(), type.why.c_str(),
+                   parameter.c_str());
+  }
+  return type.name;
+}
+
+franka_sim::JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& robot_type) {
+  const std::string friction = readString(node, "friction").value_or("none");
+  const std::string folder = ros::package::getPath("franka_description");
+  if (folder.empty()) {
+    ROS_WARN_NAMED(kLog,
+                   "The package franka_description was not found: joints get the default physics.");
+    return franka_sim::JointPhysics{};
+  }
+  return franka_sim::readJointPhysics(folder + "/config/physics.yaml", robot_type, friction);
+}
+
+/// As Gazebo's spawner: the description's own robotNamespace counts, the order's where it has none.
+std::string chooseNamespace(const SpawnOrder& order, const PluginElement& plugin) {
+  const std::string& own = plugin.robot_namespace;
+  if (own.empty()) {
+    return order.robot_namespace.empty() ? "/" : order.robot_namespace;
+  }
+  std::string why;
+  if (!order.robot_namespace.empty() && ros::names::validate(own, why) &&
+      ros::names::resolve(own) != ros::names::resolve(order.robot_namespace)) {
+    ROS_WARN_NAMED(kLog,
+                   "'%s' lives in the namespace %s, as the robotNamespace of its description says, "
+                   "not in %s: its parameters and controllers are looked for there.",
+                   order.name.c_str(), ros::names::resolve(own).c_str(),
+                   order.robot_namespace.c_str());
+  }
+  return own;
+}
+
+/// A served arm stands at its initial positions as a real one would. Joints without one stay so.
+void comeToRest(RobotPlan& plan) {
+  const franka_sim::ControlUnitParameters unit{
+      franka_core::ArmModel::fromUrdf(plan.description.urdf, plan.arm_id)};
+  const std::array<double, 7> deviation = franka_sim::fci::restingNear({}, unit.joint_stiffness);
+  for (std::size_t i = 0; i < deviation.size(); ++i) {
+    const auto joint =
+        plan.description.initial_positions.find(plan.arm_id + "_joint" + std::to_string(i + 1));
+    if (joint != plan.description.initial_positions.end()) {
+      joint->second += deviation[i];
+    }
+  }
+}
+
+/// Positions of joints that the robot does not have are left out, with a warning: the original's
+/// launch files name the fingers also where there is no hand.
+std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf::Model& model) {
+  std::map<std::string, double> known;
+  std::string unknown;
+  for (const auto& [joint, position] : order.initial_positions) {
+    if (!model.getJoint(joint)) {
+      unknown += (unknown.empty() ? "" : ", ") + joint;
+      continue;
+    }
+    if (!std::isfinite(position)) {
+      throw std::runtime_error("The initial position of '" + joint + "' is not a finite number.");
+    }
+    known[joint] = position;
+  }
+  if (!unknown.empty()) {
+    ROS_WARN_NAMED(kLog,
+                   "The robot '%s' does not have these joints, for which initial positions were "
+                   "given: %s. They are ignored.",
+                   order.name.c_str(), unknown.c_str());
+  }
+  return known;
+}
+
+}  // namespace
+
+RobotPlan planRobot(const SpawnOrder& order) {
+  RobotPlan plan;
+  if (order.name.empty()) {
+    throw std::runtime_error("A robot needs a name.");
+  }
+  if (!plan.urdf.initString(order.urdf)) {
+    throw std::runtime_error(
+        "The robot description of '" + order.name +
+        "' is not a URDF that can be read; the lines above in the log say why.");
+  }
+  const PluginElement plugin = readPluginElement(order.urdf);
+  plan.control_ticks =
+      std::max(1, static_cast<int>(std::lround(plugin.control_period / franka_sim::World::kTick)));
+  plan.robot_namespace = chooseNamespace(order, plugin);
+  std::string why;
+  if (!ros::names::validate(plan.robot_namespace, why)) {
+    throw std::runtime_error("'" + plan.robot_namespace + "' is no valid namespace: " + why);
+  }
+  const ros::NodeHandle node(plan.robot_namespace);
+  plan.fci_ip = readString(node, "fci_ip").value_or("");
+  plan.hardware_type = plan.fci_ip.empty() ? plugin.hardware_type : "";
+  if (!plan.hardware_type.empty() &&
+      !transmission_interface::TransmissionParser::parse(order.urdf, plan.transmissions)) {
+    throw std::runtime_error("The transmissions of '" + order.name + "' cannot be read.");
+  }
+
+  std::istringstream names(readString(node, "awaited_controllers").value_or(""));
+  plan.awaited_controllers.assign(std::istream_iterator<std::string>(names), {});
+  plan.publish_transforms = readBool(node, "publish_transforms").value_or(false);
+  plan.joint_state_rate = readNumber(node, "joint_state_rate");
+  if (plan.joint_state_rate &&
+      !(*plan.joint_state_rate > 0.0 && *plan.joint_state_rate <= 1000.0)) {
+    throw std::runtime_error("The parameter " + node.resolveName("joint_state_rate") + " is " +
+                             std::to_string(*plan.joint_state_rate) +
+                             " Hz; it must be above 0 and at most 1000 Hz.");
+  }
+
+  plan.arm_id = readArmId(node, plan.robot_namespace, order.name);
+  plan.description.name = order.name;
+  plan.description.urdf = order.urdf;
+  plan.description.resolve = resolveUri;
+  plan.description.base = order.pose;
+  plan.description.initial_positions = knownPositions(order, plan.urdf);
+  if (plan.urdf.getJoint(plan.arm_id + "_joint1")) {
+    plan.robot_type = chooseRobotType(node, plan);
+    plan.arm_physics = choosePhysics(node, plan.robot_type);
+    franka_sim::applyJointPhysics(plan.arm_physics, plan.arm_id, plan.description);
+    if (!plan.fci_ip.empty()) {
+      comeToRest(plan);
+    }
+  }
+  return plan;
+}
+
+}  // namespace franka_sim_mujoco

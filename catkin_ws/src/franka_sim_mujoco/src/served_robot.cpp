@@ -1,0 +1,140 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/error_names.h>
+#include <franka_msgs/SetLoad.h>
+#include <franka_sim/fci/serving.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim_mujoco/GetServedRobot.h>
+#include <franka_sim_mujoco/SetPacketDelay.h>
+#include <franka_sim_mujoco/SetPacketLoss.h>
+#include <franka_sim_mujoco/arm_parameters.h>
+#include <franka_sim_mujoco/robot_instance.h>
+#include <franka_sim_mujoco/served_robot.h>
+#include <ros/console.h>
+#include <std_srvs/SetBool.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+/// The robot's own configuration, as the user enters it in Desk, comes from the same parameters as
+/// that of a robot under controllers in process; how it behaves comes from the FCI.
+franka_sim::ControlUnitParameters unitParameters(const RobotPlan& plan, franka_sim::World& world,
+                                                 bool has_hand) {
+  const ros::NodeHandle node(plan.robot_namespace);
+  franka_sim::ControlUnitParameters parameters = readArmParameters(
+      node, plan.description.urdf, plan.arm_id, plan.urdf.getLink(plan.arm_id + "_hand") != nullptr,
+      gravityInBase(world, plan.arm_id + "_link0"));
+  parameters.has_hand = has_hand;
+  parameters.substeps = franka_sim::World::kSubsteps;
+  parameters.rotor_inertia = plan.arm_physics.rotor_inertia;
+  parameters.coulomb_friction = plan.arm_physics.coulomb_friction;
+  parameters.viscous_friction = plan.arm_physics.damping;
+  franka_sim::behaveAsOverFci(parameters, franka_sim::fci::protocolsOf(plan.robot_type).newest);
+  return parameters;
+}
+
+franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, franka_sim::World& world) {
+  const std::string& name = plan.description.name;
+  if (!plan.urdf.getJoint(plan.arm_id + "_joint1")) {
+    throw std::runtime_error("its URDF has no joint '" + plan.arm_id +
+                             "_joint1'. Does the parameter arm_id ('" + plan.arm_id +
+                             "') say the same as the URDF's argument arm_id?");
+  }
+  std::optional<franka_sim::fci::SimRobot::Hand> hand;
+  if (world.hasHand(name, plan.arm_id)) {
+    hand = franka_sim::fci::servedHand(world.hand(name, plan.arm_id));
+  }
+  const franka_sim::ControlUnitParameters unit = unitParameters(plan, world, hand.has_value());
+  return franka_sim::fci::SimRobot(
+      unit, world.arm(name, plan.arm_id),
+      franka_sim::fci::servedAt(plan.fci_ip, franka_sim::fci::protocolsOf(plan.robot_type),
+                                unit.model),
+      hand);
+}
+
+void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) {
+  const franka_core::RobotState& state = robot.unit().state();
+  response.text = franka_sim::fci::describe(robot);
+  response.mode = static_cast<std::uint8_t>(state.robot_mode);
+  response.protocol = robot.server().version();
+  for (std::size_t i = 0; i < state.errors.size(); ++i) {
+    if (state.errors[i]) {
+      response.errors.emplace_back(franka_core::kErrorNames[i]);
+    }
+  }
+  response.hash = robot.hash();
+  std::copy(state.q.begin(), state.q.end(), response.q.begin());
+}
+
+}  // namespace
+
+ServedRobot::ServedRobot(const RobotPlan& plan, franka_sim::World& world,
+                         BetweenTicks between_ticks)
+    : between_ticks_(std::move(between_ticks)),
+      robot_(makeRobot(plan, world)),
+      services_(ros::NodeHandle(ros::NodeHandle(plan.robot_namespace), "franka_sim")) {
+  robot_.onCollision([name = plan.description.name](const std::string& what) {
+    ROS_WARN_STREAM("Robot '" << name << "': " << what);
+  });
+  robot_.onRefusal([name = plan.description.name](const std::string& what) {
+    ROS_WARN_STREAM("Robot '" << name << "': " << what);
+  });
+  offerSwitches();
+  offerLink();
+  offerStates();
+}
+
+template <typename Service>
+void ServedRobot::offer(
+    const std::string& name,
+    std::function<void(typename Service::Request&, typename Service::Response&)> handler) {
+  services_.offer<Service>(name, [this, handler](typename Service::Request& request,
+                                                 typename Service::Response& response) {
+    between_ticks_([&] { handler(request, response); });
+  });
+}
+
+void ServedRobot::offerSwitch(const std::string& name,
+                              void (franka_sim::ControlUnit::*turn)(bool)) {
+  offer<std_srvs::SetBool>(name, [this, turn](auto& request, auto& /*response*/) {
+    (robot_.unit().*turn)(request.data != 0);
+  });
+}
+
+void ServedRobot::offerSwitches() {
+  offerSwitch("set_user_stop", &franka_sim::ControlUnit::setUserStop);
+  offerSwitch("set_guiding", &franka_sim::ControlUnit::setGuiding);
+  offerSwitch("set_fci", &franka_sim::ControlUnit::setFciActive);
+  offer<std_srvs::SetBool>("set_brakes", [this](auto& request, auto& /*response*/) {
+    request.data != 0 ? robot_.unit().closeBrakes() : robot_.unit().openBrakes();
+  });
+}
+
+void ServedRobot::offerLink() {
+  offer<SetPacketLoss>("set_packet_loss", [this](auto& request, auto& /*response*/) {
+    robot_.link().setLoss(request.probability, request.seed);
+    robot_.link().loseNext(request.next);
+  });
+  offer<SetPacketDelay>("set_packet_delay", [this](auto& request, auto& /*response*/) {
+    robot_.link().setDelay(request.ticks);
+  });
+}
+
+void ServedRobot::offerStates() {
+  offer<franka_msgs::SetLoad>("set_load", [this](auto& request, auto& /*response*/) {
+    franka_core::Payload load{request.mass, {}, {}};
+    std::copy(request.F_x_center_load.begin(), request.F_x_center_load.end(), load.com.begin());
+    std::copy(request.load_inertia.begin(), request.load_inertia.end(), load.inertia.begin());
+    franka_sim::fci::setLoad(robot_, load);
+  });
+  offer<GetServedRobot>("get_state",
+                        [this](auto& /*request*/, auto& response) { fill(robot_, response); });
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,283 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/to_franka.h>
+#include <franka_sim_mujoco/sim_arm.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+using franka_core::MotionGeneratorMode;
+using franka_core::RobotMode;
+using franka_hw::ControlMode;
+
+template <std::size_t N>
+void smooth(double alpha, const std::array<double, N>& signal,
+            std::array<double, N>& filtered) noexcept {
+  for (std::size_t i = 0; i < N; ++i) {
+    filtered[i] += alpha * (signal[i] - filtered[i]);
+  }
+}
+
+template <std::size_t N>
+bool allFinite(const std::array<double, N>& values) noexcept {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
+}
+
+bool allFinite(const franka_core::RobotCommand& command) noexcept {
+  return allFinite(command.tau_J_d) && allFinite(command.q_c) && allFinite(command.dq_c) &&
+         allFinite(command.O_T_EE_c) && allFinite(command.O_dP_EE_c) && allFinite(command.elbow_c);
+}
+
+/// An arm at full speed comes to rest within half a second.
+constexpr int kLongestStop = 2000;  // [ticks]
+
+bool contains(ControlMode mode, ControlMode part) noexcept {
+  return (mode & part) != ControlMode::None;
+}
+
+MotionGeneratorMode generatorOf(ControlMode mode) noexcept {
+  if (contains(mode, ControlMode::JointPosition)) {
+    return MotionGeneratorMode::kJointPosition;
+  }
+  if (contains(mode, ControlMode::JointVelocity)) {
+    return MotionGeneratorMode::kJointVelocity;
+  }
+  if (contains(mode, ControlMode::CartesianPose)) {
+    return MotionGeneratorMode::kCartesianPosition;
+  }
+  if (contains(mode, ControlMode::CartesianVelocity)) {
+    return MotionGeneratorMode::kCartesianVelocity;
+  }
+  return MotionGeneratorMode::kNone;
+}
+
+}  // namespace
+
+SimArm::SimArm(const franka_sim::ControlUnitParameters& parameters, franka_sim::ArmPlant& plant,
+               const SimArmOptions& options)
+    : unit_(parameters), plant_(plant), options_(options) {
+  unit_.setUserStop(false);
+}
+
+// --- a tick --------------------------------------------------------------------------------------
+
+void SimArm::read(const ros::Time& time) noexcept {
+  unit_.observe(plant_.measure());
+  if (switch_ == Switch::kOngoing) {
+    tryToStart();
+  }
+  time_ = franka::Duration(time.toNSec() / 1000000);
+  if (options_.filter_alpha < 1.0) {
+    filter();
+  }
+  show();
+  watch();
+}
+
+void SimArm::show() noexcept {
+  franka_core::toFranka(unit_.state(), state_);
+  state_.time = time_;
+  if (options_.filter_alpha < 1.0) {
+    state_.tau_ext_hat_filtered = tau_ext_filtered_;
+    state_.O_F_ext_hat_K = O_F_ext_filtered_;
+    state_.K_F_ext_hat_K = K_F_ext_filtered_;
+    showContacts();
+  }
+}
+
+// The manual's formulas are for the values that are shown; reflexes have a rule of their own.
+void SimArm::showContacts() noexcept {
+  if (unit_.parameters().reflexes) {
+    return;
+  }
+  const franka_sim::CollisionThresholds& thresholds = unit_.thresholds();
+  state_.joint_contact = franka_sim::above(state_.tau_ext_hat_filtered, thresholds.lower_torque);
+  state_.joint_collision = franka_sim::above(state_.tau_ext_hat_filtered, thresholds.upper_torque);
+  state_.cartesian_contact = franka_sim::above(state_.K_F_ext_hat_K, thresholds.lower_force);
+  state_.cartesian_collision = franka_sim::above(state_.K_F_ext_hat_K, thresholds.upper_force);
+}
+
+void SimArm::filter() noexcept {
+  const franka_core::RobotState& state = unit_.state();
+  const double alpha = filter_is_fresh_ ? 1.0 : options_.filter_alpha;
+  smooth(alpha, state.tau_ext_hat_filtered, tau_ext_filtered_);
+  smooth(alpha, state.O_F_ext_hat_K, O_F_ext_filtered_);
+  smooth(alpha, state.K_F_ext_hat_K, K_F_ext_filtered_);
+  filter_is_fresh_ = false;
+}
+
+void SimArm::write() noexcept {
+  const std::array<double, 7>& motor_torque = unit_.actuate(command());
+  plant_.setBrakes(unit_.brakesClosed());
+  plant_.applyTorques(motor_torque);
+}
+
+const franka_core::RobotCommand* SimArm::command() noexcept {
+  if (unit_.state().robot_mode != RobotMode::kMove || switch_ == Switch::kOngoing) {
+    return nullptr;
+  }
+  command_ = shapeCommand(options_.shaping, mode_, commands_, unit_.state(), unit_.limits());
+  if (allFinite(command_)) {
+    return &command_;
+  }
+  refused_commands_.fetch_add(1, std::memory_order_relaxed);
+  return generates() ? &command_ : nullptr;
+}
+
+// Tells the other threads how the arm fares.
+void SimArm::watch() noexcept {
+  const bool faulty = unit_.state().robot_mode == RobotMode::kReflex;
+  if (faulty && !faulty_.load(std::memory_order_relaxed)) {
+    ++last_abort_.count;
+    last_abort_.errors = unit_.state().errors;
+    last_abort_.joint_collision = unit_.jointCollision();
+    last_abort_.cartesian_collision = unit_.cartesianCollision();
+    last_abort_.pose = command_.O_T_EE_c;
+    abort_.write(last_abort_);
+  }
+  faulty_.store(faulty, std::memory_order_relaxed);
+}
+
+// --- controllers come and go ---------------------------------------------------------------------
+
+bool SimArm::generates() const noexcept { return generatorOf(mode_) != MotionGeneratorMode::kNone; }
+
+bool SimArm::canConnect() const noexcept {
+  return !userStopped() && connected() &&
+         (unit_.state().robot_mode == RobotMode::kIdle ||
+          unit_.state().robot_mode == RobotMode::kMove);
+}
+
+void SimArm::control(ControlMode mode, ControlMode without) noexcept {
+  unit_.stopMotion();
+  mode_ = mode;
+  fallback_ = without;
+  needs_recovery_ = needs_recovery_ && (userStopped() || mode == ControlMode::None);
+  connect();
+}
+
+void SimArm::controlRestarts() noexcept {
+  if (mode_ != ControlMode::None && !needs_recovery_ &&
+      (unit_.state().robot_mode != RobotMode::kMove || generates())) {
+    unit_.stopMotion();
+    connect();
+  }
+}
+
+void SimArm::connect() noexcept {
+  switch_ = Switch::kDone;
+  ticks_waited_ = 0;
+  resetCommands();
+  if (mode_ != ControlMode::None && canConnect()) {
+    tryToStart();
+  }
+}
+
+void SimArm::tryToStart() noexcept {
+  if (!canConnect()) {
+    switch_ = Switch::kDone;
+    return;
+  }
+  franka_sim::ControlUnit::MoveRequest request;
+  request.motion_generator_mode = generatorOf(mode_);
+  request.controller_mode = contains(mode_, ControlMode::JointTorque)
+                                ? franka_core::ControllerMode::kExternalController
+                                : options_.internal_controller;
+  if (unit_.startMotion(request) != franka_sim::ControlUnit::Status::kMotionStarted) {
+    switch_ = Switch::kOngoing;
+    if (++ticks_waited_ > kLongestStop) {
+      refuse(Refusal::kNotAtRest);
+    }
+    return;
+  }
+  if (unit_.state().robot_mode != RobotMode::kMove) {
+    refuse(Refusal::kSingular);
+    return;
+  }
+  switch_ = Switch::kDone;
+  resetCommands();
+  // Controllers that start in this very tick read where the new motion begins, not the old one's
+  // end: positions that begin with a step make every rate limiter oscillate.
+  show();
+}
+
+void SimArm::refuse(Refusal why) noexcept {
+  refusal_.store(why, std::memory_order_relaxed);
+  switch_ = Switch::kRefused;
+  mode_ = fallback_;
+  resetCommands();
+  if (mode_ == ControlMode::JointTorque) {
+    unit_.startTorqueControl();
+  }
+}
+
+// The last commands of a controller that went must not act on.
+void SimArm::resetCommands() noexcept {
+  const franka_core::RobotState& state = unit_.state();
+  commands_ = ArmCommands();
+  commands_.position = state.q_d;
+  commands_.pose = state.O_T_EE_c;
+}
+
+// --- hands on the robot --------------------------------------------------------------------------
+
+void SimArm::setUserStop(bool pressed) noexcept {
+  if (pressed == userStopped()) {
+    return;
+  }
+  unit_.setUserStop(pressed);
+  user_stopped_.store(pressed, std::memory_order_relaxed);
+  needs_recovery_ = true;
+}
+
+franka_sim::RequestStatus SimArm::recover() noexcept {
+  if (userStopped()) {
+    return franka_sim::RequestStatus::kNotPossible;
+  }
+  const franka_sim::RequestStatus status = unit_.automaticErrorRecovery();
+  if (status == franka_sim::RequestStatus::kSuccess) {
+    needs_recovery_ = false;
+  }
+  return status;
+}
+
+bool SimArm::recovering() const noexcept {
+  return unit_.state().robot_mode == RobotMode::kAutomaticErrorRecovery;
+}
+
+franka_sim::RequestStatus SimArm::setConnected(bool connected) noexcept {
+  if (!connected && mode_ != ControlMode::None) {
+    return franka_sim::RequestStatus::kNotPossible;
+  }
+  unit_.setFciActive(connected);
+  connected_.store(connected, std::memory_order_relaxed);
+  return franka_sim::RequestStatus::kSuccess;
+}
+
+void SimArm::worldWasReset() noexcept {
+  // The history of a motion ends here; its controllers start anew with the next tick.
+  const bool moving = unit_.state().robot_mode == RobotMode::kMove && generates();
+  if (moving) {
+    unit_.stopMotion();
+  }
+  unit_.restart();
+  filter_is_fresh_ = true;
+  resetCommands();
+  ticks_waited_ = 0;
+  if (moving) {
+    switch_ = Switch::kOngoing;
+  }
+}
+
+void SimArm::jointsWerePlaced() noexcept {
+  unit_.stopMotion();
+  switch_ = Switch::kDone;
+  worldWasReset();
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,429 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/bare_steps.h>
+#include <franka_sim_mujoco/resources.h>
+#include <franka_sim_mujoco/simulation.h>
+#include <ros/console.h>
+#include <ros/init.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr char kLog[] = "franka_sim_mujoco";
+constexpr std::uint32_t kTickNanoseconds = 1000000;
+constexpr std::chrono::milliseconds kServedNap{1};  ///< where clients want to be heard
+constexpr std::chrono::milliseconds kStandStillNap{20};
+/// Compiling a world with several robots takes seconds on a slow machine.
+constexpr std::chrono::milliseconds kSpawnTimeout{60000};
+constexpr double kMostClockRate = 1000.0;  ///< [Hz] decision 22
+
+}  // namespace
+
+Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
+    : loader_("franka_sim_mujoco", "franka_sim_mujoco::RobotHWSim"),
+      world_(options.world_file, resolveUri),
+      clock_(node),
+      host_([this] { advance(); }, paceOf(options.real_time_factor)),
+      real_time_factor_(options.real_time_factor),
+      clock_rate_(options.clock_rate),
+      paused_(options.paused) {
+  if (!std::isfinite(clock_rate_) || clock_rate_ < 0.0 || clock_rate_ > kMostClockRate) {
+    throw std::runtime_error("The clock rate " + std::to_string(clock_rate_) +
+                             " Hz is wrong: it must be 0 (as fits the real time factor), or above "
+                             "it and at most " +
+                             std::to_string(static_cast<int>(kMostClockRate)) + " Hz.");
+  }
+  applyPace();
+  const std::string unsupported = world_.unsupported();
+  if (!unsupported.empty()) {
+    ROS_WARN_NAMED(kLog, "%s", unsupported.c_str());
+  }
+}
+
+Simulation::~Simulation() { stop(); }
+
+void Simulation::start() {
+  thread_ = std::thread([this] { loop(); });
+}
+
+void Simulation::stop() {
+  stop_ = true;
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+  requests_.close();
+}
+
+void Simulation::loop() {
+  requests_.adopt();
+  host_.restartClock();
+  try {
+    while (!stop_) {
+      requests_.serve();
+      reviewPace();
+      short_sleeps_.sleepIfDue();
+      if (paused_ && steps_left_ == 0) {
+        standStill();
+        continue;
+      }
+      if (steps_left_ > 0) {
+        host_.tickAtOnce();
+        finishStepping();
+      } else {
+        host_.tick();
+      }
+    }
+  } catch (const std::exception& error) {
+    ROS_FATAL_NAMED(kLog, "The simulation ends because a tick failed: %s", error.what());
+    failed_ = true;
+    ros::requestShutdown();
+  }
+  requests_.close();
+  stepped_.reset();
+}
+
+void Simulation::standStill() {
+  clock_.standStill(time());
+  requests_.waitForWork(host_.empty() ? kStandStillNap : kServedNap);
+  host_.standStill();
+}
+
+void Simulation::advance() {
+  const ros::Time now = time();
+  for (const auto& robot : robots_) {
+    robot->tick(now, timing_ ? &times_ : nullptr);
+  }
+  world_.step();
+  watchWorld();
+  ++tick_count_;
+  clock_.tick(time());
+}
+
+void Simulation::watchWorld() {
+  for (const std::string& warning : world_.takeWarnings()) {
+    ROS_WARN_NAMED(kLog, "%s", warning.c_str());
+  }
+  if (!world_.stopped() || paused_by_fault_) {
+    return;
+  }
+  ROS_ERROR_NAMED(kLog, "%s The simulation is paused: call the service %s.", world_.fault().c_str(),
+                  ros::names::resolve("~reset").c_str());
+  paused_by_fault_ = !paused_;
+  paused_ = true;
+  for (const auto& robot : robots_) {
+    robot->halt();
+  }
+}
+
+void Simulation::requireRunningWorld() const {
+  if (world_.stopped()) {
+    throw std::runtime_error(world_.fault());
+  }
+}
+
+void Simulation::reviewPace() {
+  const bool starting = std::any_of(robots_.begin(), robots_.end(),
+                                    [](const auto& robot) { return robot->isStarting(); });
+  if (starting != starting_) {
+    starting_ = starting;
+    applyPace();
+  }
+}
+
+void Simulation::applyPace() {
+  const bool held = starting_ && (real_time_factor_ == 0.0 || real_time_factor_ > 1.0);
+  const double factor = held ? 1.0 : real_time_factor_;
+  host_.setPace(paceOf(factor));
+  clock_.setRate(clock_rate_ > 0.0 ? clock_rate_ : clockRateOf(factor));
+}
+
+void Simulation::finishStepping() {
+  if (world_.stopped()) {
+    steps_left_ = 0;
+    clock_.standStill(time());
+    stepped_->set_exception(std::make_exception_ptr(std::runtime_error(world_.fault())));
+    stepped_.reset();
+  } else if (--steps_left_ == 0) {
+    clock_.standStill(time());
+    stepped_->set_value(stateNow());
+    stepped_.reset();
+  }
+}
+
+ros::Time Simulation::time() const {
+  ros::Time time;
+  return time.fromNSec((tick_count_ + 1) * kTickNanoseconds);
+}
+
+SimulationState Simulation::stateNow() const {
+  return SimulationState{tick_count_, time(), world_.stateHash()};
+}
+
+void Simulation::setPaused(bool paused) {
+  requests_.run([&] {
+    if (!paused) {
+      requireRunningWorld();
+    }
+    paused_ = paused;
+  });
+}
+
+void Simulation::setRealTimeFactor(double factor) {
+  requests_.run([&] {
+    paceOf(factor);  // throws the sentence for a factor that makes no sense
+    real_time_factor_ = factor;
+    applyPace();
+  });
+}
+
+SimulationState Simulation::step(std::uint32_t ticks) {
+  if (ticks == 0) {
+    return state();
+  }
+  std::future<SimulationState> done;
+  requests_.run([&] {
+    if (!paused_) {
+      throw std::runtime_error("The simulation runs by itself: pause it before stepping it.");
+    }
+    if (steps_left_ > 0) {
+      throw std::runtime_error(
+          "An earlier request is still stepping the simulation: wait for its end.");
+    }
+    requireRunningWorld();
+    stepped_.emplace();
+    done = stepped_->get_future();
+    steps_left_ = ticks;
+  });
+  try {
+    return done.get();
+  } catch (const std::future_error&) {
+    throw std::runtime_error("The simulation ended while it was stepped.");
+  }
+}
+
+SimulationState Simulation::state() {
+  SimulationState state;
+  requests_.run([&] { state = stateNow(); });
+  return state;
+}
+
+void Simulation::requireRest() const {
+  if (world_.stopped()) {
+    return;  // nothing moves
+  }
+  for (const auto& robot : robots_) {
+    robot->requireRest();
+  }
+}
+
+void Simulation::reset() {
+  requests_.run([&] {
+    requireRest();
+    world_.reset();
+    worldWasReset();
+  });
+}
+
+void Simulation::worldWasReset() {
+  for (const auto& robot : robots_) {
+    robot->worldWasReset();
+  }
+  if (std::exchange(paused_by_fault_, false)) {
+    paused_ = false;
+  }
+}
+
+RobotInstance* Simulation::find(const std::string& name) {
+  for (const auto& robot : robots_) {
+    if (robot->name() == name) {
+      return robot.get();
+    }
+  }
+  return nullptr;
+}
+
+void Simulation::spawn(const SpawnOrder& order) {
+  const RobotPlan plan = planRobot(order);
+  requests_.run(
+      [&] {
+        if (find(order.name) != nullptr) {
+          throw std::runtime_error("There already is a robot named '" + order.name +
+                                   "': choose another name or delete that one first.");
+        }
+        const BetweenTicks between_ticks = [this](const std::function<void()>& work) {
+          requests_.run(work);
+        };
+        auto robot = std::make_unique<RobotInstance>(plan, world_, loader_, between_ticks);
+        if (robot->served() != nullptr) {
+          host_.add(*robot->served());
+        }
+        robots_.push_back(std::move(robot));
+        const std::string overlaps = world_.describeOverlaps(order.name);
+        if (!overlaps.empty()) {
+          ROS_WARN_NAMED(kLog, "%s Give it another place (x, y, z) or other joint positions.",
+                         overlaps.c_str());
+        }
+        host_.restartClock();
+      },
+      kSpawnTimeout);
+}
+
+void Simulation::remove(const std::string& name) {
+  std::unique_ptr<RobotInstance> removed;
+  requests_.run([&] {
+    const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const auto& candidate) {
+      return candidate->name() == name;
+    });
+    if (robot == robots_.end()) {
+      throw std::runtime_error("There is no robot named '" + name + "'.");
+    }
+    removed = std::move(*robot);
+    if (removed->served() != nullptr) {
+      host_.remove(*removed->served());
+    }
+    robots_.erase(robot);
+    world_.removeRobot(name);
+    host_.restartClock();
+  });
+  // Its action servers and services may wait for their threads: not in the stepping thread.
+  removed.reset();
+}
+
+std::string Simulation::spawnObject(const std::string& name, const std::string& text,
+                                    const franka_sim::Pose& pose) {
+  std::string unsupported;
+  requests_.run(
+      [&] {
+        const std::vector<std::string> before = world_.bodies();
+        world_.addObject(name, text, pose);
+        unsupported = world_.unsupported(name);
+        for (const std::string& robot : world_.robots()) {
+          for (const franka_sim::Overlap& overlap : world_.overlaps(robot)) {
+            if (std::find(before.begin(), before.end(), overlap.body) == before.end()) {
+              unsupported += (unsupported.empty() ? "" : " ") + overlap.body + " begins within " +
+                             overlap.link + ", which it will push.";
+            }
+          }
+        }
+        host_.restartClock();
+      },
+      kSpawnTimeout);
+  return unsupported;
+}
+
+void Simulation::removeObject(const std::string& name) {
+  requests_.run([&] {
+    world_.removeObject(name);
+    host_.restartClock();
+  });
+}
+
+SimulationInventory Simulation::inventory() {
+  SimulationInventory result;
+  requests_.run([&] {
+    result.robots = world_.robots();
+    result.objects = world_.objects();
+    result.bodies = world_.bodies();
+    result.joints = world_.joints();
+    for (const franka_sim::WorldCamera& camera : world_.cameras()) {
+      result.cameras.push_back(camera.name);
+    }
+    result.gravity = world_.gravity();
+    result.paused = paused_;
+    result.real_time_factor = real_time_factor_;
+  });
+  return result;
+}
+
+void Simulation::setJoints(const std::vector<std::string>& names,
+                           const std::vector<double>& positions,
+                           const std::vector<double>& velocities) {
+  requests_.run([&] {
+    for (const auto& robot : robots_) {
+      if (robot->hasAnyOf(names)) {
+        robot->requireRest();
+      }
+    }
+    const franka_sim::Snapshot before = world_.snapshot();
+    try {
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        world_.setJointPosition(names[i], positions[i]);
+        world_.setJointVelocity(names[i], velocities[i]);
+      }
+    } catch (...) {
+      world_.restore(before);
+      throw;
+    }
+    for (const auto& robot : robots_) {
+      if (robot->hasAnyOf(names)) {
+        robot->worldWasReset();
+      }
+    }
+  });
+}
+
+std::uint64_t Simulation::takeSnapshot(const std::string& name) {
+  std::uint64_t hash = 0;
+  requests_.run([&] {
+    if (snapshots_.count(name) == 0 && snapshots_.size() >= kMostSnapshots) {
+      throw std::runtime_error("There are " + std::to_string(kMostSnapshots) +
+                               " snapshots already: take this one under the name of an older one.");
+    }
+    snapshots_[name] = world_.snapshot();
+    hash = world_.stateHash();
+    host_.restartClock();
+  });
+  return hash;
+}
+
+std::uint64_t Simulation::restoreSnapshot(const std::string& name) {
+  std::uint64_t hash = 0;
+  requests_.run([&] {
+    const auto found = snapshots_.find(name);
+    if (found == snapshots_.end()) {
+      throw std::runtime_error("There is no snapshot named '" + name + "'.");
+    }
+    requireRest();
+    world_.restore(found->second);
+    worldWasReset();
+    hash = world_.stateHash();
+  });
+  return hash;
+}
+
+void Simulation::withWorld(const std::function<void(franka_sim::World&)>& work) {
+  requests_.run([&] { work(world_); });
+}
+
+Simulation::Benchmark Simulation::benchmark(std::uint32_t ticks) {
+  if (ticks == 0) {
+    throw std::runtime_error("A benchmark needs at least one tick.");
+  }
+  Benchmark result;
+  requests_.run([&] {
+    times_ = TickTimes();
+    timing_ = true;
+    const std::int64_t start = threadNanoseconds();
+    for (std::uint32_t i = 0; i < ticks; ++i) {
+      host_.tickAtOnce();
+    }
+    timing_ = false;
+    const double scale = 1e-3 / ticks;
+    result.tick = scale * static_cast<double>(threadNanoseconds() - start);
+    result.read = scale * static_cast<double>(times_.read);
+    result.update = scale * static_cast<double>(times_.update);
+    result.write = scale * static_cast<double>(times_.write);
+    result.physics = result.tick - result.read - result.update - result.write;
+    result.bare = franka_sim::bareTickMicroseconds(world_, ticks);
+    host_.restartClock();
+  });
+  return result;
+}
+
+}  // namespace franka_sim_mujoco

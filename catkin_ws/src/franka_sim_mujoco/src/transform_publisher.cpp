@@ -1,0 +1,78 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim_mujoco/transform_publisher.h>
+
+#include <algorithm>
+#include <kdl_parser/kdl_parser.hpp>
+#include <map>
+#include <stdexcept>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+constexpr std::uint32_t kQueueSize = 1;  // a state that has been overtaken is of no use
+
+KDL::Tree treeOf(const urdf::Model& urdf) {
+  KDL::Tree tree;
+  if (!kdl_parser::treeFromUrdfModel(urdf, tree)) {
+    throw std::runtime_error("The links of the robot description '" + urdf.getName() +
+                             "' are no tree: their transforms cannot be published.");
+  }
+  return tree;
+}
+
+std::string readPrefix(const ros::NodeHandle& node) {
+  std::string key;
+  std::string prefix;
+  if (node.searchParam("tf_prefix", key)) {
+    node.getParam(key, prefix);
+  }
+  return prefix;
+}
+
+/// Adds the joints that follow others.
+void addMimics(const urdf::Model& urdf, std::map<std::string, double>& positions) {
+  for (const auto& [name, joint] : urdf.joints_) {
+    if (joint->mimic) {
+      const auto leader = positions.find(joint->mimic->joint_name);
+      if (leader != positions.end()) {
+        positions.emplace(name, joint->mimic->multiplier * leader->second + joint->mimic->offset);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TransformPublisher::TransformPublisher(const ros::NodeHandle& node, const urdf::Model& urdf)
+    : urdf_(urdf),
+      tf_prefix_(readPrefix(node)),
+      publisher_(treeOf(urdf), urdf),
+      node_(node),
+      spinner_(1, &queue_) {
+  constexpr bool kStatic = true;
+  publisher_.publishFixedTransforms(tf_prefix_, kStatic);
+  node_.setCallbackQueue(&queue_);
+  const boost::function<void(const sensor_msgs::JointState&)> callback =
+      [this](const sensor_msgs::JointState& state) { publish(state); };
+  subscriber_ = node_.subscribe<sensor_msgs::JointState, const sensor_msgs::JointState&>(
+      "joint_states", kQueueSize, callback);
+  spinner_.start();
+}
+
+TransformPublisher::~TransformPublisher() {
+  subscriber_.shutdown();
+  spinner_.stop();
+}
+
+void TransformPublisher::publish(const sensor_msgs::JointState& state) {
+  std::map<std::string, double> positions;
+  for (std::size_t i = 0; i < std::min(state.name.size(), state.position.size()); ++i) {
+    positions.emplace(state.name[i], state.position[i]);
+  }
+  addMimics(urdf_, positions);
+  publisher_.publishTransforms(positions, state.header.stamp, tf_prefix_);
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,46 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/window.h>
+#include <franka_sim_mujoco/simulation.h>
+#include <franka_sim_mujoco/window_view.h>
+#include <ros/console.h>
+
+#include <chrono>
+#include <exception>
+
+namespace franka_sim_mujoco {
+namespace {
+
+constexpr char kLog[] = "franka_sim_mujoco";
+constexpr std::chrono::milliseconds kFrame{33};
+
+}  // namespace
+
+WindowView::WindowView(Simulation& simulation)
+    : simulation_(simulation), thread_([this] { loop(); }) {}
+
+WindowView::~WindowView() {
+  stop_ = true;
+  thread_.join();
+}
+
+void WindowView::loop() {
+  try {
+    franka_sim::Window window("franka_sim_mujoco");
+    bool open = true;
+    while (open && !stop_) {
+      const auto next = std::chrono::steady_clock::now() + kFrame;
+      franka_sim::Scene scene;
+      simulation_.withWorld(
+          [&](franka_sim::World& world) { scene = franka_sim::captureScene(world); });
+      open = window.draw(scene);
+      std::this_thread::sleep_until(next);
+    }
+  } catch (const std::exception& error) {
+    if (!stop_) {
+      ROS_WARN_NAMED(kLog, "The simulation runs without its window: %s", error.what());
+    }
+  }
+}
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,104 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Robots with clients behind a proxy, all in motion at the same time, for what a bad network does to them."""
+
+import sys
+from contextlib import ExitStack
+
+from fci_proxy import Proxy
+from fci_session import client_process, simulated
+from genuine_clients import NoWheel, find_client_python
+from stalls import TRIES
+
+PACE = 0.1
+TICK = 1e-3 / PACE  # of the wall [s]
+SECONDS = 0.6  # a motion's, of the robot's time
+# So gentle that nineteen extrapolated cycles stay within the jerk's limit: what they miss is
+# 2 n^3 / 6 times the jerk of 1.1 rad/s^3, at most 2600 of 5000 rad/s^3.
+AMPLITUDE = 0.0005
+LOST = "communication_constraints_violation"
+
+
+class NetworkFixture:
+    """A robot, a proxy before it, and a client that knows only the proxy."""
+
+    def __init__(self, sim, proxy, client):
+        self.sim, self.proxy, self.client = sim, proxy, client
+
+
+def network_fixtures(
+    stack: ExitStack, network: str, pace: str, kinds, *arguments: str
+) -> list[NetworkFixture]:
+    """One fixture for each library and robot of `kinds`, but for clients that PyPI does not have."""
+    made = []
+    for i, (library, robot) in enumerate(kinds):
+        try:
+            python = sys.executable if library == "pyfranka" else find_client_python(library)
+        except NoWheel:
+            continue
+        client = stack.enter_context(client_process(library, python))
+        sim = stack.enter_context(simulated(robot, f"{network}.{2 * i + 1}", pace, *arguments))
+        proxy = stack.enter_context(Proxy(f"{network}.{2 * i + 2}", sim.address, sim.version))
+        made.append(NetworkFixture(sim, proxy, client))
+    for fixture in made:
+        fixture.client.give("connect", address=fixture.proxy.address)
+    for fixture in made:
+        assert fixture.client.result()["outcome"] == "ok"
+    return made
+
+
+def run(group, commands=None, states=None, seed=1, seconds=SECONDS, amplitude=AMPLITUDE, **task):
+    """One motion of each client at the same time. `commands` and `states` make a rule."""
+    for fixture in group:
+        fixture.proxy.set(commands and commands(), states and states(), seed)
+        fixture.client.give("move", seconds=seconds, amplitude=amplitude, **task)
+    return [fixture.client.result() for fixture in group]
+
+
+def recover(group):
+    for fixture in group:
+        answer = fixture.client.tell("recover")
+        assert answer["outcome"] == "ok" and answer["mode"] == "Idle", answer
+
+
+def check_lost(group, results, most_wall):
+    """The robots have given up, said why, and go on after a recovery."""
+    try:
+        for fixture, result in zip(group, results):
+            assert LOST in result["outcome"], result
+            assert "motion aborted by reflex!" in result["outcome"], result
+            assert result["wall"] < most_wall, result
+            assert fixture.sim.ask("state").startswith("Reflex"), fixture.sim.ask("state")
+    finally:
+        recover([fixture for fixture in group if "Reflex" in fixture.sim.ask("state")])
+    for result in run(group, seconds=0.2, amplitude=0.0):
+        assert result["outcome"] == "ok", result
+
+
+def slowest(ticks: float) -> float:
+    """A motion's end is known by then [s]: its ticks on the wall, and two seconds for a busy machine."""
+    return ticks * TICK + 2.0
+
+
+def survive(group, commands=None, states=None, least=None, **task):
+    """Every motion ends well, and the robots' success rate is what the proxy let through, or where that
+    does not say it, at least `least`.
+
+    A busy machine loses cycles of its own, which the same comparison shows: then all is done again, `TRIES`
+    times at most.
+    """
+    for seed in range(1, TRIES + 1):
+        results = run(group, commands, states, seed, **task)
+        quiet = True
+        for fixture, result in zip(group, results):
+            share, rates = fixture.proxy.commands.worst_share(), fixture.proxy.rates[101:]
+            assert not rates or min(rates) <= share + 0.0101, "The robot counts commands that never came."
+            undisturbed = rates and min(rates) > (share - 0.0101 if least is None else least)
+            if result["outcome"] != "ok" and not undisturbed:
+                recover([fixture])
+            else:
+                assert result["outcome"] == "ok", (result, fixture.proxy.commands.longest)
+            quiet = quiet and undisturbed
+        if quiet:
+            return results
+    raise AssertionError(f"The machine itself lost cycles in each of {TRIES} runs.")
