@@ -12,7 +12,7 @@
 
 namespace franka {
 
-/// What a person reads about a motion that ended by reflex: the genuine client's text word for word
+/// What the user reads about a motion that ended by reflex: the genuine client's text word for word
 /// (fci.md 1.11), then, on lines of their own, what the log tells about the cause.
 /// @param text what happened. @param state the newest one, whose reflex_reason says why.
 /// @param log the last states and commands, oldest first. @param version the robot's protocol.

@@ -7,7 +7,7 @@
 #include <string>
 
 /// @file
-/// What the genuine client says to a person about a reply (fci.md 1.11), word for word. Not
+/// What the genuine client says to the user about a reply (fci.md 1.11), word for word. Not
 /// real-time safe: strings.
 
 namespace franka_core::fci {
