@@ -12,7 +12,6 @@ namespace franka_sim::test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 constexpr double kGravity = 9.8;  ///< SDF's, where the text says nothing
 

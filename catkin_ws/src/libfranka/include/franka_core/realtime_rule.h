@@ -7,7 +7,7 @@
 /// @file
 /// Whether a motion needs a real-time kernel: one rule for the client and for the nodes.
 
-struct sockaddr;
+struct sockaddr;  // NOLINT(readability-identifier-naming)  the system's name
 
 namespace franka_core {
 

@@ -17,7 +17,7 @@ bool CombinedRobotHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_n
   root_nh_ = root_nh;
   robot_hw_nh_ = robot_hw_nh;
 
-  const std::string where = robot_hw_nh.getNamespace();
+  const std::string& where = robot_hw_nh.getNamespace();
   std::vector<std::string> names;
   if (!robot_hw_nh.hasParam("robot_hardware")) {
     ROS_ERROR("Could not find 'robot_hardware' parameter (namespace: %s).", where.c_str());
