@@ -251,6 +251,16 @@ def test_our_own_devel_space_is_no_original():
     )
 
 
+@pytest.mark.parametrize("arguments, taken", [("--style", ""), ("--long --style", "--long")])
+def test_style_runs_the_style_checks_without_a_build(tmp_path, arguments, taken):
+    python = tmp_path / "bin" / "python3"
+    python.parent.mkdir()
+    python.write_text('#!/bin/sh\necho "$@"\n')
+    python.chmod(0o755)
+    said = in_script(f"venv={tmp_path}; cmd_install() {{ :; }}; cmd_test {arguments}")
+    assert said.split() == [str(TOP / "tests" / "style.py"), *taken.split()]
+
+
 def build_that_ends_with(message: str, tmp_path: Path) -> str:
     """What the script says of a build whose first attempt fails; its second one tells the number of jobs."""
     (tmp_path / "out").mkdir()
