@@ -23,7 +23,8 @@ TEST(Sinusoid, passesItsQuartersAndHasItsDerivatives) {
   EXPECT_NEAR(0.5, wave.update(1.0, qd, qdd), 1e-12);
   EXPECT_NEAR(-1.5, wave.update(2.0, qd, qdd), 1e-12);
   const double step = 1e-4;
-  for (double time = -1.0; time < 5.0; time += 0.37) {
+  for (int i = 0; i < 17; ++i) {
+    const double time = -1.0 + 0.37 * i;
     double ignored[2];
     const double before = wave.update(time - step, ignored[0], ignored[1]);
     const double after = wave.update(time + step, ignored[0], ignored[1]);

@@ -11,7 +11,6 @@
 #include "three_joint_robot.h"
 
 using testing::HasSubstr;
-using testing::Not;
 using three_joints::kArm;
 using three_joints::kSlide;
 using three_joints::kWheel;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 
 using forward_command_controller::detail::JointRange;
@@ -37,7 +38,7 @@ double shortestBySearch(double from, double to, double lower, double upper) {
 urdf::Joint joint(int type, double lower, double upper) {
   urdf::Joint result;
   result.type = static_cast<decltype(result.type)>(type);
-  result.limits.reset(new urdf::JointLimits);
+  result.limits = std::make_shared<urdf::JointLimits>();
   result.limits->lower = lower;
   result.limits->upper = upper;
   return result;
