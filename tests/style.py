@@ -50,10 +50,14 @@ class ToolMissing(Exception):
 
 def git(*arguments: str) -> str:
     """Output of a git command; empty where git refuses it."""
-    return subprocess.run(["git", *arguments], cwd=TOP, capture_output=True, text=True).stdout
+    try:
+        return subprocess.run(["git", *arguments], cwd=TOP, capture_output=True, text=True).stdout
+    except FileNotFoundError:
+        return ""
 
 
 def tracked() -> list[Path]:
+    """What git tracks and is there; empty where this is no clone, or git does not trust its owner."""
     return [TOP / name for name in git("ls-files", "-z").split("\0") if name and (TOP / name).is_file()]
 
 
@@ -246,6 +250,9 @@ def main() -> int:
     if unknown:
         parser.error(f"there is no check {', '.join(unknown)}; there are: {', '.join(CHECKS)}")
     files = tracked()
+    if not files:
+        print("style: git lists no files here; `git status` says why.", file=sys.stderr)
+        return 1
     failed = []
     for name in arguments.checks or CHECKS:
         begin = time.monotonic()

@@ -103,11 +103,18 @@ def test_clang_tidy_without_a_build_fails_with_a_sentence(repository, monkeypatc
 
 @pytest.mark.parametrize("check, tool", [("ruff", "ruff"), ("clang-tidy", "clang-tidy-22")])
 def test_missing_tool_fails_with_a_sentence(repository, check, tool, monkeypatch, capsys):
+    repository.add("a.py", "")
     monkeypatch.setattr(sys, "executable", str(repository.folder / "python3"))
     monkeypatch.setattr(style, "VENV", repository.folder)
     monkeypatch.setattr(style.shutil, "which", lambda name: None)
     assert run(check, monkeypatch=monkeypatch) == 1
     assert f"{tool} is missing: run ./franka install" in capsys.readouterr().err
+
+
+def test_folder_that_is_no_clone_fails_with_a_sentence(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(style, "TOP", tmp_path)
+    assert run("text", monkeypatch=monkeypatch) == 1
+    assert "git lists no files here" in capsys.readouterr().err
 
 
 def test_unknown_check_is_refused_with_those_there_are(monkeypatch, capsys):
