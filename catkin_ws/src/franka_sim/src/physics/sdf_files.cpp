@@ -64,7 +64,7 @@ std::string SdfFiles::find(const std::string& uri, const std::string& folder) co
   const fs::path here = folder.empty() ? folder_ : folder;
   std::string name = after("model://", uri);
   if (name.empty()) {
-    const std::string file = after("file://", uri);
+    std::string file = after("file://", uri);
     if (!file.empty() && !ifThere(file).empty()) {
       return file;
     }

@@ -9,7 +9,6 @@ namespace {
 
 using franka_core::ArmFrame;
 using franka_core::ArmModel;
-using franka_core::kIdentityTransform;
 using franka_core::Payload;
 
 // Filled in by the server in the file that it sends; volatile, so that the compiler does not take
@@ -56,6 +55,7 @@ Payload payload(const double* I_total, double m_total, const double* F_x_Ctotal)
 }  // namespace
 
 extern "C" {
+// NOLINTBEGIN(readability-identifier-naming)  names of the interface
 
 #define FRANKA_EXPORT __attribute__((visibility("default")))
 
@@ -151,4 +151,5 @@ FRANKA_EXPORT void g_NE(const double* q, const double* g_earth, double m_total,
   write(kArm.gravity(read<7>(q), total, read<3>(g_earth)), out);
 }
 
+// NOLINTEND(readability-identifier-naming)
 }  // extern "C"

@@ -49,7 +49,7 @@ EXPECT_TYPE(bool, of<ControllerBase>().waitRequest(ros::Time()));
 EXPECT_TYPE(bool, of<ControllerBase>().abortRequest(ros::Time()));
 constexpr State kStates[] = {State::CONSTRUCTED, State::INITIALIZED, State::RUNNING,
                              State::STOPPED,     State::WAITING,     State::ABORTED};
-static_assert(sizeof(kStates) > 0, "");
+static_assert(sizeof(kStates) > 0, "");  // NOLINT(bugprone-sizeof-expression)  uses the names
 
 // Controllers of one interface.
 struct Single : Controller<EffortJointInterface> {
