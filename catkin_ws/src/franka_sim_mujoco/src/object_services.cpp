@@ -115,8 +115,10 @@ void SimServices::offerStates() {
         const franka_sim::Pose pose = fromMessage(request.pose);
         const franka_sim::Twist twist = fromMessage(request.twist);
         // Before the pose is set: all or nothing.
-        sizes::check(twist.linear, sizes::kFastest, "m/s", "The linear velocity");
-        sizes::check(twist.angular, sizes::kFastest, "rad/s", "The angular velocity");
+        franka_sim::sizes::check(twist.linear, franka_sim::sizes::kFastest, "m/s",
+                                 "The linear velocity");
+        franka_sim::sizes::check(twist.angular, franka_sim::sizes::kFastest, "rad/s",
+                                 "The angular velocity");
         simulation_.withWorld([&](franka_sim::World& world) {
           world.setBodyPose(request.body, pose);
           world.setBodyTwist(request.body, twist);
