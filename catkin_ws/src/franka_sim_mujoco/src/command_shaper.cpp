@@ -18,6 +18,7 @@ namespace franka_sim_mujoco {
 namespace {
 
 using franka_hw::ControlMode;
+using franka_sim::kTick;
 using Joints = std::array<double, 7>;
 
 // Kept free of every limit, as by libfranka's limiter, so that rounding never exceeds one.
