@@ -172,11 +172,11 @@ void TeleopJointPDExampleController::offerReconfigure(const ros::NodeHandle& nod
   const TeleopParameters& p = parameters_;
   config.leader_contact_force_threshold = p.leader_contact_force_threshold;
   config.follower_contact_force_threshold = p.follower_contact_force_threshold;
-#define SET_JOINT(i)                                  \
-  config.dq_l_##i = p.follower_dq_max_lower[i - 1];   \
-  config.dq_u_##i = p.follower_dq_max_upper[i - 1];   \
-  config.ddq_l_##i = p.follower_ddq_max_lower[i - 1]; \
-  config.ddq_u_##i = p.follower_ddq_max_upper[i - 1]
+#define SET_JOINT(i)                                    \
+  config.dq_l_##i = p.follower_dq_max_lower[(i) - 1];   \
+  config.dq_u_##i = p.follower_dq_max_upper[(i) - 1];   \
+  config.ddq_l_##i = p.follower_ddq_max_lower[(i) - 1]; \
+  config.ddq_u_##i = p.follower_ddq_max_upper[(i) - 1]
   SET_JOINT(1);
   SET_JOINT(2);
   SET_JOINT(3);

@@ -421,7 +421,7 @@ TEST_F(Datagrams, OfAnotherSizeAreAnError) {
     const auto client = connect(mistreated);
     mistreated.script([change](FakeRobot::Script& s) {
       s.transmit = [change](Datagram d) {
-        d.resize(static_cast<std::size_t>(static_cast<int>(d.size()) + change));
+        d.resize(d.size() + static_cast<std::size_t>(change));
         return std::vector<Datagram>{d};
       };
     });

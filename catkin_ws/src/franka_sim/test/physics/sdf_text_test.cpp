@@ -18,7 +18,6 @@ namespace {
 using physics::SdfFiles;
 using physics::SdfJoint;
 using physics::SdfScene;
-using ::testing::HasSubstr;
 
 const char* const kInertial =
     "<inertial><pose>0.01 -0.02 0.03 0.4 0.5 0.6</pose><mass>3.5</mass><inertia><ixx>0.05</ixx>"

@@ -44,6 +44,7 @@ class GripperConnection {
       return;
     }
     // A gripper takes only its own version, and says which that is.
+    // NOLINTNEXTLINE(misc-redundant-expression)  kOldest and kNewest are the same in some protocols
     if (*wanted < Protocol::kOldest || *wanted >= Protocol::kNewest ||
         offer(endpoint, *wanted, deadline)) {
       throw IncompatibleVersionException(*wanted, Protocol::kNewest);

@@ -15,12 +15,10 @@
 namespace {
 
 using franka_core::RobotState;
-using franka_core::fci::Bytes;
 using franka_core::fci::CodecError;
 using franka_core::fci::StateBuffer;
 using franka_core::fci::StateField;
 using franka_core::fci::StateLayout;
-using franka_core::fci::WireType;
 namespace fci = franka_core::fci;
 
 // Typed from the description of the packets, apart from the codec; -1: not in that version.

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <random>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -23,7 +24,7 @@ constexpr int kBestEffort = 1;
 
 int operations() {
   const char* const asked = std::getenv("STRESS_OPERATIONS");
-  return asked == nullptr ? 10000 : std::atoi(asked);
+  return asked == nullptr ? 10000 : std::stoi(asked);
 }
 
 /// One of four users, with a controller and a joint of its own, whose state only it changes: every

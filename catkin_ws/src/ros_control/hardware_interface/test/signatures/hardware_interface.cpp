@@ -98,6 +98,7 @@ void useState(const Handle& handle, const double* p, double (*double_of)(double)
   Handle(std::string(), p, p, p, p, p);
   Handle(std::string(), p, p, p, p, true);
   const std::string name = handle.getName();
+  static_cast<void>(name);
   double_of(handle.getPosition() + handle.getVelocity() + handle.getEffort());
   double_of(handle.getAbsolutePosition() + handle.getTorqueSensor());
   pointer_of(handle.getPositionPtr());
