@@ -26,6 +26,11 @@
 #include <cstddef>
 #include <cstdlib>
 
+// clang takes its own declaration of posix_memalign only before another one that is noexcept.
+#if defined(__clang__) && __has_include(<mm_malloc.h>)
+#include <mm_malloc.h>
+#endif
+
 namespace rt_guard {
 
 struct Counts {

@@ -63,7 +63,7 @@ std::set<unsigned> documented() {
   std::ifstream page(WRITE_YOUR_OWN);
   std::set<unsigned> rows;
   for (std::string line; std::getline(page, line);) {
-    if (line.rfind("|", 0) != 0 || line.find("| allowed |") == std::string::npos) {
+    if (line.rfind('|', 0) != 0 || line.find("| allowed |") == std::string::npos) {
       continue;
     }
     std::istringstream cells(line.substr(1));

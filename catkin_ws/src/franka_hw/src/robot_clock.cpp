@@ -3,6 +3,7 @@
 #include <franka_hw/robot_clock.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace franka_hw {
 
@@ -21,7 +22,7 @@ ros::Time later(const ros::Time& time, double seconds) noexcept {
   const double total = std::max(0.0, seconds);
   const auto whole = static_cast<std::uint32_t>(total);
   const auto nanoseconds = static_cast<std::uint64_t>(time.nsec) +
-                           static_cast<std::uint64_t>((total - whole) * 1e9 + 0.5);
+                           static_cast<std::uint64_t>(std::llround((total - whole) * 1e9));
   sum.sec = time.sec + whole + static_cast<std::uint32_t>(nanoseconds / 1000000000U);
   sum.nsec = static_cast<std::uint32_t>(nanoseconds % 1000000000U);
   return sum;

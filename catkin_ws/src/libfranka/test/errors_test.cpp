@@ -114,7 +114,7 @@ TEST(Errors, CopiesLookAtTheirOwnFlags) {
   {
     const Errors errors(only(6));
     copy = errors;
-    const Errors other(errors);
+    const Errors other(errors);  // NOLINT(performance-unnecessary-copy-initialization)  is tested
     EXPECT_TRUE(other.joint_reflex);
     EXPECT_NE(&other.joint_reflex, &errors.joint_reflex);
   }

@@ -32,6 +32,7 @@ void answer(double* out, double number, double first = 0.0, double second = 0.0,
 }  // namespace
 
 extern "C" {
+// NOLINTBEGIN(readability-identifier-naming, bugprone-macro-parentheses)  names of the interface
 
 // clang-format off
 #define FRANKA_TEST_FRAME(prefix, frame, number)                         \
@@ -73,4 +74,5 @@ void g_NE(const double* q, const double* g_earth, double m_total, const double* 
   answer(out, 403, sum(q, 7), sum(g_earth, 3), m_total, sum(F_x_Ctotal, 3));
 }
 
+// NOLINTEND(readability-identifier-naming, bugprone-macro-parentheses)
 }  // extern "C"

@@ -24,7 +24,7 @@ TEST(RealTime, TheGuardSeesAnAllocation) {
     GTEST_SKIP() << "a sanitizer owns malloc";
   }
   rt_guard::Scope scope;
-  std::unique_ptr<volatile int> allocated(new volatile int(1));
+  const auto allocated = std::make_unique<volatile int>(1);
   EXPECT_EQ(1u, scope.allocations());
 }
 

@@ -14,7 +14,6 @@ namespace {
 
 using franka_core::ControllerMode;
 using franka_core::MotionGeneratorMode;
-using hardware_interface::ControllerInfo;
 
 const std::vector<std::string> kKinds{"JT", "JP", "JV", "CP", "CV"};
 const std::set<std::string> kModes{"JT",    "JP",    "JV",    "CP",   "CV",

@@ -119,7 +119,7 @@ UrdfInertial readInertial(const XMLElement& element, const std::string& where) {
     fail(where, "the mass is negative.");
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(result.inertia);
-  const Eigen::Vector3d principal = solver.eigenvalues();
+  const Eigen::Vector3d& principal = solver.eigenvalues();
   if (principal.x() < 0 || principal.x() + principal.y() < principal.z() * (1 - 1e-9)) {
     fail(where, "no body has this inertia: the principal moments " + toText(principal) +
                     " must be positive and the largest at most the sum of the others.");

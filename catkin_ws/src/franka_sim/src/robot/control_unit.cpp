@@ -17,7 +17,6 @@
 namespace franka_sim {
 
 using franka_core::ArmFrame;
-using franka_core::ControllerMode;
 using franka_core::MotionGeneratorMode;
 using franka_core::RobotMode;
 

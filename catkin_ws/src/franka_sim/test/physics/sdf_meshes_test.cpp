@@ -440,7 +440,7 @@ TEST(TriangleMeshTest, fewOfManyPointsMakeNearlyTheSameHull) {
     for (int j = 0; j < kRings; ++j) {
       const double t = M_PI * i / kRings, p = 2 * M_PI * j / kRings;
       ball.vertices.emplace_back(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t));
-      ball.vertices.push_back(0.999F * ball.vertices.back());
+      ball.vertices.emplace_back(0.999F * ball.vertices.back());
     }
   }
   TriangleMesh few = ball;

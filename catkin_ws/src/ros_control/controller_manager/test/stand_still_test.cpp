@@ -7,7 +7,6 @@
 #include "manager_fixture.h"
 
 using dummies::DummyController;
-using dummies::kBestEffort;
 using dummies::kStrict;
 using dummies::LogCatcher;
 using hardware_interface::RobotHW;
