@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "manager_fixture.h"
 
-using dummies::DummyController;
 using dummies::kBestEffort;
 using dummies::kStrict;
 using dummies::LogCatcher;

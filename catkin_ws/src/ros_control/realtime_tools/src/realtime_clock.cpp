@@ -29,7 +29,8 @@ ros::Time RealtimeClock::getSystemTime(const ros::Time& realtime_time) {
   const double now = realtime_time.toSec();
   if (noted != used_) {
     used_ = noted;
-    follow(now, static_cast<double>(noted / kNanosecondsPerSecond) +
+    const std::int64_t seconds = noted / kNanosecondsPerSecond;
+    follow(now, static_cast<double>(seconds) +
                     1e-9 * static_cast<double>(noted % kNanosecondsPerSecond));
   }
   last_realtime_time_ = now;
