@@ -33,6 +33,7 @@ OUTSIDE = re.compile(
 OURS = {"tests/data/md5.txt"}
 NAMED_FILE = re.compile(r"`([\w.-]+/[\w./-]*\w|\w+\.(?:cpp|h|py|sh|yaml|md|xacro))`")
 TEST = re.compile(r"`(\w+\.\w+|test_\w+)`")
+FUNCTION = re.compile(r"\b([A-Z]\w*)::([a-z]\w*)\b")
 ITSELF = "tests/test_citations.py"
 
 
@@ -63,6 +64,7 @@ def lines() -> Iterator[tuple[str, int, str]]:
 
 
 LINES = list(lines())
+CPP = "\n".join(line for name, _, line in LINES if name.endswith((".h", ".cpp")))
 
 
 def headings(page: str) -> set[str]:
@@ -178,6 +180,18 @@ def is_tracked(name: str) -> bool:
 @pytest.mark.parametrize("page", PAGES)
 def test_named_files_exist(page):
     assert not [name for name in NAMED_FILE.findall(PAGES[page]) if not is_tracked(name)]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_named_functions_exist(page):
+    """`Class::function`: C++ sources declare the class, and call or declare a function of that name."""
+    missing = [
+        f"{scope}::{function}"
+        for scope, function in set(FUNCTION.findall(PAGES[page]))
+        if not re.search(rf"\b{function}\(", CPP)
+        or not re.search(rf"\b(?:class|struct) {scope}\b|\b{scope}::{function}\(", CPP)
+    ]
+    assert not missing
 
 
 def test_tests_named_in_faults_exist():
