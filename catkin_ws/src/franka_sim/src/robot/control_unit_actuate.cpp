@@ -18,12 +18,14 @@ using franka_core::RobotMode;
 
 namespace {
 
-constexpr int kReleaseTicks = 200;    // after a reflex the arm yields so long to what it met (ours)
+constexpr int kReleaseTicks = 200;    // after a reflex the arm yields so long (decision 16)
 constexpr int kReflexTicks = 200;     // then braking restarts (decision 16)
-constexpr double kStandstill = 0.01;  // [rad/s]
+constexpr double kStandstill = 0.01;  // [rad/s] of a recovery's end (decision 16)
 constexpr int kStillTicks = 20;       // so long below it
-constexpr int kRecoveryTicks = 5000;  // a recovery that takes longer has failed
-constexpr double kGuidingNullspace = 200.0;  // [Nm/rad] where the elbow is not free
+// Chosen here: braking and yielding take less than 1 s, so a recovery that takes longer has failed.
+constexpr int kRecoveryTicks = 5000;
+// [Nm/rad] where the elbow is not free. Chosen here: the hold of a locked elbow is not published.
+constexpr double kGuidingNullspace = 200.0;
 
 }  // namespace
 

@@ -42,7 +42,7 @@ struct ControlUnitParameters {
                               {{20, 20, 20, 25, 25, 25}},
                               {{20, 20, 20, 25, 25, 25}}};
   CollisionThresholds acceleration{nominal};
-  /// Of the idle hold, and of joint impedance control until it is set [Nm/rad].
+  /// Of the idle hold, and of joint impedance control until it is set [Nm/rad] (decision 11).
   std::array<double, 7> joint_stiffness{{3000, 3000, 3000, 2500, 2500, 2000, 2000}};
   /// Of Cartesian impedance control until it is set [N/m, Nm/rad] (decision 11).
   std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
