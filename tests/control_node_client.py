@@ -21,7 +21,7 @@ from controller_manager_msgs.srv import SwitchController
 from diagnosis import Diagnosis
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import WrenchStamped
-from recovery_client import PATIENCE, Person, Robot
+from recovery_client import PATIENCE, Operator, Robot
 from sensor_msgs.msg import JointState
 from setters import SETTERS
 from std_msgs.msg import String
@@ -242,7 +242,7 @@ class Topics:
         }
 
 
-def idle(robot, person, services, topics, diagnosis):
+def idle(robot, operator, services, topics, diagnosis):
     report = {"diagnosis": diagnosis.shows("Robot", "Ready")}
     report["loop"] = diagnosis.shows("Control loop", "The controllers keep time")
     report["bad"] = [[name, what, *services.set(name, **values)] for name, what, values in bad_values()]
@@ -257,10 +257,10 @@ def idle(robot, person, services, topics, diagnosis):
         report["good"][name] = [*answer[:2], robot.waits(seen) is not None]
     report["m_total"] = apart(robot.state.m_total, robot.state.m_ee + 0.4)
     report["still"] = apart(robot.state.q, before.q)
-    person.does(f"push {ARM}_link7 0 0 0 10")  # lets the world go on: what the setters change shows
+    operator.does(f"push {ARM}_link7 0 0 0 10")  # lets the world go on: what the setters change shows
     robot.waits(lambda: shown_pose_is_apart(robot.state) < 1e-5)
     report["topics"] = topics.compare(20)
-    report["second_source"] = apart(person.does("state").rsplit(" q ", 1)[1].split(), robot.state.q)
+    report["second_source"] = apart(operator.does("state").rsplit(" q ", 1)[1].split(), robot.state.q)
     report["tree"] = tree(robot)
     # Back to a hand that carries nothing.
     services.set("set_load", mass=0.0, F_x_center_load=[0.0] * 3, load_inertia=[0.0] * 9)
@@ -285,7 +285,7 @@ def tree(robot):
     return difference
 
 
-def pushed(robot, person, topics, duration=PUSHED):
+def pushed(robot, operator, topics, duration=PUSHED):
     """Pushes the arm; returns its state before, and one late in the push, when the arm has come to rest.
 
     Topics drop what a busy machine has no time for: when too much is missing, the arm is pushed again, for
@@ -295,7 +295,7 @@ def pushed(robot, person, topics, duration=PUSHED):
     before = robot.state
     for _ in range(5):
         topics.forget()
-        person.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {duration}")
+        operator.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {duration}")
         deadline = time.monotonic() + 8 * PATIENCE  # the robot waits for each answer
         felt, states = [], []
         # By the clock of what is published: it may come late.
@@ -312,7 +312,7 @@ def pushed(robot, person, topics, duration=PUSHED):
     raise RuntimeError(f"Too few states were published under a push: {len(felt)} of {len(states)}.")
 
 
-def soft_joints(robot, person, services, topics, diagnosis):
+def soft_joints(robot, operator, services, topics, diagnosis):
     """Joint impedance, contacts by force; and what a moving robot answers."""
     report = {
         "set": [
@@ -323,7 +323,7 @@ def soft_joints(robot, person, services, topics, diagnosis):
     report["started"] = services.switch([CONTROLLER])
     # For the next switch: the node is told in the background.
     rospy.set_param("/franka_control/internal_controller", "cartesian_impedance")
-    before, last = pushed(robot, person, topics)
+    before, last = pushed(robot, operator, topics)
     expected = torques_of_push(np.array(last.q))
     spring = np.array(SOFT_JOINTS) * (np.array(last.q) - np.array(last.q_d))
     report["spring"] = apart(spring, expected) / np.abs(expected).max()
@@ -345,7 +345,7 @@ def soft_joints(robot, person, services, topics, diagnosis):
     return report
 
 
-def soft_hand(robot, person, services, topics):
+def soft_hand(robot, operator, services, topics):
     """Cartesian impedance, chosen by a parameter that is read at the switch; contacts by torque."""
     report = {
         "set": [
@@ -354,7 +354,7 @@ def soft_hand(robot, person, services, topics):
         ]
     }
     report["started"] = services.switch([CONTROLLER])
-    before, last = pushed(robot, person, topics, LONG_PUSHED)  # the null space comes to rest slowly
+    before, last = pushed(robot, operator, topics, LONG_PUSHED)  # the null space comes to rest slowly
     moved = np.array(last.O_T_EE[12:15]) - np.array(before.O_T_EE_d[12:15])
     report["gives"] = (moved / (PUSH[2] / SOFT_HAND[2])).tolist()
     report["contacts"] = [any(last.cartesian_contact), any(last.joint_contact)]
@@ -362,12 +362,12 @@ def soft_hand(robot, person, services, topics):
     return report
 
 
-def reflex(robot, person, services, diagnosis):
+def reflex(robot, operator, services, diagnosis):
     """A push above a threshold; what is published and written about it."""
     services.set("set_full_collision_behavior", **thresholds(upper_force=4.0))
     report = {"started": services.switch([CONTROLLER])}
     robot.waits(lambda: robot.state.robot_mode == FrankaState.ROBOT_MODE_MOVE)
-    person.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {BRIEFLY}")
+    operator.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {BRIEFLY}")
     report["reflex"] = robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     report["flagged"] = robot.waits(lambda: robot.state.current_errors.cartesian_reflex) is not None
     report["has_error"] = robot.waits(lambda: robot.has_error) is not None
@@ -431,12 +431,12 @@ def connection(robot, services, diagnosis):
 def main():
     rospy_connections.init_node("control_node_client", anonymous=True)
     topics, diagnosis, services = Topics(), Diagnosis("franka_control"), Services()
-    robot, person = Robot(), Person(ADDRESS)
+    robot, operator = Robot(), Operator(ADDRESS)
     robot.waits(lambda: True)
-    report = {"idle": idle(robot, person, services, topics, diagnosis)}
-    report["soft_joints"] = soft_joints(robot, person, services, topics, diagnosis)
-    report["soft_hand"] = soft_hand(robot, person, services, topics)
-    report["reflex"] = reflex(robot, person, services, diagnosis)
+    report = {"idle": idle(robot, operator, services, topics, diagnosis)}
+    report["soft_joints"] = soft_joints(robot, operator, services, topics, diagnosis)
+    report["soft_hand"] = soft_hand(robot, operator, services, topics)
+    report["reflex"] = reflex(robot, operator, services, diagnosis)
     report["connection"] = connection(robot, services, diagnosis)
     print(json.dumps(report))
 

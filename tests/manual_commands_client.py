@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The manual's pick and place with its own command lines, typed into a shell; prints what came of it as JSON.
 
-Where the manual lets a person drag rviz's marker, the marker's feedback is published as rviz does it.
+Where the manual lets the user drag rviz's marker, the marker's feedback is published as rviz does it.
 Run by test_manual_commands.py with the interpreter that ROS uses. Argument: simulated seconds a wall second.
 """
 
@@ -76,7 +76,7 @@ class Shell:
 
 
 class DraggedArm(Arm):
-    """Its target is where a person drags the marker to."""
+    """Its target is where the user drags the marker to."""
 
     def __init__(self, arm_id: str, shell: Shell):
         super().__init__(arm_id)

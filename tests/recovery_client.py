@@ -26,7 +26,7 @@ PATIENCE = 15.0  # for whatever should happen at once [s]
 PUSH = "0 0 -220 60"  # far beyond the thresholds [N, ms]
 
 
-class Person:
+class Operator:
     """Whoever stands beside the robot: pushes it, presses the user stop."""
 
     def __init__(self, address):
@@ -101,11 +101,11 @@ class Robot:
         return self.waits(lambda: abs(self.state.O_T_EE[14] - z) > 0.01) is not None
 
 
-def reflexes(robot, person, count):
+def reflexes(robot, operator, count):
     outcomes = []
     for _ in range(count):
         robot.aborts.clear()
-        person.does(f"push {sys.argv[1]}_link7 {PUSH}")
+        operator.does(f"push {sys.argv[1]}_link7 {PUSH}")
         outcome = {"reflex": robot.shows(FrankaState.ROBOT_MODE_REFLEX)}
         outcome["has_error"] = robot.waits(lambda: robot.has_error) is not None
         outcome["reported"] = robot.waits(lambda: bool(robot.aborts)) is not None and robot.aborts[0]
@@ -118,13 +118,13 @@ def reflexes(robot, person, count):
     return outcomes
 
 
-def user_stop(robot, person):
-    person.does("user_stop on")
+def user_stop(robot, operator):
+    operator.does("user_stop on")
     report = {"stopped": robot.shows(FrankaState.ROBOT_MODE_USER_STOPPED)}
     report["has_error"] = robot.waits(lambda: robot.has_error) is not None
     report["recovery_while_pressed"] = robot.recover()
     report["still_stopped"] = robot.state.robot_mode == FrankaState.ROBOT_MODE_USER_STOPPED
-    person.does("user_stop off")
+    operator.does("user_stop off")
     report["moves"] = robot.shows(FrankaState.ROBOT_MODE_MOVE)
     report["follows"] = robot.follows()
     return report
@@ -132,23 +132,23 @@ def user_stop(robot, person):
 
 def main():
     rospy_connections.init_node("recovery_client", anonymous=True)
-    robot, person = Robot(), Person(sys.argv[2])
+    robot, operator = Robot(), Operator(sys.argv[2])
     switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
     started = switch(start_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
     report = {"started": started, "moves": robot.shows(FrankaState.ROBOT_MODE_MOVE)}
     report["early"] = robot.recover()
     report["goes_on"] = robot.follows()
-    report["reflexes"] = reflexes(robot, person, int(sys.argv[3]))
-    person.does(f"push {sys.argv[1]}_link7 {PUSH}")
+    report["reflexes"] = reflexes(robot, operator, int(sys.argv[3]))
+    operator.does(f"push {sys.argv[1]}_link7 {PUSH}")
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     robot.waits(lambda: robot.has_error)
     both = [robot.ask_recovery(), robot.ask_recovery()]
     report["twice"] = [robot.told(goal) for goal in both]
     report["follows_after_both"] = robot.shows(FrankaState.ROBOT_MODE_MOVE) and robot.follows()
-    report["user_stop"] = user_stop(robot, person)
+    report["user_stop"] = user_stop(robot, operator)
     report["stopped"] = switch(stop_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
     report["idle"] = robot.shows(FrankaState.ROBOT_MODE_IDLE)
-    person.does(f"push {sys.argv[1]}_link7 {PUSH}")
+    operator.does(f"push {sys.argv[1]}_link7 {PUSH}")
     report["hit_at_rest"] = robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     report["recovered_at_rest"] = [robot.recover()[0], robot.shows(FrankaState.ROBOT_MODE_IDLE)]
     report["succeeded"] = GoalStatus.SUCCEEDED

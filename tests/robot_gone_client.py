@@ -17,7 +17,7 @@ import rospy
 import rospy_connections
 from controller_manager_msgs.srv import ListControllers, SwitchController
 from franka_msgs.msg import FrankaState
-from recovery_client import CONTROLLER, PUSH, Person, Robot
+from recovery_client import CONTROLLER, PUSH, Operator, Robot
 from std_srvs.srv import Trigger
 
 GONE = 10.0  # how long the robot keeps silent, at least once [s]
@@ -88,7 +88,7 @@ def main():
     os.kill(pid, signal.SIGCONT)
     report["after_silence"] = comes_back(robot, reconnects)
 
-    Person(address).does(f"push {sys.argv[1]}_link7 {PUSH}")
+    Operator(address).does(f"push {sys.argv[1]}_link7 {PUSH}")
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     os.kill(pid, signal.SIGSTOP)
     robot.ask_recovery()

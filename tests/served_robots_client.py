@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Clients of robots that live in a ROS world, and a person beside them; prints what came of it as JSON.
+"""Clients of robots that live in a ROS world, and the user beside them; prints what came of it as JSON.
 
 Run by test_served_robots.py with the interpreter that ROS uses. Clients go byte by byte (fci_wire): each of
 their cycles is a call, so that what a service does falls between two cycles.
@@ -44,7 +44,7 @@ def at(x, y, z):
     return Pose(Point(x, y, z), Quaternion(0, 0, 0, 1))
 
 
-class Person:
+class Operator:
     """Whoever stands beside a robot."""
 
     def __init__(self, robot):
@@ -80,9 +80,9 @@ class Motion:
         return self.state
 
     def during(self, action, *arguments):
-        """What a person's action returns; the arm is held meanwhile, however long that takes."""
-        with ThreadPoolExecutor(1) as person:
-            result = person.submit(action, *arguments)
+        """What the user's action returns; the arm is held meanwhile, however long that takes."""
+        with ThreadPoolExecutor(1) as operator:
+            result = operator.submit(action, *arguments)
             while not result.done() and self.state.mode == MOVE:
                 self.run(1, finish=False)
             return result.result()
@@ -118,18 +118,18 @@ def shown_by_ros(robot, client):
     seen = call("/gazebo/get_joint_states", GetJointStates, joints).state.position
     while client.state(0.5).mode != IDLE:  # states of before wait in the socket
         pass
-    return max(abs(a - b) for a, b in zip(seen, Person(robot).sees().q))
+    return max(abs(a - b) for a, b in zip(seen, Operator(robot).sees().q))
 
 
-def stopped(client, person):
+def stopped(client, operator):
     """The user stop in the middle of a motion, its release, and a motion again."""
     motion = Motion(client)
     motion.run(100, finish=False)
-    pressed = motion.during(person.does, "set_user_stop", SetBool, True)
+    pressed = motion.during(operator.does, "set_user_stop", SetBool, True)
     motion.run(1000, finish=False)
     outcome = {"pressed": pressed, **motion.end()}
-    outcome["shown"] = person.sees().text.split(",")[0]
-    outcome["released"] = person.does("set_user_stop", SetBool, False)
+    outcome["shown"] = operator.sees().text.split(",")[0]
+    outcome["released"] = operator.does("set_user_stop", SetBool, False)
     client.state_until(lambda state: state.mode == IDLE)
     motion = Motion(client)
     motion.run(200)
@@ -137,42 +137,42 @@ def stopped(client, person):
     return outcome
 
 
-def robbed(client, person, count):
+def robbed(client, operator, count):
     """The link loses so many commands in a row."""
     motion = Motion(client)
     motion.run(150, finish=False)
-    assert motion.during(person.does, "set_packet_loss", SetPacketLoss, 0.0, 0, count)[0]
+    assert motion.during(operator.does, "set_packet_loss", SetPacketLoss, 0.0, 0, count)[0]
     rate = motion.run(200, finish=False).rate
     motion.run(1)
     outcome = {**motion.end(), "rate": rate}
     if outcome["mode"] == REFLEX:
-        outcome["errors"] = person.sees().errors
+        outcome["errors"] = operator.sees().errors
         outcome["recovered"] = client.recover().mode
     return outcome
 
 
-def configured(client, person):
+def configured(client, operator):
     """What is said at rest and in a motion, and what makes no sense."""
     nothing = [0.0] * 9
-    outcome = {"load": person.does("set_load", SetLoad, 0.5, [0, 0, 0.1], nothing)}
-    outcome["bad_load"] = person.does("set_load", SetLoad, -1.0, [0, 0, 0], nothing)
-    outcome["bad_loss"] = person.does("set_packet_loss", SetPacketLoss, 1.5, 0, 0)
-    outcome["bad_delay"] = person.does("set_packet_delay", SetPacketDelay, 3)
-    outcome["delay"] = person.does("set_packet_delay", SetPacketDelay, 1)
+    outcome = {"load": operator.does("set_load", SetLoad, 0.5, [0, 0, 0.1], nothing)}
+    outcome["bad_load"] = operator.does("set_load", SetLoad, -1.0, [0, 0, 0], nothing)
+    outcome["bad_loss"] = operator.does("set_packet_loss", SetPacketLoss, 1.5, 0, 0)
+    outcome["bad_delay"] = operator.does("set_packet_delay", SetPacketDelay, 3)
+    outcome["delay"] = operator.does("set_packet_delay", SetPacketDelay, 1)
     motion = Motion(client)
     motion.run(100, finish=False)
-    outcome["load_in_motion"] = motion.during(person.does, "set_load", SetLoad, 0.0, [0, 0, 0], nothing)
+    outcome["load_in_motion"] = motion.during(operator.does, "set_load", SetLoad, 0.0, [0, 0, 0], nothing)
     reset = motion.during(call, "/gazebo/reset", Trigger)
     outcome["reset_in_motion"] = [reset.success, reset.message]
     motion.run(100)
     outcome["ended"] = motion.end()["status"]
-    person.does("set_packet_delay", SetPacketDelay, 0)
-    outcome["no_load"] = person.does("set_load", SetLoad, 0.0, [0, 0, 0], nothing)
+    operator.does("set_packet_delay", SetPacketDelay, 0)
+    outcome["no_load"] = operator.does("set_load", SetLoad, 0.0, [0, 0, 0], nothing)
     for switch in ("guiding", "brakes"):
-        assert person.does(f"set_{switch}", SetBool, True)[0]
-        outcome[switch] = person.sees().text.split(",")[0]
-        assert person.does(f"set_{switch}", SetBool, False)[0]
-        outcome["after " + switch] = person.sees().text.split(",")[0]
+        assert operator.does(f"set_{switch}", SetBool, True)[0]
+        outcome[switch] = operator.sees().text.split(",")[0]
+        assert operator.does(f"set_{switch}", SetBool, False)[0]
+        outcome["after " + switch] = operator.sees().text.split(",")[0]
     return outcome
 
 
@@ -197,21 +197,21 @@ def halted(client):
 
 def check_robot(robot, report):
     address, version = ROBOTS[robot]
-    person = Person(robot)
-    report["idle"] = person.sees().text.split(", q")[0]
+    operator = Operator(robot)
+    report["idle"] = operator.sees().text.split(", q")[0]
     with Client(address, version) as client:
         report["connect"] = client.connect()
-        report["protocol"] = person.sees().protocol
+        report["protocol"] = operator.sees().protocol
         report["move"] = moves(client)
         report["ros"] = shown_by_ros(robot, client)
-        report["stop"] = stopped(client, person)
-        report["lose 10"] = robbed(client, person, 10)
-        report["lose 20"] = robbed(client, person, 20)
-        report["configured"] = configured(client, person)
+        report["stop"] = stopped(client, operator)
+        report["lose 10"] = robbed(client, operator, 10)
+        report["lose 20"] = robbed(client, operator, 20)
+        report["configured"] = configured(client, operator)
         report["halted"] = halted(client)
     reset = call("/gazebo/reset", Trigger)
     report["reset"] = reset.success
-    report["after_reset"] = list(person.sees().q)
+    report["after_reset"] = list(operator.sees().q)
 
 
 def check_inside():

@@ -31,7 +31,7 @@ def launch(name: str, robot: str, folder: Path) -> Session:
 
 
 def complaints(session: Session) -> list[str]:
-    """Lines of the log that a person would worry about."""
+    """Lines of the log that the user would worry about."""
     marks = ("[ERROR]", "[WARN]", "[FATAL]", "[ WARN]", "Traceback", "process has died")
     lines = [line for line in session.log.read_text().splitlines() if any(mark in line for mark in marks)]
     return [line for line in lines if "rests on something horizontal" not in line]  # a force needs that

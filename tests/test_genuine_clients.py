@@ -226,7 +226,7 @@ def ask(address: str, line: str) -> str:
         return stream.readline().strip()
 
 
-def test_a_person_presses_the_user_stop():
+def test_user_stop_aborts_the_motion():
     script = """
 import sys
 from panda_py import libfranka
@@ -265,7 +265,7 @@ except Exception as error:
 
 
 def test_a_virtual_wall_keeps_the_hand_out():
-    """As a person draws it in Desk: the hand goes down to its top, and through when it is gone."""
+    """As the user draws it in Desk: the hand goes down to its top, and through when it is gone."""
     script = """
 import math, sys
 from panda_py import libfranka

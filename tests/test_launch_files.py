@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every launch file of the tree, read by roslaunch as for a person with a real robot; nothing is started.
+"""Every launch file of the tree, read by roslaunch as for the user with a real robot; nothing is started.
 
 It can be read, with each of its switches turned too; what it wants to start is there; rviz looks at the arm
 that was asked for; and nothing of another arm's name is left.
@@ -23,7 +23,7 @@ from roslib.packages import find_node
 SOURCE = Path(__file__).resolve().parent.parent / "catkin_ws" / "src"
 FILES = {f"{path.parent.parent.name}/{path.name}": path for path in SOURCE.glob("**/launch/**/*.launch")}
 
-# What a launch file may insist on, and what a person would answer: enter here what a new one needs.
+# What a launch file may insist on, and what the user would answer: enter here what a new one needs.
 REQUIRED = {
     "robot": "panda",
     "robot_ip": "10.0.0.1",

@@ -33,20 +33,20 @@ from fci_proxy import (
 )
 from fci_session import go_first, go_with_all
 from fci_wire import COMMUNICATION, connected
-from stalls import TRIES, in_time
-from stations import (
+from network_fixtures import (
     AMPLITUDE,
     LOST,
     PACE,
     SECONDS,
     TICK,
     check_lost,
+    network_fixtures,
     recover,
     run,
     slowest,
-    stations,
     survive,
 )
+from stalls import TRIES, in_time
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 ENDLESS = 60.0  # [s] of the robot's time: more than a motion takes that a fault ends
@@ -57,10 +57,10 @@ def all_idle(request):
     """One failure is not followed by another one's."""
     yield
     for name in ("slow", "stepped", "patient"):
-        for station in request.node.funcargs.get(name, []):
-            if station.client.process.poll() is None and "Reflex" in station.sim.ask("state"):
-                station.client.tell("connect", address=station.proxy.address)
-                station.client.tell("recover")
+        for fixture in request.node.funcargs.get(name, []):
+            if fixture.client.process.poll() is None and "Reflex" in fixture.sim.ask("state"):
+                fixture.client.tell("connect", address=fixture.proxy.address)
+                fixture.client.tell("recover")
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +68,7 @@ def slow():
     """Both genuine clients and the own one, at a tenth of the wall's speed."""
     with ExitStack() as stack:
         kinds = [("panda", "panda"), ("pylibfranka", "fr3"), ("pyfranka", "fr3")]
-        yield stations(stack, "127.0.23", str(PACE), kinds)
+        yield network_fixtures(stack, "127.0.23", str(PACE), kinds)
 
 
 @pytest.fixture(scope="module")
@@ -76,14 +76,14 @@ def stepped():
     """The same in lock-step."""
     with ExitStack() as stack:
         kinds = [("panda", "panda"), ("pylibfranka", "fr3"), ("pyfranka", "panda")]
-        yield stations(stack, "127.0.24", "lockstep", kinds, "--patience", "0.5")
+        yield network_fixtures(stack, "127.0.24", "lockstep", kinds, "--patience", "0.5")
 
 
 @pytest.fixture(scope="module")
 def patient():
     """By the clock, but waiting for whoever is late."""
     with ExitStack() as stack:
-        yield stations(stack, "127.0.27", "patient", [("panda", "panda"), ("pyfranka", "fr3")])
+        yield network_fixtures(stack, "127.0.27", "patient", [("panda", "panda"), ("pyfranka", "fr3")])
 
 
 # ---- 1: loss -----------------------------------------------------------------------------------------------
@@ -92,7 +92,7 @@ def patient():
 @pytest.mark.parametrize("percent", [0, 0.1, 1, 5, 10, 20] if LONG else [20])
 def test_uniform_loss_of_commands_is_survived_and_counted(slow, percent):
     survive(slow, commands=lambda: losing(percent / 100))
-    assert all(station.client.tell("mode")["mode"] == "Idle" for station in slow)
+    assert all(fixture.client.tell("mode")["mode"] == "Idle" for fixture in slow)
 
 
 @pytest.mark.parametrize("percent", [1, 5, 20] if LONG else [5])
@@ -110,7 +110,7 @@ def test_bursts_below_the_limit_are_survived(slow, longest):
 def test_twenty_commands_in_a_row_are_too_many(slow, count):
     if count < 20:
         survive(slow, commands=lambda: losing_from(200, count))
-        assert all(min(station.proxy.rates[101:]) <= 0.81 + 1e-6 for station in slow)
+        assert all(min(fixture.proxy.rates[101:]) <= 0.81 + 1e-6 for fixture in slow)
     else:
         results = run(slow, commands=lambda: losing_from(200, count), amplitude=0.0)
         check_lost(slow, results, slowest(230))
@@ -121,12 +121,12 @@ def test_twenty_commands_in_a_row_are_too_many(slow, count):
 def test_the_boundary_is_exact_in_lock_step(stepped, count):
     """The robot's own link loses them: no clock takes part, and no machine is too busy."""
     seconds = SECONDS if count < 20 else ENDLESS  # flat out a short one may be over before it loses them
-    for station in stepped:
-        station.client.give("move", seconds=seconds, amplitude=AMPLITUDE, announce=True)
-    for station in stepped:
-        assert station.client.line() == "moving"
-        station.sim.ask(f"lose {count}")
-    results = [station.client.result() for station in stepped]
+    for fixture in stepped:
+        fixture.client.give("move", seconds=seconds, amplitude=AMPLITUDE, announce=True)
+    for fixture in stepped:
+        assert fixture.client.line() == "moving"
+        fixture.sim.ask(f"lose {count}")
+    results = [fixture.client.result() for fixture in stepped]
     if count < 20:
         assert all(result["outcome"] == "ok" for result in results), results
     else:
@@ -204,9 +204,9 @@ def all_noise(number, data, chance):
 def test_what_is_no_answer_is_ignored(stepped, kind):
     rule = all_noise if kind == "all" else NOISE[kind]
     results = run(stepped, commands=lambda: rule)
-    for station, result in zip(stepped, results):
+    for fixture, result in zip(stepped, results):
         assert result["outcome"] == "ok", result
-        assert min(station.proxy.rates[101:]) == 1.0
+        assert min(fixture.proxy.rates[101:]) == 1.0
         assert result["cycles"] <= 603
 
 
@@ -217,12 +217,12 @@ def test_states_that_come_twice_or_late_are_seen_once(stepped):
         before, repeated["sent"] = repeated["sent"], data
         return [(0.0, data), (0.0, data), *([(0.0, before)] if before else [])]
 
-    for station in stepped:  # the rule remembers: one after the other
+    for fixture in stepped:  # the rule remembers: one after the other
         repeated["sent"] = None
-        (result,) = run([station], states=lambda: old_again)
+        (result,) = run([fixture], states=lambda: old_again)
         assert result["outcome"] == "ok", result
         assert result["cycles"] <= 603
-        assert min(station.proxy.rates[101:]) == 1.0
+        assert min(fixture.proxy.rates[101:]) == 1.0
 
 
 def test_our_client_says_what_is_wrong_with_a_state(stepped):
@@ -245,16 +245,16 @@ def test_our_client_says_what_is_wrong_with_a_state(stepped):
 
 
 def test_replies_may_take_longer_than_a_second(stepped):
-    for station in stepped:
-        station.proxy.reply_delay = 1.2
-        station.client.give("set_load")
+    for fixture in stepped:
+        fixture.proxy.reply_delay = 1.2
+        fixture.client.give("set_load")
     try:
-        for station in stepped:
-            result = station.client.result()
+        for fixture in stepped:
+            result = fixture.client.result()
             assert result["outcome"] == "ok" and 1.2 <= result["wall"] < 10.0, result
     finally:
-        for station in stepped:
-            station.proxy.reply_delay = 0.0
+        for fixture in stepped:
+            fixture.proxy.reply_delay = 0.0
 
 
 # ---- 5: the client's timing -------------------------------------------------------------------------------
@@ -277,17 +277,17 @@ def test_a_program_slower_than_a_cycle_is_stopped(slow):
 
 def freeze(group, seconds, motion=SECONDS):
     """SIGSTOP to each client in its motion of so many seconds, and SIGCONT after that time."""
-    for station in group:
-        station.proxy.set()
-        station.client.give("move", seconds=motion, amplitude=0.0, announce=True)
-    for station in group:
-        assert station.client.line() == "moving"
-    for station in group:
-        station.client.process.send_signal(signal.SIGSTOP)
+    for fixture in group:
+        fixture.proxy.set()
+        fixture.client.give("move", seconds=motion, amplitude=0.0, announce=True)
+    for fixture in group:
+        assert fixture.client.line() == "moving"
+    for fixture in group:
+        fixture.client.process.send_signal(signal.SIGSTOP)
     time.sleep(seconds)  # the fault itself
-    for station in group:
-        station.client.process.send_signal(signal.SIGCONT)
-    return [station.client.result() for station in group]
+    for fixture in group:
+        fixture.client.process.send_signal(signal.SIGCONT)
+    return [fixture.client.result() for fixture in group]
 
 
 def test_five_cycles_frozen_are_survived(slow):
@@ -314,13 +314,13 @@ HOGS = ["while True: pass"] * 2 * os.cpu_count() + ["while True: bytearray(1 << 
 def starved(group):
     """Clients without privileges on a machine that does everything else as well."""
     hogs = [subprocess.Popen([sys.executable, "-c", program]) for program in HOGS]
-    for station in group:
-        go_with_all(station.client.process.pid)
+    for fixture in group:
+        go_with_all(fixture.client.process.pid)
     try:
         yield
     finally:
-        for station in group:
-            go_first(station.client.process.pid)
+        for fixture in group:
+            go_first(fixture.client.process.pid)
         for hog in hogs:
             hog.kill()
             hog.wait()
@@ -329,28 +329,28 @@ def starved(group):
 def test_a_starved_client_of_a_patient_robot_loses_nothing(patient):
     with starved(patient):
         results = run(patient)
-    for station, result in zip(patient, results):
+    for fixture, result in zip(patient, results):
         assert result["outcome"] == "ok", result
-        assert min(station.proxy.rates[101:]) == 1.0
+        assert min(fixture.proxy.rates[101:]) == 1.0
 
 
 def test_a_starved_client_goes_on_or_is_told_why_not(slow):
     """Twenty states in a row are too many; fewer may already be a leap from where the robot went alone."""
     with starved(slow):
         results = run(slow)
-    for station, result in zip(slow, results):
+    for fixture, result in zip(slow, results):
         if result["outcome"] != "ok":
             assert LOST in result["outcome"] or "discontinuity" in result["outcome"], result
-            recover([station])
+            recover([fixture])
     assert all(result["outcome"] == "ok" for result in run(slow, seconds=0.2, amplitude=0.0))
 
 
 def test_lock_step_waits_for_a_frozen_client(stepped):
     """Half as long as a client may be silent there: nothing is lost, nothing moves meanwhile."""
-    for station, result in zip(stepped, freeze(stepped, 0.2)):
+    for fixture, result in zip(stepped, freeze(stepped, 0.2)):
         assert result["outcome"] == "ok", result
         assert result["longest"] < 0.0015
-        assert min(station.proxy.rates[101:]) == 1.0
+        assert min(fixture.proxy.rates[101:]) == 1.0
 
 
 def test_lock_step_gives_up_a_client_that_stays_frozen(stepped):
@@ -359,17 +359,17 @@ def test_lock_step_gives_up_a_client_that_stays_frozen(stepped):
 
 def test_a_killed_client_ends_its_motion_and_makes_room(stepped):
     """Last: the clients are gone afterwards."""
-    for station in stepped:
-        station.proxy.set()
-        station.client.give("move", seconds=ENDLESS, amplitude=AMPLITUDE, announce=True)
-    for station in stepped:
-        assert station.client.line() == "moving"
-        station.client.process.kill()
-    for station in stepped:
+    for fixture in stepped:
+        fixture.proxy.set()
+        fixture.client.give("move", seconds=ENDLESS, amplitude=AMPLITUDE, announce=True)
+    for fixture in stepped:
+        assert fixture.client.line() == "moving"
+        fixture.client.process.kill()
+    for fixture in stepped:
         begin = time.monotonic()
-        while not station.sim.ask("state").startswith("Reflex"):
-            assert time.monotonic() - begin < 5.0, station.sim.ask("state")
-        assert LOST in station.sim.ask("state")
-        with connected(station.sim) as client:
+        while not fixture.sim.ask("state").startswith("Reflex"):
+            assert time.monotonic() - begin < 5.0, fixture.sim.ask("state")
+        assert LOST in fixture.sim.ask("state")
+        with connected(fixture.sim) as client:
             assert client.state().reasons == [COMMUNICATION]
             client.recover()

@@ -33,7 +33,7 @@ def wait_for(session, condition, what):
 
 
 class Panel:
-    """What a person sees of the sliders and does with them."""
+    """What the user sees of the sliders and does with them."""
 
     def __init__(self, folder):
         self._picture = folder / "panel.png"
@@ -104,7 +104,7 @@ class Robot:
 
 
 @pytest.fixture(scope="module")
-def desk(tmp_path_factory):
+def sliders(tmp_path_factory):
     """The example with its panel and its robot, as the launch file starts them."""
     folder = tmp_path_factory.mktemp("sliders")
     launch = ["franka_example_controllers", f"{CONTROLLER}.launch", "sim:=true", "rqt:=true", "rviz:=false"]
@@ -118,8 +118,8 @@ def desk(tmp_path_factory):
         assert "could not be set" not in session.tail(1000)
 
 
-def test_a_slider_makes_the_arm_stiffer(desk):
-    session, panel, robot = desk
+def test_a_slider_makes_the_arm_stiffer(sliders):
+    session, panel, robot = sliders
     assert robot.parameters()["translational_stiffness"] == 200.0
     assert panel.shows(0, STIFFEST) == pytest.approx(200.0, abs=2.0)
     robot.push()
@@ -130,8 +130,8 @@ def test_a_slider_makes_the_arm_stiffer(desk):
     assert panel.shows(0, STIFFEST) == pytest.approx(STIFFEST, abs=2.0)
 
 
-def test_sliders_follow_what_others_set(desk):
-    session, panel, robot = desk
+def test_sliders_follow_what_others_set(sliders):
+    session, panel, robot = sliders
     robot.set(translational_stiffness=120.0, rotational_stiffness=20.04)
     wait_for(session, lambda: abs(panel.shows(0, STIFFEST) - 120.0) < 2.0, "the slider moves")
     assert panel.shows(1, 30.0) == pytest.approx(20.04, abs=0.2)
@@ -139,15 +139,15 @@ def test_sliders_follow_what_others_set(desk):
     assert robot.parameters()["rotational_stiffness"] == 20.04
 
 
-def test_a_stopped_controller_keeps_its_sliders(desk):
-    session, panel, robot = desk
+def test_a_stopped_controller_keeps_its_sliders(sliders):
+    session, panel, robot = sliders
     robot.controller("stop")
     panel.pull(2, 0.5, 50.0, 100.0)
     wait_for(session, lambda: abs(robot.parameters()["nullspace_stiffness"] - 50.0) < 1.0, "the new value")
 
 
-def test_sliders_go_and_come_with_their_controller(desk):
-    session, panel, robot = desk
+def test_sliders_go_and_come_with_their_controller(sliders):
+    session, panel, robot = sliders
     robot.controller("stop")
     robot.controller("unload")
     wait_for(session, lambda: not panel.scales(), "the sliders go")

@@ -27,7 +27,7 @@ from fci_wire import (
     connected,
     move_request,
 )
-from stations import LOST
+from network_fixtures import LOST
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 

@@ -68,7 +68,7 @@ def test_two_recoveries_at_once_both_get_an_answer(report):
     assert report["follows_after_both"]
 
 
-def test_a_person_has_to_release_the_user_stop(report):
+def test_the_user_has_to_release_the_user_stop(report):
     outcome = report["user_stop"]
     assert outcome["stopped"] and outcome["has_error"] and outcome["still_stopped"]
     assert outcome["recovery_while_pressed"][0] == ABORTED

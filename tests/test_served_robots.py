@@ -67,7 +67,7 @@ def test_twenty_lost_commands_are_too_many(seen):
     assert many["recovered"] == IDLE
 
 
-def test_a_person_configures_it_at_rest_and_is_told_what_cannot_be(seen):
+def test_it_is_configured_at_rest_and_reports_refusals(seen):
     outcome = seen["configured"]
     assert outcome["load"] == outcome["no_load"] == outcome["delay"] == OK
     assert "load was refused" in outcome["bad_load"][1]

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Moves what a person would move in a two-arm example and prints what the arms did as JSON.
+"""Moves what the user would move in a two-arm example and prints what the arms did as JSON.
 
 Run by test_two_arm_controllers.py with the interpreter that ROS uses. Arguments: what the arms are, then
 dual, or teleop and the address of the leader.

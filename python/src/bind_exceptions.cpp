@@ -31,7 +31,7 @@ void bindPlain(py::module_& module, const char* name, const py::object& base, co
 void bindExceptions(py::module_& module) {
   const py::object base =
       py::register_exception<franka::Exception>(module, "Exception", PyExc_RuntimeError);
-  base.attr("__doc__") = "Base of all errors of a robot; the text is a sentence for a person.";
+  base.attr("__doc__") = "Base of all errors of a robot; the text is a sentence for the user.";
   bindPlain<franka::ModelException>(module, "ModelException", base, "The model cannot be had.");
   bindPlain<franka::NetworkException>(module, "NetworkException", base,
                                       "The connection cannot be made, or is lost.");

@@ -299,7 +299,7 @@ void bindRobot(py::module_& module) {
           },
           py::arg("callback"), "Calls callback(state) with every state until it returns False.")
       .def("automatic_error_recovery", &Robot::automaticErrorRecovery, py::call_guard<release>(),
-           "Recovers from a reflex. Raises CommandException when a person has to act.")
+           "Recovers from a reflex. Raises CommandException when the user has to act.")
       .def("stop", &Robot::stop, py::call_guard<release>(), "Ends the motion under way.")
       .def("load_model", &Robot::loadModel, py::call_guard<release>(), "The robot's Model.")
       .def("get_robot_model", &Robot::getRobotModel, py::call_guard<release>(),

@@ -3,7 +3,7 @@
 #include "control_node.h"
 
 #include <franka/exception.h>
-#include <franka_hw/robot_wanted.h>
+#include <franka_hw/robot_access.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <std_msgs/Bool.h>
@@ -134,8 +134,8 @@ void ControlNode::recover() {
     if (!restarts_controllers_ && needsRecovery()) {
       stopCommandingControllers(public_nh_);
     }
-    const auto lock = franka_hw::RobotWanted::takeWhile(franka_hw_.robotMutex(),
-                                                        [this] { return needsRecovery(); });
+    const auto lock = franka_hw::RobotAccessRequest::takeWhile(franka_hw_.robotMutex(),
+                                                               [this] { return needsRecovery(); });
     if (!lock) {
       // The robot is not touched: a recovery ahead of time must not clear an error still to come.
       ROS_WARN("franka_control_node: error_recovery was called, but there is nothing to recover.");
@@ -199,7 +199,7 @@ void ControlNode::watchIdleRobot() {
   if (has_error_ && robot_stopped_ && franka_hw_.robotMode() == franka::RobotMode::kIdle) {
     recoveredByOthers();
   }
-  franka_hw::RobotWanted::giveWay();
+  franka_hw::RobotAccessRequest::giveWay();
 }
 
 void ControlNode::controllerThrew(const std::string& what) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Lets a person drag the frame between two arms, which a dual-arm controller makes them follow.
+"""Lets the user drag the frame between two arms, which a dual-arm controller makes them follow.
 
 dual_arm_interactive_marker.py --left_arm_id ARM --right_arm_id ARM
 

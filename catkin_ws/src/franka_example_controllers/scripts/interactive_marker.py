@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Lets a person drag the equilibrium pose of an impedance controller in rviz.
+"""Lets the user drag the equilibrium pose of an impedance controller in rviz.
 
 Takes the arm's pose from franka_state_controller/franka_states, shows a marker there and publishes
 where the marker is on equilibrium_pose, every 5 ms of ROS time. The marker's frame is the private

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The interactive marker with a simulated arm and a person dragging it, on the test's clock."""
+"""The interactive marker with a simulated arm and the user dragging it, on the test's clock."""
 
 import math
 import statistics
@@ -79,7 +79,7 @@ class InteractiveMarkerTest(unittest.TestCase):
         message.pose.orientation.w = 1.0
         self.feedback.publish(message)
 
-    def test_follows_the_arm_then_the_person(self):
+    def test_follows_the_arm_then_the_user(self):
         self.assertTrue(wait_for(lambda: self.states.get_num_connections() > 0))
         self.assertEqual([], self.poses)
 

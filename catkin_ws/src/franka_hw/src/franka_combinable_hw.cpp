@@ -3,7 +3,7 @@
 #include <franka/exception.h>
 #include <franka_hw/franka_combinable_hw.h>
 #include <franka_hw/resource_helpers.h>
-#include <franka_hw/robot_wanted.h>
+#include <franka_hw/robot_access.h>
 #include <pluginlib/class_list_macros.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -165,7 +165,8 @@ void FrankaCombinableHW::recover() {
 
 void FrankaCombinableHW::resetError() {
   {
-    const auto lock = RobotWanted::takeWhile(robot_mutex_, [this] { return needsRecovery(); });
+    const auto lock =
+        RobotAccessRequest::takeWhile(robot_mutex_, [this] { return needsRecovery(); });
     if (!lock) {
       // The robot is not touched: a recovery ahead of time must not clear an error still to come.
       ROS_WARN_STREAM("FrankaCombinableHW: a recovery of '"
@@ -235,7 +236,7 @@ void FrankaCombinableHW::controlLoop() {
     } else {
       watchRobot();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      RobotWanted::giveWay();
+      RobotAccessRequest::giveWay();
     }
   }
 }

@@ -3,7 +3,7 @@
 // FrankaHW: the switch of controllers, and the motion.
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/resource_helpers.h>
-#include <franka_hw/robot_wanted.h>
+#include <franka_hw/robot_access.h>
 #include <ros/console.h>
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_hw/robot_wanted.h>
+#include <franka_hw/robot_access.h>
 #include <franka_hw/services.h>
 
 #include <array>
@@ -17,10 +17,10 @@ constexpr std::chrono::milliseconds kPatience{500};
 
 /// The robot for a short operation. @throws franka::InvalidOperationException while it is moving.
 std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
-  const RobotWanted wanted;
+  const RobotAccessRequest request;
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  std::unique_lock<std::mutex> lock(robot_mutex, std::try_to_lock);
-  while (!lock.owns_lock()) {
+  std::unique_lock<std::mutex> lock(robot_mutex, std::defer_lock);
+  while (!lock.try_lock()) {
     if (RobotInMotion::holds(robot_mutex)) {
       throw franka::InvalidOperationException(
           "The robot cannot be configured while a controller commands it. Stop that controller "
@@ -31,8 +31,7 @@ std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
           "The robot cannot be configured now: it is silent, or something else keeps it busy. See "
           "that it answers and nothing moves it, then try again.");
     }
-    std::this_thread::sleep_for(RobotWanted::kMoment);
-    lock.try_lock();
+    std::this_thread::sleep_for(RobotAccessRequest::kMoment);
   }
   return lock;
 }

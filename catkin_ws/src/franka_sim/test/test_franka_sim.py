@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_sim as a person meets it: its command line, and the control interface of one line a command."""
+"""franka_sim as the user meets it: its command line, and the control interface of one line a command."""
 
 import socket
 import struct

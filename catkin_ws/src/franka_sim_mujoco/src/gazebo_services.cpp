@@ -175,13 +175,13 @@ void configure(Simulation& simulation, const gazebo_msgs::SetModelConfiguration:
 void SimServices::offerGazebo() {
   offerGazeboStates();
   offerGazeboModels();
-  desk_.offer<GetJointProperties>(
+  services_.offer<GetJointProperties>(
       "get_joint_properties",
       [this](GetJointProperties::Request& request, GetJointProperties::Response& response) {
         describeJoint(simulation_, request.joint_name, response);
       });
   using gazebo_msgs::GetWorldProperties;
-  desk_.offer<GetWorldProperties>(
+  services_.offer<GetWorldProperties>(
       "get_world_properties",
       [this](GetWorldProperties::Request& /*request*/, GetWorldProperties::Response& response) {
         simulation_.withWorld([&](franka_sim::World& world) {
@@ -193,7 +193,7 @@ void SimServices::offerGazebo() {
         response.rendering_enabled = true;
       });
   using gazebo_msgs::GetPhysicsProperties;
-  desk_.offer<GetPhysicsProperties>(
+  services_.offer<GetPhysicsProperties>(
       "get_physics_properties",
       [this](GetPhysicsProperties::Request& /*request*/, GetPhysicsProperties::Response& response) {
         const SimulationInventory inventory = simulation_.inventory();
@@ -203,7 +203,7 @@ void SimServices::offerGazebo() {
         response.gravity = toVector(inventory.gravity);
       });
   for (const char* name : {"reset_world", "reset_simulation"}) {
-    desk_.offerEmpty(name, [this] { simulation_.reset(); });
+    services_.offerEmpty(name, [this] { simulation_.reset(); });
   }
 }
 
@@ -212,22 +212,22 @@ void SimServices::offerGazeboStates() {
   using gazebo_msgs::GetModelState;
   using gazebo_msgs::SetLinkState;
   using gazebo_msgs::SetModelState;
-  desk_.offer<GetModelState>("get_model_state", [this](GetModelState::Request& request,
-                                                       GetModelState::Response& response) {
+  services_.offer<GetModelState>("get_model_state", [this](GetModelState::Request& request,
+                                                           GetModelState::Response& response) {
     readModelState(simulation_, request, response);
   });
-  desk_.offer<GetLinkState>(
+  services_.offer<GetLinkState>(
       "get_link_state", [this](GetLinkState::Request& request, GetLinkState::Response& response) {
         readLinkState(simulation_, request, response.link_state);
       });
-  desk_.offer<SetModelState>("set_model_state",
-                             [this](SetModelState::Request& request, SetModelState::Response&) {
-                               place(simulation_, request.model_state);
-                             });
-  desk_.offer<SetLinkState>("set_link_state",
-                            [this](SetLinkState::Request& request, SetLinkState::Response&) {
-                              place(simulation_, request.link_state);
-                            });
+  services_.offer<SetModelState>("set_model_state",
+                                 [this](SetModelState::Request& request, SetModelState::Response&) {
+                                   place(simulation_, request.model_state);
+                                 });
+  services_.offer<SetLinkState>("set_link_state",
+                                [this](SetLinkState::Request& request, SetLinkState::Response&) {
+                                  place(simulation_, request.link_state);
+                                });
 }
 
 void SimServices::offerGazeboModels() {
@@ -235,24 +235,24 @@ void SimServices::offerGazeboModels() {
   using gazebo_msgs::GetModelProperties;
   using gazebo_msgs::SetModelConfiguration;
   using gazebo_msgs::SpawnModel;
-  desk_.offer<GetModelProperties>(
+  services_.offer<GetModelProperties>(
       "get_model_properties",
       [this](GetModelProperties::Request& request, GetModelProperties::Response& response) {
         describeModel(simulation_, request.model_name, response);
       });
-  desk_.offer<DeleteModel>("delete_model",
-                           [this](DeleteModel::Request& request, DeleteModel::Response&) {
-                             deleteModel(simulation_, request.model_name);
-                           });
-  desk_.offer<SpawnModel>("spawn_urdf_model",
-                          [this](SpawnModel::Request& request, SpawnModel::Response&) {
-                            spawnUrdf(simulation_, request);
-                          });
-  desk_.offer<SpawnModel>("spawn_sdf_model",
-                          [this](SpawnModel::Request& request, SpawnModel::Response&) {
-                            spawnSdf(simulation_, request);
-                          });
-  desk_.offer<SetModelConfiguration>(
+  services_.offer<DeleteModel>("delete_model",
+                               [this](DeleteModel::Request& request, DeleteModel::Response&) {
+                                 deleteModel(simulation_, request.model_name);
+                               });
+  services_.offer<SpawnModel>("spawn_urdf_model",
+                              [this](SpawnModel::Request& request, SpawnModel::Response&) {
+                                spawnUrdf(simulation_, request);
+                              });
+  services_.offer<SpawnModel>("spawn_sdf_model",
+                              [this](SpawnModel::Request& request, SpawnModel::Response&) {
+                                spawnSdf(simulation_, request);
+                              });
+  services_.offer<SetModelConfiguration>(
       "set_model_configuration",
       [this](SetModelConfiguration::Request& request, SetModelConfiguration::Response&) {
         configure(simulation_, request);

@@ -74,43 +74,43 @@ void setJoints(Simulation& simulation, const SetJointStates::Request& request) {
 }  // namespace
 
 void SimServices::offerWorld() {
-  desk_.offer<SpawnObject>(
+  services_.offer<SpawnObject>(
       "spawn_object", [this](SpawnObject::Request& request, SpawnObject::Response& response) {
         response.warning =
             simulation_.spawnObject(request.name, request.xml, fromMessage(request.pose));
       });
-  desk_.offer<DeleteObject>("delete_object",
-                            [this](DeleteObject::Request& request, DeleteObject::Response&) {
-                              simulation_.removeObject(request.name);
+  services_.offer<DeleteObject>("delete_object",
+                                [this](DeleteObject::Request& request, DeleteObject::Response&) {
+                                  simulation_.removeObject(request.name);
+                                });
+  services_.offer<GetWorld>("get_world",
+                            [this](GetWorld::Request& /*request*/, GetWorld::Response& response) {
+                              describe(simulation_, response);
                             });
-  desk_.offer<GetWorld>("get_world",
-                        [this](GetWorld::Request& /*request*/, GetWorld::Response& response) {
-                          describe(simulation_, response);
-                        });
-  desk_.offer<SetGravity>(
+  services_.offer<SetGravity>(
       "set_gravity", [this](SetGravity::Request& request, SetGravity::Response&) {
         const auto gravity = fromMessage(request.gravity);
         simulation_.withWorld([&](franka_sim::World& world) { world.setGravity(gravity); });
       });
-  desk_.offer<TakeSnapshot>(
+  services_.offer<TakeSnapshot>(
       "take_snapshot", [this](TakeSnapshot::Request& request, TakeSnapshot::Response& response) {
         response.state_hash = simulation_.takeSnapshot(request.name);
       });
-  desk_.offer<RestoreSnapshot>("restore_snapshot", [this](RestoreSnapshot::Request& request,
-                                                          RestoreSnapshot::Response& response) {
+  services_.offer<RestoreSnapshot>("restore_snapshot", [this](RestoreSnapshot::Request& request,
+                                                              RestoreSnapshot::Response& response) {
     response.state_hash = simulation_.restoreSnapshot(request.name);
   });
 }
 
 void SimServices::offerStates() {
-  desk_.offer<GetBodyState>(
+  services_.offer<GetBodyState>(
       "get_body_state", [this](GetBodyState::Request& request, GetBodyState::Response& response) {
         simulation_.withWorld([&](franka_sim::World& world) {
           response.pose = toMessage(world.bodyPose(request.body));
           response.twist = toMessage(world.bodyTwist(request.body));
         });
       });
-  desk_.offer<SetBodyState>(
+  services_.offer<SetBodyState>(
       "set_body_state", [this](SetBodyState::Request& request, SetBodyState::Response&) {
         const franka_sim::Pose pose = fromMessage(request.pose);
         const franka_sim::Twist twist = fromMessage(request.twist);
@@ -122,14 +122,14 @@ void SimServices::offerStates() {
           world.setBodyTwist(request.body, twist);
         });
       });
-  desk_.offer<GetJointStates>("get_joint_states", [this](GetJointStates::Request& request,
-                                                         GetJointStates::Response& response) {
+  services_.offer<GetJointStates>("get_joint_states", [this](GetJointStates::Request& request,
+                                                             GetJointStates::Response& response) {
     readJoints(simulation_, request.names, response.state);
   });
-  desk_.offer<SetJointStates>("set_joint_states",
-                              [this](SetJointStates::Request& request, SetJointStates::Response&) {
-                                setJoints(simulation_, request);
-                              });
+  services_.offer<SetJointStates>(
+      "set_joint_states", [this](SetJointStates::Request& request, SetJointStates::Response&) {
+        setJoints(simulation_, request);
+      });
 }
 
 }  // namespace franka_sim_mujoco

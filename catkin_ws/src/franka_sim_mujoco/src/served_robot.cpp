@@ -22,7 +22,7 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-/// The robot's own configuration, as a person enters it in Desk, comes from the same parameters as
+/// The robot's own configuration, as the user enters it in Desk, comes from the same parameters as
 /// that of a robot under controllers in process; how it behaves comes from the FCI.
 franka_sim::ControlUnitParameters unitParameters(const RobotPlan& plan, franka_sim::World& world,
                                                  bool has_hand) {
@@ -78,7 +78,7 @@ ServedRobot::ServedRobot(const RobotPlan& plan, franka_sim::World& world,
                          BetweenTicks between_ticks)
     : between_ticks_(std::move(between_ticks)),
       robot_(makeRobot(plan, world)),
-      desk_(ros::NodeHandle(ros::NodeHandle(plan.robot_namespace), "franka_sim")) {
+      services_(ros::NodeHandle(ros::NodeHandle(plan.robot_namespace), "franka_sim")) {
   robot_.onCollision([name = plan.description.name](const std::string& what) {
     ROS_WARN_STREAM("Robot '" << name << "': " << what);
   });
@@ -94,8 +94,8 @@ template <typename Service>
 void ServedRobot::offer(
     const std::string& name,
     std::function<void(typename Service::Request&, typename Service::Response&)> handler) {
-  desk_.offer<Service>(name, [this, handler](typename Service::Request& request,
-                                             typename Service::Response& response) {
+  services_.offer<Service>(name, [this, handler](typename Service::Request& request,
+                                                 typename Service::Response& response) {
     between_ticks_([&] { handler(request, response); });
   });
 }

@@ -95,7 +95,7 @@ void collectContacts(franka_sim::World& world, const GetContacts::Request& reque
 }  // namespace
 
 SimServices::SimServices(ros::NodeHandle node, Simulation& simulation)
-    : simulation_(simulation), desk_(std::move(node)) {
+    : simulation_(simulation), services_(std::move(node)) {
   offerTime();
   offerRobots();
   offerBodies();
@@ -105,20 +105,20 @@ SimServices::SimServices(ros::NodeHandle node, Simulation& simulation)
 }
 
 void SimServices::offerTime() {
-  desk_.offerEmpty("pause_physics", [this] { simulation_.setPaused(true); });
-  desk_.offerEmpty("unpause_physics", [this] { simulation_.setPaused(false); });
-  desk_.offer<Step>("step", [this](Step::Request& request, Step::Response& response) {
+  services_.offerEmpty("pause_physics", [this] { simulation_.setPaused(true); });
+  services_.offerEmpty("unpause_physics", [this] { simulation_.setPaused(false); });
+  services_.offer<Step>("step", [this](Step::Request& request, Step::Response& response) {
     fill(simulation_.step(request.ticks), response);
   });
-  desk_.offer<SetRealTimeFactor>(
+  services_.offer<SetRealTimeFactor>(
       "set_real_time_factor",
       [this](SetRealTimeFactor::Request& request, SetRealTimeFactor::Response& /*response*/) {
         simulation_.setRealTimeFactor(request.real_time_factor);
       });
-  desk_.offer<std_srvs::Trigger>(
+  services_.offer<std_srvs::Trigger>(
       "reset", [this](std_srvs::Trigger::Request& /*request*/,
                       std_srvs::Trigger::Response& /*response*/) { simulation_.reset(); });
-  desk_.offer<Benchmark>(
+  services_.offer<Benchmark>(
       "benchmark", [this](Benchmark::Request& request, Benchmark::Response& response) {
         const Simulation::Benchmark result = simulation_.benchmark(request.ticks);
         response.tick_us = result.tick;
@@ -131,33 +131,33 @@ void SimServices::offerTime() {
 }
 
 void SimServices::offerRobots() {
-  desk_.offer<SpawnRobot>("spawn_robot",
-                          [this](SpawnRobot::Request& request, SpawnRobot::Response& /*response*/) {
-                            simulation_.spawn(toOrder(request));
-                          });
-  desk_.offer<DeleteRobot>(
+  services_.offer<SpawnRobot>(
+      "spawn_robot", [this](SpawnRobot::Request& request, SpawnRobot::Response& /*response*/) {
+        simulation_.spawn(toOrder(request));
+      });
+  services_.offer<DeleteRobot>(
       "delete_robot", [this](DeleteRobot::Request& request, DeleteRobot::Response& /*response*/) {
         simulation_.remove(request.name);
       });
 }
 
 void SimServices::offerBodies() {
-  desk_.offer<GetBodyPose>("get_body_pose",
-                           [this](GetBodyPose::Request& request, GetBodyPose::Response& response) {
-                             simulation_.withWorld([&](franka_sim::World& world) {
-                               response.pose = toMessage(world.bodyPose(request.body));
-                             });
-                           });
-  desk_.offer<SetBodyPose>("set_body_pose", [this](SetBodyPose::Request& request,
-                                                   SetBodyPose::Response& /*response*/) {
+  services_.offer<GetBodyPose>(
+      "get_body_pose", [this](GetBodyPose::Request& request, GetBodyPose::Response& response) {
+        simulation_.withWorld([&](franka_sim::World& world) {
+          response.pose = toMessage(world.bodyPose(request.body));
+        });
+      });
+  services_.offer<SetBodyPose>("set_body_pose", [this](SetBodyPose::Request& request,
+                                                       SetBodyPose::Response& /*response*/) {
     const franka_sim::Pose pose = fromMessage(request.pose);
     simulation_.withWorld([&](franka_sim::World& world) { world.setBodyPose(request.body, pose); });
   });
-  desk_.offer<PushBody>(
+  services_.offer<PushBody>(
       "push_body", [this](PushBody::Request& request, PushBody::Response& /*response*/) {
         simulation_.withWorld([&](franka_sim::World& world) { push(world, request); });
       });
-  desk_.offer<GetContacts>(
+  services_.offer<GetContacts>(
       "get_contacts", [this](GetContacts::Request& request, GetContacts::Response& response) {
         simulation_.withWorld(
             [&](franka_sim::World& world) { collectContacts(world, request, response); });

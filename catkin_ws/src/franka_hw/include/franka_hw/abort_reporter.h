@@ -20,7 +20,7 @@ class AbortReporter {
   /// @param nh namespace of the robot @param arm_id part of the files' names
   AbortReporter(ros::NodeHandle& nh, const std::string& arm_id);
 
-  /// @param what a sentence for a person @param log the last states and commands, maybe empty
+  /// @param what a sentence for the user @param log the last states and commands, maybe empty
   void report(const std::string& what, const std::vector<franka::Record>& log);
 
  private:

@@ -201,6 +201,35 @@ TEST_F(Switching, NanReachesTheRobotInNoMode) {
   }
 }
 
+// The bottom row must be exact; other entries may be off by a rounding error.
+TEST_F(Switching, PoseWithARoundingErrorIsSentOrRefusedButEndsNothingElse) {
+  ToldController& controller = loop_->controller("CP");
+  ASSERT_TRUE(loop_->switchTo({"CP"}, {}));
+  for (int entry = 0; entry < 16; entry++) {
+    for (const double dust : {1e-17, -1e-12, 1e-9, -1e-6}) {
+      SCOPED_TRACE(testing::Message() << dust << " on entry " << entry);
+      expectRuns("CP");
+      loop_->forgetErrors();
+      const int before = controller.updates;
+      controller.dusty_entry = entry;
+      controller.dust = dust;
+      // 1e-17 is lost in the sum with 1, the last entry.
+      const bool refused = entry % 4 == 3 && (entry < 15 || std::abs(dust) > 1e-16);
+      ASSERT_TRUE(waitUntil([&] {
+        return !loop_->errors().empty() || (!refused && controller.updates > before + 5);
+      }));
+      controller.dust = 0.0;
+      EXPECT_EQ(refused, !loop_->errors().empty());
+      if (refused) {
+        EXPECT_NE(std::string::npos, loop_->errors()[0].find("transformation"))
+            << loop_->errors()[0];
+      }
+      ASSERT_TRUE(waitUntil(
+          [&] { return arm_.robot.state().robot_mode == franka_core::RobotMode::kMove; }));
+    }
+  }
+}
+
 TEST_F(Switching, AControllerThatSleepsIsNoReasonToFail) {
   ToldController& controller = loop_->controller("JT");
   controller.fault = Fault::kSleep;

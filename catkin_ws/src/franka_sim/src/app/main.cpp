@@ -20,11 +20,11 @@
 #include <utility>
 #include <vector>
 
-#include "farewell.h"
 #include "files.h"
+#include "operator_commands.h"
 #include "options.h"
-#include "person.h"
 #include "served_arm.h"
+#include "shutdown.h"
 #include "viewer.h"
 
 namespace franka_sim {
@@ -113,14 +113,14 @@ void serve(const Options& options) {
         world.prepareStep();
       });
   std::atomic<bool> ended{false};
-  Farewell farewell(end_requested, ended, std::chrono::duration<double>(options.linger), robots);
-  host.add(farewell);
+  Shutdown shutdown(end_requested, ended, std::chrono::duration<double>(options.linger), robots);
+  host.add(shutdown);
   std::deque<fci::LineServer> lines;
   for (ServedArm& arm : arms) {
     host.add(arm.robot());
     if (arm.options().control_port != 0) {
       lines.emplace_back(arm.options().ip, arm.options().control_port);
-      addPersonCommands(lines.back(), {arm.robot(), robots, host, world, ended});
+      addOperatorCommands(lines.back(), {arm.robot(), robots, host, world, ended});
       host.add(lines.back());
     }
   }

@@ -28,7 +28,7 @@ struct ArmOptions {
   std::uint16_t control_port{1340};  ///< of the control interface; 0: none
 };
 
-/// What a person asks of franka_sim on the command line.
+/// What the user asks of franka_sim on the command line.
 struct Options {
   bool help{false};
   std::vector<ArmOptions> arms{1};

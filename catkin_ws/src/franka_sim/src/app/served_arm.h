@@ -22,7 +22,7 @@ class ServedArm {
 
   fci::SimRobot& robot() noexcept { return *robot_; }
   const ArmOptions& options() const noexcept { return options_; }
-  /// Protocol versions for a person, for example "3 to 5".
+  /// Protocol versions for the user, for example "3 to 5".
   std::string protocols() const;
 
  private:

@@ -36,11 +36,11 @@ bool isForThisMachine(const codec::LoadModelLibraryRequest& request) noexcept {
 
 }  // namespace
 
-RobotServer::RobotServer(RobotServerParameters parameters, ArmDesk& desk)
+RobotServer::RobotServer(RobotServerParameters parameters, ArmRequestHandler& handler)
     : parameters_(std::move(parameters)),
       model_library_(
           std::make_shared<const std::vector<std::uint8_t>>(std::move(parameters_.model_library))),
-      desk_(desk),
+      handler_(handler),
       slot_(parameters_.address, parameters_.port),
       datagrams_(parameters_.address) {
   for (const auto& [version, text] : parameters_.urdfs) {
@@ -54,8 +54,8 @@ RobotServer::~RobotServer() = default;
 void RobotServer::serve(bool stops_only) {
   collectEnds();
   datagrams_left_ = kDatagramsAtOnce;
-  slot_.setOpen(desk_.active());
-  if (!desk_.active() && version_ == 0) {
+  slot_.setOpen(handler_.active());
+  if (!handler_.active() && version_ == 0) {
     slot_.drop();  // nobody yet; a client hears how its motion ends first (publish)
   }
   slot_.serve([this, stops_only](Connection& client) { return serveOne(client, stops_only); },
@@ -69,7 +69,7 @@ void RobotServer::dropClient() noexcept {
 
 void RobotServer::forgetClient() noexcept {
   if (version_ != 0) {
-    desk_.disconnected();
+    handler_.disconnected();
   }
   version_ = 0;
   begun_ = false;
@@ -135,7 +135,7 @@ bool RobotServer::connect(const codec::Header& header, const codec::ConnectReque
     datagrams_.setPeer(peer);
     begun_ = false;
     answered_ = false;
-    desk_.connected(version_);
+    handler_.connected(version_);
   }
   return true;
 }
@@ -158,7 +158,7 @@ bool RobotServer::answer(const codec::Header& header, const codec::Request& requ
     default:
       break;
   }
-  const std::optional<Status> status = desk_.handle(request);
+  const std::optional<Status> status = handler_.handle(request);
   if (pending.command == Command::kMove && status == Status::kMotionStarted) {
     move_ = pending;
     motion_end_.reset();
@@ -220,7 +220,7 @@ bool RobotServer::replyWithModel(const Pending& to, const Blob& model) {
 }
 
 bool RobotServer::replyWithWall(const Pending& to, std::int32_t id) {
-  const std::optional<codec::CartesianLimit> wall = desk_.wall(id);
+  const std::optional<codec::CartesianLimit> wall = handler_.wall(id);
   codec::Reply reply;
   reply.status = wall ? Status::kSuccess : Status::kInvalidArgumentRejected;
   reply.cartesian_limit = wall.value_or(codec::CartesianLimit{});
@@ -235,9 +235,9 @@ void RobotServer::collectEnds() noexcept {
       where = what;
     }
   };
-  collect(motion_end_, desk_.motionEnd());
-  collect(stop_end_, desk_.stopEnd());
-  collect(recovery_end_, desk_.recoveryEnd());
+  collect(motion_end_, handler_.motionEnd());
+  collect(stop_end_, handler_.stopEnd());
+  collect(recovery_end_, handler_.recoveryEnd());
 }
 
 void RobotServer::replyTo(std::optional<Pending>& pending, std::optional<Status>& status) {
@@ -264,7 +264,7 @@ void RobotServer::publish(std::uint64_t ticks, bool same_moment) {
     recovery_end_.reset();
     return;
   }
-  shown_ = desk_.state();
+  shown_ = handler_.state();
   shown_.message_id = message_id_;
   if (codec::encodeState(version_, shown_, state_bytes_) == CodecError::kNone) {
     datagrams_.send({state_bytes_.data(), codec::stateSize(version_)});
@@ -276,7 +276,7 @@ void RobotServer::publish(std::uint64_t ticks, bool same_moment) {
   replyTo(move_, motion_end_);
   replyTo(stop_, stop_end_);
   replyTo(recovery_, recovery_end_);
-  if (!desk_.active()) {
+  if (!handler_.active()) {
     dropClient();
   }
 }
@@ -334,7 +334,7 @@ const franka_core::RobotCommand* RobotServer::takeCommand() noexcept {
 }
 
 bool RobotServer::expectsCommands() const noexcept {
-  return version_ != 0 && move_ && desk_.state().robot_mode == RobotMode::kMove;
+  return version_ != 0 && move_ && handler_.state().robot_mode == RobotMode::kMove;
 }
 
 void RobotServer::addDescriptors(std::vector<pollfd>& fds) const { slot_.addDescriptors(fds); }

@@ -27,7 +27,7 @@ std::string addressOf(const RobotServerParameters& parameters) { return paramete
 
 SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
                    const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum)
-    : unit_(unit), arm_(arm), desk_(unit_), server_(server, desk_), hash_(kHashStart) {
+    : unit_(unit), arm_(arm), handler_(unit_), server_(server, handler_), hash_(kHashStart) {
   if (hand) {
     hand_ = std::make_unique<ServedHand>(addressOf(server), *hand);
   }
@@ -166,7 +166,7 @@ bool SimRobot::hasClients() const {
 bool SimRobot::settling() const {
   const franka_core::RobotState& state = unit_.state();
   if (state.robot_mode == franka_core::RobotMode::kGuiding) {
-    return false;  // nothing brakes an arm that a person leads: it may never come to rest
+    return false;  // nothing brakes an arm that the user leads: it may never come to rest
   }
   const bool abandoned =
       state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();

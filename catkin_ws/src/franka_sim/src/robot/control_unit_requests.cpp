@@ -419,7 +419,7 @@ void ControlUnit::enter(RobotMode before) noexcept {
 // Idle that cannot stay: the stop is still pressed, or an error has not been recovered from.
 void ControlUnit::settle() noexcept {
   if (parameters_.reflexes) {
-    // The shock of closing brakes, or the hands of a person, are no collisions.
+    // The shock of closing brakes, or the hands of the user, are no collisions.
     clearContacts();
   }
   if (user_stop_) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kForceRise = 0.05;  // [s] until a grasp presses with its full force (our choice)
 /// How far the asked width runs ahead before standing fingers tell of an obstacle [m] (our choice:
 /// free fingers follow long before).
-constexpr double kTellingLag = 1e-3;
+constexpr double kReportingLag = 1e-3;
 constexpr double kSlowest = 1e-5;  // [m/s]: what moves slower does not move (our choice)
 constexpr double kPressingDamping =
     20.0;  // [N s/m] at most: stable at 1 kHz for fingers from 0.015 kg on
@@ -202,7 +202,7 @@ bool GripperUnit::resting(double period) noexcept {
   }
   // What an object that is let go does to the fingers is not yet the motion that was asked for.
   const bool asked =
-      pressing_ || ramp_.arrived() || std::abs(ramp_.width() - width()) > kTellingLag;
+      pressing_ || ramp_.arrived() || std::abs(ramp_.width() - width()) > kReportingLag;
   return standstill_.update(measured_.dq[0] + measured_.dq[1], threshold, period, asked);
 }
 

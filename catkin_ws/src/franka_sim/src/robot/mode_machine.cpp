@@ -26,7 +26,7 @@ constexpr Transition kTransitions[] = {
 
     {RobotMode::kIdle, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
     {RobotMode::kMove, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
-    // A person must be able to lead the arm out of what no recovery can leave.
+    // The user must be able to lead the arm out of what no recovery can leave.
     {RobotMode::kReflex, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
     {RobotMode::kGuiding, ModeEvent::kGuidingEnded, RobotMode::kIdle},
 

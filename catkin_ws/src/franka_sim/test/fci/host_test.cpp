@@ -40,18 +40,18 @@ std::string urdfText() {
 }
 
 /// Does what others ask for, between two ticks.
-class Errands final : public Service {
+class Jobs final : public Service {
  public:
   void serve() override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (std::packaged_task<void()>& errand : due_) {
-      errand();
+    for (std::packaged_task<void()>& job : due_) {
+      job();
     }
     due_.clear();
   }
   void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
-  void run(std::function<void()> errand) {
-    std::packaged_task<void()> task(std::move(errand));
+  void run(std::function<void()> job) {
+    std::packaged_task<void()> task(std::move(job));
     std::future<void> done = task.get_future();
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -89,7 +89,7 @@ class Stage {
     hand.parameters.gains = {FingerGains{100, 0, 1}, FingerGains{100, 0, 1}};
     robot_ = std::make_unique<SimRobot>(unit, world_.arm("panda", "panda"), server, hand);
     host_.add(*robot_);
-    host_.add(errands_);
+    host_.add(jobs_);
     thread_ = std::thread([this] { host_.run(stop_); });
   }
   ~Stage() { finish(); }
@@ -107,8 +107,8 @@ class Stage {
   std::uint64_t ticks() const { return host_.ticks(); }
 
   /// Lets the host's thread do something between two ticks, and waits for it.
-  void between(std::function<void(SimRobot&, World&, Host&)> errand) {
-    errands_.run([&] { errand(*robot_, world_, host_); });
+  void between(std::function<void(SimRobot&, World&, Host&)> job) {
+    jobs_.run([&] { job(*robot_, world_, host_); });
   }
   double width() {
     double width = 0.0;
@@ -123,7 +123,7 @@ class Stage {
   World world_;
   std::unique_ptr<SimRobot> robot_;
   Host host_;
-  Errands errands_;
+  Jobs jobs_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

@@ -43,10 +43,10 @@ double residentMegabytes() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// A robot without physics: a desk, and hands that rest.
+/// A robot without physics: a handler, and hands that rest.
 class BareRobot final : public HostedRobot {
  public:
-  BareRobot() : arm(parameters(), desk) { desk.shown.robot_mode = RobotMode::kIdle; }
+  BareRobot() : arm(parameters(), handler) { handler.shown.robot_mode = RobotMode::kIdle; }
 
   static RobotServerParameters parameters() {
     RobotServerParameters result;
@@ -90,7 +90,7 @@ class BareRobot final : public HostedRobot {
     vacuum.addDescriptors(fds);
   }
 
-  FakeDesk desk;
+  FakeRequestHandler handler;
   RobotServer arm;
   GripperUnit finger_unit{GripperParameters()};
   VacuumGripperUnit vacuum_unit;

@@ -14,10 +14,10 @@ namespace {
 
 constexpr char kAddress[] = "127.0.0.1";
 
-/// A person with a terminal. Loopback delivers at once, so that nothing here waits.
-class Person {
+/// The user with a terminal. Loopback delivers at once, so that nothing here waits.
+class Operator {
  public:
-  explicit Person(const LineServer& server) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  explicit Operator(const LineServer& server) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in name{};
     name.sin_family = AF_INET;
     name.sin_port = htons(server.port());
@@ -65,36 +65,36 @@ class LineServerTest : public ::testing::Test {
 };
 
 TEST_F(LineServerTest, AnswersOnceStatesHaveGoneOut) {
-  Person person(server);
-  person.type("count\ncount\n");
+  Operator user(server);
+  user.type("count\ncount\n");
   server.serve();
   EXPECT_EQ(1, count) << "the second line waits for the answer to the first";
-  EXPECT_EQ("(nothing)", person.sees());
+  EXPECT_EQ("(nothing)", user.sees());
   server.published();
-  EXPECT_EQ("ok 1\n", person.sees());
+  EXPECT_EQ("ok 1\n", user.sees());
   tick();
-  EXPECT_EQ("ok 2\n", person.sees());
+  EXPECT_EQ("ok 2\n", user.sees());
 }
 
 TEST_F(LineServerTest, KeepsALineUntilItsTimeHasCome) {
-  Person person(server);
-  person.type("wait\ncount\n");
+  Operator user(server);
+  user.type("wait\ncount\n");
   tick();
   tick();
-  EXPECT_EQ("(nothing)", person.sees());
+  EXPECT_EQ("(nothing)", user.sees());
   EXPECT_EQ(0, count);
   ready = true;
   tick();
-  EXPECT_EQ("ok done\n", person.sees());
+  EXPECT_EQ("ok done\n", user.sees());
   tick();
-  EXPECT_EQ("ok 1\n", person.sees());
+  EXPECT_EQ("ok 1\n", user.sees());
 }
 
 TEST_F(LineServerTest, RefusesASecondClientWithASentence) {
-  Person first(server);
+  Operator first(server);
   first.type("count\n");
   tick();
-  Person second(server);
+  Operator second(server);
   second.type("count\n");
   tick();
   const std::string told = second.sees();
@@ -103,20 +103,20 @@ TEST_F(LineServerTest, RefusesASecondClientWithASentence) {
   EXPECT_EQ(1, count) << "and does nothing for it";
   EXPECT_EQ("ok 1\n", first.sees());
   first.leave();
-  Person third(server);
+  Operator third(server);
   third.type("count\n");
   tick();
   EXPECT_EQ("ok 2\n", third.sees());
 }
 
-TEST(LineServer, LetsAPersonTypeSlowlyUntilAnotherComes) {
+TEST(LineServer, LetsAUserTypeSlowlyUntilAnotherComes) {
   LineServer server(kAddress, 0, std::chrono::seconds(0));
   server.add("count", [](const LineServer::Words& /*words*/) { return "1"; });
   const auto tick = [&server] {
     server.serve();
     server.published();
   };
-  Person slow(server);
+  Operator slow(server);
   for (int i = 0; i < 5; i++) {
     tick();
   }
@@ -126,9 +126,9 @@ TEST(LineServer, LetsAPersonTypeSlowlyUntilAnotherComes) {
   tick();
   EXPECT_EQ("ok 1\n", slow.sees());
   slow.leave();
-  Person silent(server);
+  Operator silent(server);
   tick();
-  Person other(server);
+  Operator other(server);
   other.type("count\n");
   tick();
   const std::string told = silent.sees();
@@ -138,31 +138,31 @@ TEST(LineServer, LetsAPersonTypeSlowlyUntilAnotherComes) {
 }
 
 TEST_F(LineServerTest, AnswersAllLinesOfAClientThatHasEndedItsSide) {
-  Person person(server);
-  person.type("count\ncount\n");
-  person.end();
+  Operator user(server);
+  user.type("count\ncount\n");
+  user.end();
   tick();
   tick();
   tick();
-  EXPECT_EQ("ok 1\nok 2\n", person.sees());
-  EXPECT_EQ("(end)", person.sees());
+  EXPECT_EQ("ok 1\nok 2\n", user.sees());
+  EXPECT_EQ("(end)", user.sees());
 }
 
 TEST_F(LineServerTest, SaysThatALineIsTooLong) {
-  Person person(server);
-  person.type(std::string(4500, 'x'));
+  Operator user(server);
+  user.type(std::string(4500, 'x'));
   tick();
-  EXPECT_EQ("error: A line is longer than 4000 characters.\n", person.sees());
+  EXPECT_EQ("error: A line is longer than 4000 characters.\n", user.sees());
 }
 
 TEST(LineServer, SendsTheLastAnswerWhenItGoes) {
   auto server = std::make_unique<LineServer>(kAddress, 0);
   server->add("quit", [](const LineServer::Words& /*words*/) { return ""; });
-  Person person(*server);
-  person.type("quit\n");
+  Operator user(*server);
+  user.type("quit\n");
   server->serve();
   server.reset();
-  EXPECT_EQ("ok\n", person.sees());
+  EXPECT_EQ("ok\n", user.sees());
 }
 
 }  // namespace

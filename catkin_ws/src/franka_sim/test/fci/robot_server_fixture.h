@@ -22,12 +22,12 @@ using franka_core::RobotMode;
 using franka_test::TestClient;
 
 /// Answers what the test has written down.
-class FakeDesk final : public ArmDesk {
+class FakeRequestHandler final : public ArmRequestHandler {
  public:
-  FakeDesk() { shown.robot_mode = RobotMode::kIdle; }
+  FakeRequestHandler() { shown.robot_mode = RobotMode::kIdle; }
   const franka_core::RobotState& state() const noexcept override { return shown; }
   void connected(std::uint16_t version) noexcept override { last_version = version; }
-  void disconnected() noexcept override { farewells++; }
+  void disconnected() noexcept override { disconnections++; }
   bool active() const noexcept override { return on; }
   std::optional<Status> handle(const codec::Request& request) noexcept override {
     last = request;
@@ -60,7 +60,7 @@ class FakeDesk final : public ArmDesk {
   std::optional<Status> answer{Status::kSuccess};
   std::optional<Status> motion_end, stop_end, recovery_end;
   codec::Request last;
-  int handled{0}, farewells{0};
+  int handled{0}, disconnections{0};
   bool on{true};
   std::uint16_t last_version{0};
 
@@ -74,7 +74,7 @@ class FakeDesk final : public ArmDesk {
 
 class RobotServerTest : public ::testing::Test {
  protected:
-  RobotServerTest() : server_(parameters(), desk_) {}
+  RobotServerTest() : server_(parameters(), handler_) {}
 
   static RobotServerParameters parameters() {
     RobotServerParameters result;
@@ -129,7 +129,7 @@ class RobotServerTest : public ::testing::Test {
     return client.answer(codec::commandOf(request), 1000);
   }
 
-  FakeDesk desk_;
+  FakeRequestHandler handler_;
   RobotServer server_;
 };
 

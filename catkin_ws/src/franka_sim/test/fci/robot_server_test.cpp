@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The robot's network face over real sockets, with a desk in the place of the control unit.
+// The robot's network face over real sockets, with a handler in the place of the control unit.
 #include <cmath>
 #include <random>
 #include <string>
@@ -17,7 +17,7 @@ TEST_F(RobotServerTest, acceptsEachVersionOfItsRange) {
     TestClient client(server_.port());
     connect(client, version);
     EXPECT_EQ(server_.version(), version);
-    EXPECT_EQ(desk_.last_version, version);
+    EXPECT_EQ(handler_.last_version, version);
     server_.publish();
     EXPECT_TRUE(client.state());
     client.close();
@@ -28,7 +28,7 @@ TEST_F(RobotServerTest, acceptsEachVersionOfItsRange) {
 TEST_F(RobotServerTest, tellsItsVersionToOthersAndTakesThemBackAtOnce) {
   RobotServerParameters panda = parameters();
   panda.newest_version = 5;
-  RobotServer server(panda, desk_);
+  RobotServer server(panda, handler_);
   for (const std::uint16_t version : {0, 2, 6, 10, 65535}) {
     TestClient stranger(server.port());
     stranger.connect(version);
@@ -84,7 +84,7 @@ TEST_F(RobotServerTest, runsAMotionFromStartToEnd) {
   for (std::uint16_t version = 3; version <= 10; version++) {
     TestClient client(server_.port());
     connect(client, version);
-    desk_.startMotion();
+    handler_.startMotion();
     const std::uint32_t id = client.request(codec::MoveRequest{});
     serve();
     const auto started = client.answer(Command::kMove);
@@ -109,7 +109,7 @@ TEST_F(RobotServerTest, runsAMotionFromStartToEnd) {
     EXPECT_EQ(server_.takeCommand(), nullptr);
     EXPECT_TRUE(server_.motionHasBegun());
     // The end: first in the state, then in the reply.
-    desk_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
+    handler_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
     serve();
     EXPECT_FALSE(client.answer(Command::kMove, 20));
     EXPECT_TRUE(server_.hasNews());
@@ -120,7 +120,7 @@ TEST_F(RobotServerTest, runsAMotionFromStartToEnd) {
     EXPECT_EQ(end->reply.status, Status::kReflexAborted);
     EXPECT_EQ(end->header.command_id, id);
     EXPECT_FALSE(server_.expectsCommands());
-    desk_.shown.robot_mode = RobotMode::kIdle;
+    handler_.shown.robot_mode = RobotMode::kIdle;
     client.close();
     ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
   }
@@ -129,7 +129,7 @@ TEST_F(RobotServerTest, runsAMotionFromStartToEnd) {
 TEST_F(RobotServerTest, takesTheAnswerToTheLastStateAlone) {
   TestClient client(server_.port());
   connect(client, 5);
-  desk_.startMotion();
+  handler_.startMotion();
   client.request(codec::MoveRequest{});
   serve();
   server_.publish();
@@ -157,7 +157,7 @@ TEST_F(RobotServerTest, takesTargetsOfAnAsynchronousMotionWheneverTheyCome) {
   connect(client, 10);
   server_.publish();
   const std::uint64_t before = client.state()->message_id;
-  desk_.startMotion();
+  handler_.startMotion();
   codec::MoveRequest request;
   request.use_async_motion_generator = true;
   request.maximum_velocity.fill(0.5);
@@ -183,9 +183,9 @@ TEST_F(RobotServerTest, takesTargetsOfAnAsynchronousMotionWheneverTheyCome) {
   EXPECT_FALSE(isTaken(first + 50)) << "that has not been sent yet";
   EXPECT_TRUE(isTaken(first + 49));
   // The next motion is none of that kind.
-  desk_.endMotion(Status::kSuccess, RobotMode::kIdle);
+  handler_.endMotion(Status::kSuccess, RobotMode::kIdle);
   server_.publish();
-  desk_.startMotion();
+  handler_.startMotion();
   client.request(codec::MoveRequest{});
   serve();
   EXPECT_TRUE(server_.expectsCommands());
@@ -195,23 +195,23 @@ TEST_F(RobotServerTest, takesTargetsOfAnAsynchronousMotionWheneverTheyCome) {
 TEST_F(RobotServerTest, tellsTheDeskOnceThatItsClientHasGone) {
   TestClient client(server_.port());
   connect(client, 5);
-  EXPECT_EQ(desk_.farewells, 0);
+  EXPECT_EQ(handler_.disconnections, 0);
   client.close();
   ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
   serve();
-  EXPECT_EQ(desk_.farewells, 1);
+  EXPECT_EQ(handler_.disconnections, 1);
 }
 
 TEST_F(RobotServerTest, switchedOffTellsItsClientHowTheMotionEndedAndRefusesAllUntilItIsOn) {
   TestClient client(server_.port());
   connect(client, 5);
-  desk_.startMotion();
+  handler_.startMotion();
   client.request(codec::MoveRequest{});
   serve();
   ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
   TestClient waiting(server_.port());  // not yet taken
-  desk_.on = false;
-  desk_.endMotion(Status::kAborted, RobotMode::kIdle);
+  handler_.on = false;
+  handler_.endMotion(Status::kAborted, RobotMode::kIdle);
   serve();
   EXPECT_TRUE(waiting.ended());
   server_.publish();
@@ -223,12 +223,12 @@ TEST_F(RobotServerTest, switchedOffTellsItsClientHowTheMotionEndedAndRefusesAllU
   server_.addDescriptors(fds);
   EXPECT_TRUE(fds.empty()) << "a closed port wakes nobody up";
   for (int i = 0; i < 2; i++) {
-    desk_.on = true;
+    handler_.on = true;
     serve();
     TestClient next(server_.port());
     ASSERT_TRUE(next.connected());
     connect(next, 5);
-    desk_.on = false;
+    handler_.on = false;
     serve();
     server_.publish();
     EXPECT_TRUE(next.ended());
@@ -238,7 +238,7 @@ TEST_F(RobotServerTest, switchedOffTellsItsClientHowTheMotionEndedAndRefusesAllU
 TEST_F(RobotServerTest, switchedOffDropsWhoHasNotSaidWhoItIs) {
   TestClient client(server_.port());
   serve();
-  desk_.on = false;
+  handler_.on = false;
   serve();
   EXPECT_TRUE(client.ended());
 }
@@ -247,7 +247,7 @@ TEST_F(RobotServerTest, refusesAConnectWithinAMotionWhichGoesOn) {
   for (const std::uint16_t other : {5, 6, 10}) {
     TestClient client(server_.port());
     connect(client, 5);
-    desk_.startMotion();
+    handler_.startMotion();
     client.request(codec::MoveRequest{});
     serve();
     ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
@@ -258,7 +258,7 @@ TEST_F(RobotServerTest, refusesAConnectWithinAMotionWhichGoesOn) {
     EXPECT_EQ(refused->reply.status, Status::kIncompatibleLibraryVersion) << other;
     EXPECT_EQ(refused->reply.server_version, 5);
     EXPECT_EQ(server_.version(), 5);
-    EXPECT_EQ(desk_.last_version, 5);
+    EXPECT_EQ(handler_.last_version, 5);
     server_.publish();
     const auto state = client.state(1000);  // of this version, at this port
     ASSERT_TRUE(state) << other;
@@ -267,7 +267,7 @@ TEST_F(RobotServerTest, refusesAConnectWithinAMotionWhichGoesOn) {
     client.command(command);
     EXPECT_TRUE(server_.receiveCommand());
     EXPECT_TRUE(server_.expectsCommands());
-    desk_.endMotion(Status::kSuccess, RobotMode::kIdle);
+    handler_.endMotion(Status::kSuccess, RobotMode::kIdle);
     server_.publish();
     EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kSuccess);
     client.close();
@@ -280,7 +280,7 @@ TEST_F(RobotServerTest, repeatsAStateByteForByte) {
   connect(client, 5);
   server_.publish();
   const auto first = client.state();
-  desk_.shown.q[0] = 1.0;
+  handler_.shown.q[0] = 1.0;
   server_.repeat();
   const auto second = client.state();
   ASSERT_TRUE(first && second);
@@ -291,7 +291,7 @@ TEST_F(RobotServerTest, repeatsAStateByteForByte) {
 TEST_F(RobotServerTest, dropsDatagramsThatAreNoCommands) {
   TestClient client(server_.port());
   connect(client, 5);
-  desk_.startMotion();
+  handler_.startMotion();
   client.request(codec::MoveRequest{});
   serve();
   server_.publish();
@@ -324,7 +324,7 @@ TEST_F(RobotServerTest, answersASetterAfterTheStateThatShowsIt) {
   connect(client, 5);
   client.request(codec::SetLoadRequest{1.5, {}, {}});
   serve();
-  EXPECT_EQ(std::get<codec::SetLoadRequest>(desk_.last).mass, 1.5);
+  EXPECT_EQ(std::get<codec::SetLoadRequest>(handler_.last).mass, 1.5);
   EXPECT_FALSE(client.answer(Command::kSetLoad, 20));
   server_.publish();
   EXPECT_EQ(client.answer(Command::kSetLoad)->reply.status, Status::kSuccess);
@@ -335,7 +335,7 @@ TEST_F(RobotServerTest, passesOnEveryStatusOfASetter) {
   connect(client, 10);
   for (const Status status :
        {Status::kSuccess, Status::kCommandNotPossibleRejected, Status::kInvalidArgumentRejected}) {
-    desk_.answer = status;
+    handler_.answer = status;
     EXPECT_EQ(ask(client, codec::SetJointImpedanceRequest{})->reply.status, status);
   }
 }
@@ -343,13 +343,13 @@ TEST_F(RobotServerTest, passesOnEveryStatusOfASetter) {
 TEST_F(RobotServerTest, answersStopAndRecoveryWhenTheyEnd) {
   TestClient client(server_.port());
   connect(client, 5);
-  desk_.answer = std::nullopt;
+  handler_.answer = std::nullopt;
   EXPECT_FALSE(ask(client, codec::StopMoveRequest{}));
-  desk_.stop_end = Status::kSuccess;
+  handler_.stop_end = Status::kSuccess;
   server_.publish();
   EXPECT_EQ(client.answer(Command::kStopMove)->reply.status, Status::kSuccess);
   EXPECT_FALSE(ask(client, codec::AutomaticErrorRecoveryRequest{}));
-  desk_.recovery_end = Status::kAborted;
+  handler_.recovery_end = Status::kAborted;
   server_.publish();
   EXPECT_EQ(client.answer(Command::kAutomaticErrorRecovery)->reply.status, Status::kAborted);
 }
@@ -357,15 +357,15 @@ TEST_F(RobotServerTest, answersStopAndRecoveryWhenTheyEnd) {
 TEST_F(RobotServerTest, leavesAllButStopsForLaterWhenAsked) {
   TestClient client(server_.port());
   connect(client, 5);
-  const int before = desk_.handled;
+  const int before = handler_.handled;
   client.request(codec::SetLoadRequest{});
   serve(true);
-  EXPECT_EQ(desk_.handled, before);
+  EXPECT_EQ(handler_.handled, before);
   serve();
-  EXPECT_EQ(desk_.handled, before + 1);
+  EXPECT_EQ(handler_.handled, before + 1);
   client.request(codec::StopMoveRequest{});
   serve(true);
-  EXPECT_EQ(desk_.handled, before + 2);
+  EXPECT_EQ(handler_.handled, before + 2);
 }
 
 TEST_F(RobotServerTest, servesModelsWhereTheVersionHasThem) {
@@ -405,7 +405,7 @@ TEST_F(RobotServerTest, readsRequestsThatComeInPieces) {
   }
   server_.publish();
   EXPECT_EQ(client.answer(Command::kSetLoad)->header.command_id, 77U);
-  EXPECT_EQ(std::get<codec::SetLoadRequest>(desk_.last).mass, 2.5);
+  EXPECT_EQ(std::get<codec::SetLoadRequest>(handler_.last).mass, 2.5);
 }
 
 TEST_F(RobotServerTest, refusesWhatItCannotUnderstand) {
@@ -429,7 +429,7 @@ TEST_F(RobotServerTest, endsAConnectionThatBeginsWithAnythingButConnect) {
   client.request(codec::StopMoveRequest{});
   serve();
   EXPECT_TRUE(client.ended());
-  EXPECT_EQ(desk_.handled, 0);
+  EXPECT_EQ(handler_.handled, 0);
 }
 
 // Whatever arrives, the server neither falls nor stops taking clients.
@@ -465,21 +465,21 @@ TEST_F(RobotServerTest, takesAThousandClientsOneAfterTheOther) {
 }
 
 TEST(RobotServerPort, inUseIsSaid) {
-  FakeDesk desk;
+  FakeRequestHandler handler;
   RobotServerParameters parameters;
   parameters.port = 0;
-  RobotServer first(parameters, desk);
+  RobotServer first(parameters, handler);
   parameters.port = first.port();
   try {
-    RobotServer second(parameters, desk);
+    RobotServer second(parameters, handler);
     FAIL() << "two servers on one port";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("Another simulated robot"), std::string::npos);
   }
   parameters.address = "localhost";
-  EXPECT_THROW(RobotServer(parameters, desk), std::runtime_error);
+  EXPECT_THROW(RobotServer(parameters, handler), std::runtime_error);
   parameters.address = "192.0.2.1";
-  EXPECT_THROW(RobotServer(parameters, desk), std::runtime_error);
+  EXPECT_THROW(RobotServer(parameters, handler), std::runtime_error);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace franka_sim::test {
 
 /// What a search is about: one way for these stages of a part.
-struct Wanted {
+struct Target {
   unsigned protocol;
   std::vector<Derivative> stages;
   Part part;
@@ -19,13 +19,13 @@ struct Wanted {
 };
 
 /// A way, over all stages.
-inline Judgement judge(const Wanted& wanted, const Way& way, double enough = 1e9) {
-  const MotionLimits limits = motionLimitsOfProtocol(wanted.protocol);
+inline Judgement judge(const Target& target, const Way& way, double enough = 1e9) {
+  const MotionLimits limits = motionLimitsOfProtocol(target.protocol);
   WayJudge judge(limits);
   Judgement worst;
-  for (const Derivative stage : wanted.stages) {
+  for (const Derivative stage : target.stages) {
     const Judgement judgement =
-        judge.judge(way, profileOf(way, stage, boundsOf(limits, way.part), wanted.share), enough);
+        judge.judge(way, profileOf(way, stage, boundsOf(limits, way.part), target.share), enough);
     worst = judgement.share > worst.share ? judgement : worst;
   }
   return worst;
@@ -40,14 +40,14 @@ struct Found {
 /// to 0.01, so that the result can be written down.
 class WaySearch {
  public:
-  explicit WaySearch(const Wanted& wanted)
-      : wanted_(wanted), limits_(motionLimitsOfProtocol(wanted.protocol)) {}
+  explicit WaySearch(const Target& target)
+      : target_(target), limits_(motionLimitsOfProtocol(target.protocol)) {}
 
   Found best(int draws) {
     Found found;
     for (int i = 0; i < draws; i++) {
       const Way way = draw();
-      const Judgement judgement = judge(wanted_, way, found.judgement.share);
+      const Judgement judgement = judge(target_, way, found.judgement.share);
       if (judgement.share < found.judgement.share) {
         found = {way, judgement};
       }
@@ -62,7 +62,7 @@ class WaySearch {
   }
 
   Way draw() {
-    Way way{wanted_.part, {}, {}, wanted_.rod, wanted_.round};
+    Way way{target_.part, {}, {}, target_.rod, target_.round};
     for (std::size_t i = 0; i < 7; i++) {
       way.start[i] = between(limits_.arm.q_min[i], limits_.arm.q_max[i]);
     }
@@ -73,7 +73,7 @@ class WaySearch {
     return way;
   }
 
-  Wanted wanted_;
+  Target target_;
   MotionLimits limits_;
   std::mt19937 engine_;
 };

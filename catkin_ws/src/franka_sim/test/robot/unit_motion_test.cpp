@@ -312,7 +312,7 @@ TEST_F(UnitMotion, APushAtRestIsAReflexToo) {
   EXPECT_FALSE(unit.takeMotionEnd());
 }
 
-TEST_F(UnitMotion, RecoveryNeedsAPersonWhereOnlyAPersonHelps) {
+TEST_F(UnitMotion, RecoveryNeedsTheUserWhereOnlyTheUserHelps) {
   EXPECT_EQ(Status::kSuccess, unit.startErrorRecovery()) << "nothing to recover from";
   unit.setUserStop(true);
   EXPECT_EQ(Status::kManualErrorRecoveryRequiredRejected, unit.startErrorRecovery());

@@ -4,7 +4,7 @@
 
 #include <franka_sim/fci/sim_robot.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
-#include <franka_sim_mujoco/service_desk.h>
+#include <franka_sim_mujoco/service_handlers.h>
 
 #include <functional>
 
@@ -13,7 +13,7 @@ namespace franka_sim_mujoco {
 struct RobotPlan;
 
 /// A robot of the ROS world that is served over the FCI at an address of its own, as franka_sim
-/// does, instead of being driven by controllers in the simulation's process. What a person does to
+/// does, instead of being driven by controllers in the simulation's process. What the user does to
 /// it is commanded by services under `franka_sim` in its namespace (docs/franka_sim.md): the lines
 /// of the program's control interface that concern one robot.
 ///
@@ -40,7 +40,7 @@ class ServedRobot {
 
   BetweenTicks between_ticks_;
   franka_sim::fci::SimRobot robot_;
-  ServiceDesk desk_;  ///< last: it ends before what it serves
+  ServiceHandlers services_;  ///< last: it ends before what it serves
 };
 
 }  // namespace franka_sim_mujoco

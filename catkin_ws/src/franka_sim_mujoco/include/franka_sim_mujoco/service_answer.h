@@ -29,7 +29,7 @@ inline void explain(std_srvs::Trigger::Response& response, const std::string& te
 }
 
 /// Runs a handler and answers: true, or false, nothing else, and a sentence.
-/// @param handler may throw what a person should read
+/// @param handler may throw what the user should read
 /// @param tell is given that sentence too, for the log
 template <typename Response>
 void answer(Response& response, const std::function<void()>& handler,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim_mujoco/service_desk.h>
+#include <franka_sim_mujoco/service_handlers.h>
 #include <ros/node_handle.h>
 
 namespace franka_sim_mujoco {
@@ -30,7 +30,7 @@ class SimServices {
   void offerGazeboModels();
 
   Simulation& simulation_;
-  ServiceDesk desk_;
+  ServiceHandlers services_;
 };
 
 }  // namespace franka_sim_mujoco

@@ -135,7 +135,7 @@ class Session:
 
 
 class ShellSession(Session):
-    """The same for a roslaunch command line as a person types it into a shell."""
+    """The same for a roslaunch command line as the user types it into a shell."""
 
     def __init__(self, command: str, log: Path, port: int | None = None):
         super().__init__(log=log, port=port)

@@ -25,7 +25,7 @@ from franka_sim_mujoco.srv import (
 
 
 class SpawnError(Exception):
-    """What a person should read."""
+    """What the user should read."""
 
 
 def parse(name, arguments):

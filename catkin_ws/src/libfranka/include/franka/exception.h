@@ -10,7 +10,7 @@
 #include <vector>
 
 /// @file
-/// The family of exceptions; what() is a sentence for a person.
+/// The family of exceptions; what() is a sentence for the user.
 
 namespace franka {
 

@@ -209,7 +209,7 @@ class Robot {
                   double cartesian_velocity_filter_frequency, double controller_filter_frequency);
   /// @}
 
-  /// Clears the errors after a reflex, as far as the robot can do that without a person. Returns
+  /// Clears the errors after a reflex, as far as the robot can do that without the user. Returns
   /// when the robot has recovered.
   /// @throws CommandException if it cannot, or was disturbed.
   void automaticErrorRecovery();

@@ -15,7 +15,7 @@ struct AbortRecord {
   RobotCommand command;
 };
 
-/// Why a motion was aborted, in sentences for a person: for each flag of the last state's
+/// Why a motion was aborted, in sentences for the user: for each flag of the last state's
 /// reflex_reason which joint or axis broke it, and the value against the limit, as far as the
 /// logged states and commands show it.
 ///

@@ -7,7 +7,7 @@
 #include <controller_manager/internal/loop_gate.h>
 #include <controller_manager/internal/manager_services.h>
 #include <controller_manager/internal/supervisor.h>
-#include <controller_manager/internal/switch_desk.h>
+#include <controller_manager/internal/switch_handover.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <ros/console.h>
 
@@ -25,7 +25,7 @@ ControllerManager::ControllerManager(hardware_interface::RobotHW* robot_hw,
       root_nh_(nh),
       gate_(std::make_unique<internal::LoopGate>()),
       registry_(std::make_unique<internal::ControllerRegistry>(*gate_)),
-      desk_(std::make_unique<internal::SwitchDesk>(*gate_)) {
+      handover_(std::make_unique<internal::SwitchHandover>(*gate_)) {
   controller_loaders_.push_back(std::make_shared<ControllerLoader<ControllerBase>>(
       "controller_interface", "controller_interface::ControllerBase"));
   const ros::NodeHandle own_nh(nh, "controller_manager");
@@ -40,7 +40,7 @@ ControllerManager::ControllerManager(hardware_interface::RobotHW* robot_hw,
 }
 
 ControllerManager::~ControllerManager() {
-  desk_->close();
+  handover_->close();
   services_.reset();
   supervisor_.reset();
 }
@@ -63,7 +63,7 @@ void ControllerManager::update(const ros::Time& time, const ros::Duration& perio
     }
   }
   // Also where one throws in every cycle: this is how it is stopped.
-  thrown.keepOf([&] { desk_->serve(*robot_hw_, time); });
+  thrown.keepOf([&] { handover_->serve(*robot_hw_, time); });
   thrown.rethrow();
 }
 
@@ -231,7 +231,7 @@ bool ControllerManager::unloadController(const std::string& name) {
               name.c_str());
     return false;
   }
-  if (desk_->involves(name)) {
+  if (handover_->involves(name)) {
     ROS_ERROR(
         "Could not unload controller with name '%s' because it takes part in a switch that has not "
         "finished. Is the control loop running?",

@@ -13,7 +13,7 @@ namespace internal {
 
 namespace {
 
-// How soon a fault is settled; far below what a person notices.
+// How soon a fault is settled; far below what the user notices.
 constexpr std::chrono::milliseconds kFaultPeriod{2};
 // Far above the millisecond a cycle lasts: beyond it the loop hangs inside a controller.
 constexpr std::chrono::milliseconds kLongestCycle{1000};

@@ -6,7 +6,7 @@
 #include <controller_manager/internal/controller_registry.h>
 #include <controller_manager/internal/loop_gate.h>
 #include <controller_manager/internal/supervisor.h>
-#include <controller_manager/internal/switch_desk.h>
+#include <controller_manager/internal/switch_handover.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <ros/console.h>
 
@@ -18,7 +18,7 @@ namespace controller_manager {
 
 using controller_manager_msgs::SwitchControllerRequest;
 using internal::ControllerList;
-using internal::SwitchDesk;
+using internal::SwitchHandover;
 using internal::SwitchRequest;
 
 namespace {
@@ -208,9 +208,9 @@ bool ControllerManager::carryOut(const Names& start_controllers, const Names& st
         SwitchControllerRequest::STRICT, SwitchControllerRequest::BEST_EFFORT, strictness);
   }
 
-  SwitchDesk::Turn turn(*desk_, timeout);
+  SwitchHandover::Turn turn(*handover_, timeout);
   if (!turn) {
-    if (desk_->mustEnd()) {
+    if (handover_->mustEnd()) {
       ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
       return false;
     }
@@ -237,7 +237,7 @@ bool ControllerManager::carryOut(const Names& start_controllers, const Names& st
   }
 
   switch (turn.await()) {
-    case SwitchDesk::Result::kDone:
+    case SwitchHandover::Result::kDone:
       reportOutcome(turn.request());
       thrown = thrownBy(turn.request());
       if (turn.request().broken) {
@@ -248,14 +248,14 @@ bool ControllerManager::carryOut(const Names& start_controllers, const Names& st
         return false;
       }
       return true;
-    case SwitchDesk::Result::kAbandoned:
+    case SwitchHandover::Result::kAbandoned:
       ROS_ERROR(
           "Could not finish switching controllers, because the control loop stood still for "
           "%g s after it had begun. The controllers to start will be aborted when it runs "
           "again.",
           turn.elapsed());
       return false;
-    case SwitchDesk::Result::kWithdrawn:
+    case SwitchHandover::Result::kWithdrawn:
       break;
   }
   explainWithdrawal(turn.elapsed());
@@ -268,7 +268,7 @@ bool ControllerManager::carryOut(const Names& start_controllers, const Names& st
 }
 
 void ControllerManager::explainWithdrawal(double elapsed) const {
-  if (desk_->mustEnd()) {
+  if (handover_->mustEnd()) {
     ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
   } else {
     ROS_ERROR(
@@ -306,9 +306,9 @@ std::unique_ptr<SwitchRequest> ControllerManager::planFallback(const ControllerS
 }
 
 bool ControllerManager::settleFault(const std::string& name, bool first) {
-  SwitchDesk::Turn turn(*desk_, kFaultTimeout);
+  SwitchHandover::Turn turn(*handover_, kFaultTimeout);
   if (!turn) {
-    if (first && !desk_->mustEnd()) {
+    if (first && !handover_->mustEnd()) {
       ROS_ERROR(
           "The robot could not be told yet that controller '%s' was aborted: another switch is "
           "under way. It will be told as soon as that has ended.",
@@ -333,14 +333,14 @@ bool ControllerManager::settleFault(const std::string& name, bool first) {
     turn.post(std::move(request));
   }
   switch (turn.await()) {
-    case SwitchDesk::Result::kDone:
+    case SwitchHandover::Result::kDone:
       reportOutcome(turn.request());
       return true;
-    case SwitchDesk::Result::kAbandoned:
+    case SwitchHandover::Result::kAbandoned:
       // The robot knows; only the fallbacks are lost.
       explainWithdrawal(turn.elapsed());
       return true;
-    case SwitchDesk::Result::kWithdrawn:
+    case SwitchHandover::Result::kWithdrawn:
       break;
   }
   if (first) {

@@ -15,13 +15,13 @@
 
 namespace franka_sim::fci {
 
-/// What stands in for a person beside the robot: commands of one line each over TCP, answered by
+/// What stands in for the user beside the robot: commands of one line each over TCP, answered by
 /// one line, "ok", "ok <value>" or "error: <sentence>". `nc` suffices to talk to it. Commands are
 /// carried out between two ticks, by the thread that runs the host, and answered once states that
 /// show their effect have gone out.
 ///
 /// One client at a time: a second one is refused with a sentence, unless the first has not sent a
-/// line for 5 s since it came; then that one is told so and goes. A person may type as slowly as
+/// line for 5 s since it came; then that one is told so and goes. The user may type as slowly as
 /// they like while nobody else waits.
 class LineServer final : public Service {
  public:
@@ -41,7 +41,7 @@ class LineServer final : public Service {
   ~LineServer() override;
 
   std::uint16_t port() const noexcept { return listener_.port(); }
-  /// @param usage the command as a person writes it, for example "user_stop on|off"; its first word
+  /// @param usage the command as the user writes it, for example "user_stop on|off"; its first word
   /// is the name.
   /// @param ready lines wait until it says yes
   void add(

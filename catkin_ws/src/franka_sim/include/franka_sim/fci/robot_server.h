@@ -6,7 +6,7 @@
 #include <franka_core/fci/reply_codec.h>
 #include <franka_core/fci/state_codec.h>
 #include <franka_core/robot_state.h>
-#include <franka_sim/fci/arm_desk.h>
+#include <franka_sim/fci/arm_request_handler.h>
 #include <franka_sim/fci/client_slot.h>
 
 #include <array>
@@ -30,15 +30,15 @@ struct RobotServerParameters {
 };
 
 /// The network face of one robot: the TCP channel of requests and the UDP exchange of states and
-/// commands. Speaks for an ArmDesk; knows nothing of time: the owner says when a state goes out and
-/// how long it waits for the answer.
+/// commands. Speaks for an ArmRequestHandler; knows nothing of time: the owner says when a state
+/// goes out and how long it waits for the answer.
 ///
 /// One client at a time; a second one is turned away (its connection is reset, so that it fails at
 /// once instead of waiting), and none can take more than a little of a millisecond (ClientSlot). A
 /// Connect within a motion, or while another answer is due, is refused: a client keeps the version
 /// that it has begun with. A client that vanishes leaves its motion without commands; the control
 /// unit then does what it does when commands stay away. With the interface switched off (see
-/// ArmDesk::active) the client is dropped, after what it is due, and nobody can connect.
+/// ArmRequestHandler::active) the client is dropped, after what it is due, and nobody can connect.
 ///
 /// One thread. publish, receiveCommand and takeCommand are real-time safe where the client takes
 /// its answers; serve allocates only when connections come and go, or are slower than their
@@ -46,7 +46,7 @@ struct RobotServerParameters {
 class RobotServer {
  public:
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
-  RobotServer(RobotServerParameters parameters, ArmDesk& desk);
+  RobotServer(RobotServerParameters parameters, ArmRequestHandler& handler);
   ~RobotServer();
 
   std::uint16_t port() const noexcept { return slot_.port(); }
@@ -64,8 +64,8 @@ class RobotServer {
   /// @param stops_only leaves every request but Connect and StopMove for a later call.
   void serve(bool stops_only = false);
 
-  /// Sends the desk's state, `ticks` after the last one, then the replies that were waiting for the
-  /// client to see it.
+  /// Sends the handler's state, `ticks` after the last one, then the replies that were waiting for
+  /// the client to see it.
   /// @param same_moment time stands still since the last one: an answer to any state of this moment
   /// counts.
   void publish(std::uint64_t ticks = 1, bool same_moment = false);
@@ -125,7 +125,7 @@ class RobotServer {
   RobotServerParameters parameters_;  // without the models
   Blob model_library_;
   std::map<std::uint16_t, Blob> urdfs_;
-  ArmDesk& desk_;
+  ArmRequestHandler& handler_;
   ClientSlot slot_;
   Datagrams datagrams_;
   std::uint16_t version_{0};

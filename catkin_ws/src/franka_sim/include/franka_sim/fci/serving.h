@@ -32,11 +32,11 @@ SimRobot::Hand servedHand(HandPlant& fingers);
 /// hand".
 std::string linksOf(const SelfCollision::Pair& pair);
 
-/// What a person enters in Desk.
+/// What the user enters in Desk.
 /// @throws std::runtime_error with a sentence when the robot refuses it
 void setLoad(SimRobot& robot, const franka_core::Payload& load);
 
-/// What a person is told of a collision that raised this error (self-collision, joint or Cartesian
+/// What the user is told of a collision that raised this error (self-collision, joint or Cartesian
 /// reflex): "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
 std::string collisionOf(const ControlUnit& unit, ErrorFlag error);
 
@@ -47,7 +47,7 @@ std::string collisionOf(const ControlUnit& unit, ErrorFlag error);
 std::array<double, 7> restingNear(const std::array<double, 7>& q,
                                   const std::array<double, 7>& stiffness) noexcept;
 
-/// Mode, client, errors (of collisions: what met what) and joints in one line for a person.
+/// Mode, client, errors (of collisions: what met what) and joints in one line for the user.
 std::string describe(SimRobot& robot);
 
 }  // namespace franka_sim::fci

@@ -6,7 +6,7 @@
 #include <franka_sim/fci/gripper_server.h>
 #include <franka_sim/fci/host.h>
 #include <franka_sim/fci/robot_server.h>
-#include <franka_sim/fci/unit_desk.h>
+#include <franka_sim/fci/unit_request_handler.h>
 #include <franka_sim/fci/vacuum_server.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/gripper_unit.h>
@@ -108,7 +108,7 @@ class SimRobot final : public HostedRobot {
 
   ControlUnit unit_;
   ArmPlant& arm_;
-  UnitDesk desk_;
+  UnitRequestHandler handler_;
   RobotServer server_;
   CommandLink link_;
   std::unique_ptr<ServedHand> hand_;

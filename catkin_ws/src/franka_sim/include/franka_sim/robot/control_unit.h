@@ -143,7 +143,7 @@ class ControlUnit {
   /// Idle (Reflex if there were errors).
   void setUserStop(bool pressed) noexcept;
   bool userStopPressed() const noexcept { return user_stop_; }
-  /// A person takes the arm by its guiding buttons, or lets go.
+  /// The user takes the arm by its guiding buttons, or lets go.
   void setGuiding(bool active) noexcept;
   /// Closed brakes: mode Other.
   void closeBrakes() noexcept;
@@ -168,7 +168,7 @@ class ControlUnit {
   RequestStatus setJointImpedance(const std::array<double, 7>& K_theta) noexcept;
   /// Of the internal Cartesian controller in the axes of K: 10 to 3000 [N/m], 1 to 300 [Nm/rad].
   RequestStatus setCartesianImpedance(const std::array<double, 6>& K_x) noexcept;
-  /// Along and about which axes (x, y, z, R, P, Y of K) a person may lead the arm, and whether the
+  /// Along and about which axes (x, y, z, R, P, Y of K) the user may lead the arm, and whether the
   /// elbow is free. At first all are.
   RequestStatus setGuidingMode(const std::array<bool, 6>& free, bool elbow) noexcept;
   /// Cutoffs of 1 to 1000 [Hz].

@@ -27,7 +27,7 @@ std::optional<ErrorFlag> measuredViolation(const franka_core::ArmLimits& limits,
 /// as about 350 W; what the joints give mechanically cannot be more (our choice).
 constexpr double kPowerLimit = 350.0;
 
-/// Whether a joint stands 0.005 rad or more beyond its limits, which only a person can mend.
+/// Whether a joint stands 0.005 rad or more beyond its limits, which only the user can mend.
 /// Real-time safe.
 bool beyondJointLimits(const franka_core::ArmLimits& limits,
                        const std::array<double, 7>& q) noexcept;

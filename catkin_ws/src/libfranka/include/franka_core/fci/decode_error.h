@@ -22,7 +22,7 @@ enum class CodecError : std::uint8_t {
   kNotFinite,         ///< a command holds a number that is infinite or none; decoded all the same
 };
 
-/// One sentence for a person, for example "The message does not have the size that this protocol
+/// One sentence for the user, for example "The message does not have the size that this protocol
 /// version gives it." Never null. Real-time safe.
 const char* describe(CodecError error) noexcept;
 

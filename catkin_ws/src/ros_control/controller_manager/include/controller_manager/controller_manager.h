@@ -30,7 +30,7 @@ class LoopGate;
 class ManagerServices;
 class Supervisor;
 struct SwitchRequest;
-class SwitchDesk;
+class SwitchHandover;
 }  // namespace internal
 
 /// Loads controllers, starts and stops them, and updates the running ones in the control loop.
@@ -167,7 +167,7 @@ class ControllerManager {
   // In this order: controllers are destroyed before the loaders of their libraries.
   std::unique_ptr<internal::LoopGate> gate_;
   std::unique_ptr<internal::ControllerRegistry> registry_;
-  std::unique_ptr<internal::SwitchDesk> desk_;
+  std::unique_ptr<internal::SwitchHandover> handover_;
   std::unique_ptr<internal::Supervisor> supervisor_;
   std::unique_ptr<internal::ManagerServices> services_;
   double default_switch_timeout_{INFINITE_TIMEOUT};

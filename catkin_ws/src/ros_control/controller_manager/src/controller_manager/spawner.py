@@ -39,7 +39,7 @@ END_OF_MANAGER = 2.0  # [s]
 
 
 class SpawnerError(Exception):
-    """What a person has to know before the spawner gives up."""
+    """What the user has to know before the spawner gives up."""
 
 
 def parse_arguments(arguments):

@@ -12,11 +12,11 @@ namespace franka_sim::fci {
 
 /// Where a robot server hands in what a client asks for, and learns how it ended. The control unit
 /// stands behind it; tests put something simpler there. One thread; nothing throws.
-class ArmDesk {
+class ArmRequestHandler {
  public:
   using Status = franka_core::fci::Status;
 
-  virtual ~ArmDesk() = default;
+  virtual ~ArmRequestHandler() = default;
 
   /// What the robot shows now; modes and configuration as the last request left them.
   virtual const franka_core::RobotState& state() const noexcept = 0;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <controller_manager/internal/switch_desk.h>
+#include <controller_manager/internal/switch_handover.h>
 #include <ros/init.h>
 
 #include <limits>
@@ -20,9 +20,9 @@ constexpr double kGrace = 1.0;
 constexpr std::chrono::milliseconds kLongestCycle{1000};
 }  // namespace
 
-SwitchDesk::SwitchDesk(LoopGate& gate) : gate_(gate) {}
+SwitchHandover::SwitchHandover(LoopGate& gate) : gate_(gate) {}
 
-void SwitchDesk::serve(hardware_interface::RobotHW& robot, const ros::Time& time) {
+void SwitchHandover::serve(hardware_interface::RobotHW& robot, const ros::Time& time) {
   SwitchRequest* request = for_loop_.load(std::memory_order_seq_cst);
   if (request == nullptr) {
     return;
@@ -39,14 +39,14 @@ void SwitchDesk::serve(hardware_interface::RobotHW& robot, const ros::Time& time
   }
 }
 
-void SwitchDesk::finish(SwitchRequest& request) {
+void SwitchHandover::finish(SwitchRequest& request) {
   for_loop_.store(nullptr, std::memory_order_release);
   request.phase.store(Phase::kDone, std::memory_order_release);
 }
 
-bool SwitchDesk::mustEnd() const { return closed_ || !ros::ok(); }
+bool SwitchHandover::mustEnd() const { return closed_ || !ros::ok(); }
 
-bool SwitchDesk::grant() {
+bool SwitchHandover::grant() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (busy_) {
     return false;
@@ -59,7 +59,7 @@ bool SwitchDesk::grant() {
   return true;
 }
 
-bool SwitchDesk::involves(const std::string& name) {
+bool SwitchHandover::involves(const std::string& name) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!busy_) {
     dropFinished();
@@ -67,44 +67,44 @@ bool SwitchDesk::involves(const std::string& name) {
   return request_ && request_->phase != Phase::kDone && request_->involves(name);
 }
 
-void SwitchDesk::dropFinished() {
+void SwitchHandover::dropFinished() {
   if (request_ && request_->phase == Phase::kDone) {
     request_.reset();
   }
 }
 
-SwitchDesk::Turn::Turn(SwitchDesk& desk, double timeout)
-    : desk_(desk), timeout_(timeout), begin_(Clock::now()) {
-  while (!(granted_ = desk_.grant()) && !desk_.mustEnd() &&
+SwitchHandover::Turn::Turn(SwitchHandover& handover, double timeout)
+    : handover_(handover), timeout_(timeout), begin_(Clock::now()) {
+  while (!(granted_ = handover_.grant()) && !handover_.mustEnd() &&
          !(timeout_ > 0.0 && elapsed() > timeout_)) {
     std::this_thread::sleep_for(kPollPeriod);
   }
 }
 
-SwitchDesk::Turn::~Turn() {
+SwitchHandover::Turn::~Turn() {
   if (granted_) {
-    const std::lock_guard<std::mutex> lock(desk_.mutex_);
-    desk_.dropFinished();
-    desk_.busy_ = false;
+    const std::lock_guard<std::mutex> lock(handover_.mutex_);
+    handover_.dropFinished();
+    handover_.busy_ = false;
   }
 }
 
-double SwitchDesk::Turn::elapsed() const {
+double SwitchHandover::Turn::elapsed() const {
   return std::chrono::duration<double>(Clock::now() - begin_).count();
 }
 
-void SwitchDesk::Turn::post(std::unique_ptr<SwitchRequest> request) {
-  const std::lock_guard<std::mutex> lock(desk_.mutex_);
-  desk_.request_ = std::move(request);
-  desk_.for_loop_.store(desk_.request_.get(), std::memory_order_seq_cst);
+void SwitchHandover::Turn::post(std::unique_ptr<SwitchRequest> request) {
+  const std::lock_guard<std::mutex> lock(handover_.mutex_);
+  handover_.request_ = std::move(request);
+  handover_.for_loop_.store(handover_.request_.get(), std::memory_order_seq_cst);
 }
 
-SwitchDesk::Result SwitchDesk::Turn::await() {
+SwitchHandover::Result SwitchHandover::Turn::await() {
   // Only the holder of the turn replaces the request, so it may be read without the mutex.
-  SwitchRequest& request = *desk_.request_;
+  SwitchRequest& request = *handover_.request_;
   while (request.phase.load(std::memory_order_acquire) != Phase::kDone) {
     const double limit = timeout_ > 0.0 ? timeout_ : std::numeric_limits<double>::infinity();
-    const bool must_end = desk_.mustEnd();
+    const bool must_end = handover_.mustEnd();
     if ((must_end || elapsed() > limit) && withdraw()) {
       return Result::kWithdrawn;
     }
@@ -117,17 +117,17 @@ SwitchDesk::Result SwitchDesk::Turn::await() {
   return Result::kDone;
 }
 
-bool SwitchDesk::Turn::withdraw() {
+bool SwitchHandover::Turn::withdraw() {
   Phase expected = Phase::kPosted;
-  if (!desk_.request_->phase.compare_exchange_strong(expected, Phase::kWithdrawn)) {
+  if (!handover_.request_->phase.compare_exchange_strong(expected, Phase::kWithdrawn)) {
     return false;
   }
-  desk_.for_loop_.store(nullptr, std::memory_order_seq_cst);
-  const bool left = desk_.gate_.waitUntilLeft(kLongestCycle);
-  const std::lock_guard<std::mutex> lock(desk_.mutex_);
-  desk_.withdrawn_.push_back(std::move(desk_.request_));
+  handover_.for_loop_.store(nullptr, std::memory_order_seq_cst);
+  const bool left = handover_.gate_.waitUntilLeft(kLongestCycle);
+  const std::lock_guard<std::mutex> lock(handover_.mutex_);
+  handover_.withdrawn_.push_back(std::move(handover_.request_));
   if (left) {
-    desk_.withdrawn_.clear();
+    handover_.withdrawn_.clear();
   }
   return true;
 }

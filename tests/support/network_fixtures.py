@@ -7,7 +7,7 @@ from contextlib import ExitStack
 
 from fci_proxy import Proxy
 from fci_session import client_process, simulated
-from genuine_clients import client_python
+from genuine_clients import NoWheel, find_client_python
 from stalls import TRIES
 
 PACE = 0.1
@@ -19,52 +19,58 @@ AMPLITUDE = 0.0005
 LOST = "communication_constraints_violation"
 
 
-class Station:
+class NetworkFixture:
     """A robot, a proxy before it, and a client that knows only the proxy."""
 
     def __init__(self, sim, proxy, client):
         self.sim, self.proxy, self.client = sim, proxy, client
 
 
-def stations(stack: ExitStack, network: str, pace: str, kinds, *arguments: str) -> list[Station]:
+def network_fixtures(
+    stack: ExitStack, network: str, pace: str, kinds, *arguments: str
+) -> list[NetworkFixture]:
+    """One fixture for each library and robot of `kinds`, but for clients that PyPI does not have."""
     made = []
     for i, (library, robot) in enumerate(kinds):
-        python = sys.executable if library == "pyfranka" else client_python(library)
+        try:
+            python = sys.executable if library == "pyfranka" else find_client_python(library)
+        except NoWheel:
+            continue
         client = stack.enter_context(client_process(library, python))
         sim = stack.enter_context(simulated(robot, f"{network}.{2 * i + 1}", pace, *arguments))
         proxy = stack.enter_context(Proxy(f"{network}.{2 * i + 2}", sim.address, sim.version))
-        made.append(Station(sim, proxy, client))
-    for station in made:
-        station.client.give("connect", address=station.proxy.address)
-    for station in made:
-        assert station.client.result()["outcome"] == "ok"
+        made.append(NetworkFixture(sim, proxy, client))
+    for fixture in made:
+        fixture.client.give("connect", address=fixture.proxy.address)
+    for fixture in made:
+        assert fixture.client.result()["outcome"] == "ok"
     return made
 
 
 def run(group, commands=None, states=None, seed=1, seconds=SECONDS, amplitude=AMPLITUDE, **task):
     """One motion of each client at the same time. `commands` and `states` make a rule."""
-    for station in group:
-        station.proxy.set(commands and commands(), states and states(), seed)
-        station.client.give("move", seconds=seconds, amplitude=amplitude, **task)
-    return [station.client.result() for station in group]
+    for fixture in group:
+        fixture.proxy.set(commands and commands(), states and states(), seed)
+        fixture.client.give("move", seconds=seconds, amplitude=amplitude, **task)
+    return [fixture.client.result() for fixture in group]
 
 
 def recover(group):
-    for station in group:
-        answer = station.client.tell("recover")
+    for fixture in group:
+        answer = fixture.client.tell("recover")
         assert answer["outcome"] == "ok" and answer["mode"] == "Idle", answer
 
 
 def check_lost(group, results, most_wall):
     """The robots have given up, said why, and go on after a recovery."""
     try:
-        for station, result in zip(group, results):
+        for fixture, result in zip(group, results):
             assert LOST in result["outcome"], result
             assert "motion aborted by reflex!" in result["outcome"], result
             assert result["wall"] < most_wall, result
-            assert station.sim.ask("state").startswith("Reflex"), station.sim.ask("state")
+            assert fixture.sim.ask("state").startswith("Reflex"), fixture.sim.ask("state")
     finally:
-        recover([station for station in group if "Reflex" in station.sim.ask("state")])
+        recover([fixture for fixture in group if "Reflex" in fixture.sim.ask("state")])
     for result in run(group, seconds=0.2, amplitude=0.0):
         assert result["outcome"] == "ok", result
 
@@ -84,14 +90,14 @@ def survive(group, commands=None, states=None, least=None, **task):
     for seed in range(1, TRIES + 1):
         results = run(group, commands, states, seed, **task)
         quiet = True
-        for station, result in zip(group, results):
-            share, rates = station.proxy.commands.worst_share(), station.proxy.rates[101:]
+        for fixture, result in zip(group, results):
+            share, rates = fixture.proxy.commands.worst_share(), fixture.proxy.rates[101:]
             assert not rates or min(rates) <= share + 0.0101, "The robot counts commands that never came."
             undisturbed = rates and min(rates) > (share - 0.0101 if least is None else least)
             if result["outcome"] != "ok" and not undisturbed:
-                recover([station])
+                recover([fixture])
             else:
-                assert result["outcome"] == "ok", (result, station.proxy.commands.longest)
+                assert result["outcome"] == "ok", (result, fixture.proxy.commands.longest)
             quiet = quiet and undisturbed
         if quiet:
             return results

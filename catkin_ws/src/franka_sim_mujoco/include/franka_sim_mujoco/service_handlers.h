@@ -18,16 +18,16 @@ namespace franka_sim_mujoco {
 /// Offers services that answer success=false and a sentence instead of failing the call. They have
 /// threads of their own, so that a controller switch that waits for a paused simulation cannot keep
 /// anyone from unpausing it.
-class ServiceDesk {
+class ServiceHandlers {
  public:
   /// @param node in whose namespace they are offered
-  explicit ServiceDesk(ros::NodeHandle node);
+  explicit ServiceHandlers(ros::NodeHandle node);
   /// No handler runs any more when it returns.
-  ~ServiceDesk();
-  ServiceDesk(const ServiceDesk&) = delete;
-  ServiceDesk& operator=(const ServiceDesk&) = delete;
+  ~ServiceHandlers();
+  ServiceHandlers(const ServiceHandlers&) = delete;
+  ServiceHandlers& operator=(const ServiceHandlers&) = delete;
 
-  /// @param handler may throw what a person should read
+  /// @param handler may throw what the user should read
   template <typename Service>
   void offer(const std::string& name,
              std::function<void(typename Service::Request&, typename Service::Response&)> handler) {

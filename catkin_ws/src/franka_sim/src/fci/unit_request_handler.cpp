@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/fci/unit_desk.h>
+#include <franka_sim/fci/unit_request_handler.h>
 
 namespace franka_sim::fci {
 
@@ -61,19 +61,19 @@ struct Setter {
 
 }  // namespace
 
-void UnitDesk::connected(std::uint16_t version) noexcept {
+void UnitRequestHandler::connected(std::uint16_t version) noexcept {
   version_ = version;
   applyVersion();
 }
 
 // A motion keeps the limits it began with, also where its client has died and another one is here.
-void UnitDesk::applyVersion() noexcept {
+void UnitRequestHandler::applyVersion() noexcept {
   if (version_ != 0 && unit_.setProtocolVersion(version_) != RequestStatus::kNotPossible) {
     version_ = 0;
   }
 }
 
-std::optional<Status> UnitDesk::handle(const codec::Request& request) noexcept {
+std::optional<Status> UnitRequestHandler::handle(const codec::Request& request) noexcept {
   if (const auto* move = std::get_if<codec::MoveRequest>(&request)) {
     // Requests that wait for the arm to come to rest are answered before the next motion begins.
     return unit_.owesAnswers() ? Status::kCommandNotPossibleRejected : unit_.startMotion(*move);
@@ -89,18 +89,18 @@ std::optional<Status> UnitDesk::handle(const codec::Request& request) noexcept {
   return toStatus(std::visit(Setter{unit_}, request));
 }
 
-std::optional<codec::CartesianLimit> UnitDesk::wall(std::int32_t id) const noexcept {
+std::optional<codec::CartesianLimit> UnitRequestHandler::wall(std::int32_t id) const noexcept {
   const codec::CartesianLimit* wall = unit_.virtualWall(id);
   return wall == nullptr ? std::nullopt : std::optional<codec::CartesianLimit>(*wall);
 }
 
-std::optional<Status> UnitDesk::motionEnd() noexcept {
+std::optional<Status> UnitRequestHandler::motionEnd() noexcept {
   applyVersion();
   return unit_.takeMotionEnd();
 }
 
-std::optional<Status> UnitDesk::stopEnd() noexcept { return unit_.takeStopEnd(); }
+std::optional<Status> UnitRequestHandler::stopEnd() noexcept { return unit_.takeStopEnd(); }
 
-std::optional<Status> UnitDesk::recoveryEnd() noexcept { return unit_.takeRecoveryEnd(); }
+std::optional<Status> UnitRequestHandler::recoveryEnd() noexcept { return unit_.takeRecoveryEnd(); }
 
 }  // namespace franka_sim::fci

@@ -15,16 +15,16 @@ namespace franka_hw {
 /// A loop that only reads states holds FrankaHW::robotMutex() nearly all the time, and a mutex is
 /// not fair: who waits for it may wait for ever. While an object of this class lives, such loops
 /// stay away from their robots, so that nobody has to wait for them by spinning.
-class RobotWanted {
+class RobotAccessRequest {
  public:
-  RobotWanted() noexcept { waiting_.fetch_add(1, std::memory_order_relaxed); }
-  ~RobotWanted() { waiting_.fetch_sub(1, std::memory_order_relaxed); }
-  RobotWanted(const RobotWanted&) = delete;
-  RobotWanted& operator=(const RobotWanted&) = delete;
+  RobotAccessRequest() noexcept { waiting_.fetch_add(1, std::memory_order_relaxed); }
+  ~RobotAccessRequest() { waiting_.fetch_sub(1, std::memory_order_relaxed); }
+  RobotAccessRequest(const RobotAccessRequest&) = delete;
+  RobotAccessRequest& operator=(const RobotAccessRequest&) = delete;
 
   /// Waits for a robot's mutex. Not for loops that read.
   static std::unique_lock<std::mutex> take(std::mutex& robot_mutex) {
-    const RobotWanted wanted;
+    const RobotAccessRequest request;
     return std::unique_lock<std::mutex>(robot_mutex);
   }
 
@@ -32,7 +32,7 @@ class RobotWanted {
   /// mutex until it ends. @returns without the mutex when there is none any more
   template <typename Reason>
   static std::unique_lock<std::mutex> takeWhile(std::mutex& robot_mutex, Reason&& reason) {
-    const RobotWanted wanted;
+    const RobotAccessRequest request;
     std::unique_lock<std::mutex> lock(robot_mutex, std::defer_lock);
     while (reason() && !lock.try_lock()) {
       std::this_thread::sleep_for(kMoment);

@@ -22,6 +22,6 @@ struct Scene {
 
 /// Enters the commands of the control interface (docs/franka_sim.md): buttons and switches of the
 /// robot, the quality of its link, and what hands do to the world.
-void addPersonCommands(fci::LineServer& lines, const Scene& scene);
+void addOperatorCommands(fci::LineServer& lines, const Scene& scene);
 
 }  // namespace franka_sim

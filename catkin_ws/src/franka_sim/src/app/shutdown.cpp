@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farewell.h"
+#include "shutdown.h"
 
 #include <algorithm>
 
 namespace franka_sim {
 
-void Farewell::serve() {
+void Shutdown::serve() {
   if (!asked_) {
     return;
   }
@@ -15,7 +15,7 @@ void Farewell::serve() {
   ended_ = !hasClients() || now - *asked_at_ >= patience_;
 }
 
-bool Farewell::hasClients() const {
+bool Shutdown::hasClients() const {
   return std::any_of(robots_.begin(), robots_.end(),
                      [](const fci::SimRobot* robot) { return robot->hasClients(); });
 }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/service_desk.h>
+#include <franka_sim_mujoco/service_handlers.h>
 #include <std_srvs/Empty.h>
 
 #include <utility>
@@ -14,12 +14,12 @@ constexpr std::uint32_t kThreads = 3;
 
 }  // namespace
 
-ServiceDesk::ServiceDesk(ros::NodeHandle node)
+ServiceHandlers::ServiceHandlers(ros::NodeHandle node)
     : node_(std::move(node)), spinner_(kThreads, &queue_) {
   spinner_.start();
 }
 
-ServiceDesk::~ServiceDesk() {
+ServiceHandlers::~ServiceHandlers() {
   for (ros::ServiceServer& server : servers_) {
     server.shutdown();
   }
@@ -27,7 +27,7 @@ ServiceDesk::~ServiceDesk() {
   spinner_.stop();
 }
 
-void ServiceDesk::offerEmpty(const std::string& name, std::function<void()> action) {
+void ServiceHandlers::offerEmpty(const std::string& name, std::function<void()> action) {
   auto options = ros::AdvertiseServiceOptions::create<std_srvs::Empty>(
       name,
       [action, name](std_srvs::Empty::Request& /*request*/,

@@ -19,7 +19,7 @@ namespace internal {
 
 /// Hands switches to the loop, one at a time, and waits for them. The loop takes no lock and wakes
 /// nobody: the waiting side looks every 200 µs while a switch is under way.
-class SwitchDesk {
+class SwitchHandover {
  public:
   typedef std::chrono::steady_clock Clock;
 
@@ -29,8 +29,8 @@ class SwitchDesk {
     kAbandoned   ///< the loop began and stood still; it will give up when it runs again
   };
 
-  /// @param gate which the loop passes; outlives the desk
-  explicit SwitchDesk(LoopGate& gate);
+  /// @param gate which the loop passes; outlives the handover
+  explicit SwitchHandover(LoopGate& gate);
 
   /// Carries the switch at hand on, if there is one. In the loop, during a visit; real-time safe. A
   /// switch that throws is over, and the exception goes on.
@@ -40,7 +40,7 @@ class SwitchDesk {
   class Turn {
    public:
     /// @param timeout [s] 0 waits for ever
-    Turn(SwitchDesk& desk, double timeout);
+    Turn(SwitchHandover& handover, double timeout);
     ~Turn();
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
@@ -54,19 +54,19 @@ class SwitchDesk {
     void post(std::unique_ptr<SwitchRequest> request);
     /// Waits for what was posted. The posted request stays readable until the turn ends if done.
     Result await();
-    const SwitchRequest& request() const { return *desk_.request_; }
+    const SwitchRequest& request() const { return *handover_.request_; }
 
    private:
     bool withdraw();
 
-    SwitchDesk& desk_;
+    SwitchHandover& handover_;
     const double timeout_;
     const Clock::time_point begin_;
     bool granted_{false};
   };
 
-  /// Whether an unfinished switch starts or stops this controller; if not, the desk holds nothing
-  /// of it. Thread-safe, does not wait.
+  /// Whether an unfinished switch starts or stops this controller; if not, the handover holds
+  /// nothing of it. Thread-safe, does not wait.
   bool involves(const std::string& name);
 
   /// Ends all waiting, now and later, for the manager's end.

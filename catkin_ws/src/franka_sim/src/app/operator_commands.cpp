@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "person.h"
+#include "operator_commands.h"
 
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/sizes.h>
@@ -202,7 +202,7 @@ void addRobot(LineServer& lines, fci::SimRobot& robot, const fci::Host& host, co
 
 }  // namespace
 
-void addPersonCommands(fci::LineServer& lines, const Scene& scene) {
+void addOperatorCommands(fci::LineServer& lines, const Scene& scene) {
   addSwitches(lines, scene.robot, scene.host);
   addLink(lines, scene.robot);
   addWorld(lines, scene.host, scene.world);

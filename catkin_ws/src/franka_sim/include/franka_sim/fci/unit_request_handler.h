@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/arm_desk.h>
+#include <franka_sim/fci/arm_request_handler.h>
 #include <franka_sim/robot/control_unit.h>
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 namespace franka_sim::fci {
 
 /// Hands requests to a control unit and its outcomes back, in the words of the protocol.
-class UnitDesk final : public ArmDesk {
+class UnitRequestHandler final : public ArmRequestHandler {
  public:
-  /// @param unit outlives the desk.
-  explicit UnitDesk(ControlUnit& unit) noexcept : unit_(unit) {}
+  /// @param unit outlives the handler.
+  explicit UnitRequestHandler(ControlUnit& unit) noexcept : unit_(unit) {}
 
   const franka_core::RobotState& state() const noexcept override { return unit_.state(); }
   void connected(std::uint16_t version) noexcept override;

@@ -15,11 +15,11 @@ namespace franka_sim {
 
 /// Lets clients go first. Whoever ends a robot and its clients at the same time, as roslaunch does,
 /// would otherwise hear from them that they have lost their robot.
-class Farewell : public fci::Service {
+class Shutdown : public fci::Service {
  public:
   /// @param asked the end was asked for
   /// @param ended is set when no client is left, or `patience` after that
-  Farewell(const std::atomic<bool>& asked, std::atomic<bool>& ended,
+  Shutdown(const std::atomic<bool>& asked, std::atomic<bool>& ended,
            std::chrono::duration<double> patience, std::vector<fci::SimRobot*> robots)
       : asked_(asked), ended_(ended), patience_(patience), robots_(std::move(robots)) {}
 
