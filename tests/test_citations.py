@@ -15,6 +15,7 @@ import pytest
 
 TOP = Path(__file__).resolve().parent.parent
 DESIGN = TOP / "docs" / "design"
+LIBFRANKA = TOP / "catkin_ws" / "src" / "libfranka"
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DESIGN.glob("*.md"))}
 
 DECISION = re.compile(r"\((decisions?) (\d+(?:, \d+)*)\)")
@@ -216,3 +217,41 @@ def test_tests_named_in_faults_exist():
         if not found:
             missing.append(name)
     assert not missing
+
+
+def braced(source: str, name: str) -> list[int]:
+    """The numbers of a constant array."""
+    return [int(n) for n in re.search(rf"\b{name}\s*\{{\s*\{{([^}}]*)\}}\}}", source).group(1).split(",")]
+
+
+def rows(section: str) -> list[list[str]]:
+    """The table rows of a section of the protocol page."""
+    text = re.search(rf"^### {section} .*?(?=^##)", PAGES["protocol"], re.MULTILINE | re.DOTALL).group(0)
+    table = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in row] for row in table]
+
+
+def test_the_protocol_page_has_the_numbers_and_sizes_of_the_code():
+    table = (LIBFRANKA / "src/fci/command_table.h").read_text(encoding="utf-8")
+    commands = (LIBFRANKA / "include/franka_core/fci/commands.h").read_text(encoding="utf-8")
+    enumeration = re.search(r"enum class Command [^{]*\{(.*?)\};", commands, re.DOTALL).group(1)
+    names = re.findall(r"^  k(\w+),", enumeration, re.MULTILINE)
+    versions = ("kVersions3To5", "kVersions6And7", "kVersions8And9", "kVersion10")
+    columns = [braced(table, name) for name in versions]
+    numbers, sizes = {}, {}
+    for name, *cells in rows("3.1")[1:]:
+        listed = re.sub(r" \(.*\)", "", name).split(", ")
+        for i, command in enumerate(listed):
+            numbers[command] = [-1 if cell == "–" else int(cell.split(", ")[i]) for cell in cells]
+    for name, size, _ in rows("3.2")[1:]:
+        for command in name.split(", "):
+            sizes[command] = int(size.split(";")[0])
+    assert numbers == {name: [column[i] for column in columns] for i, name in enumerate(names)}
+    assert sizes == {name: 12 + size for name, size in zip(names, braced(table, "kRequestPayload"))}
+
+
+def test_the_protocol_page_has_the_sizes_of_the_state():
+    header = (LIBFRANKA / "include/franka_core/fci/state_codec.h").read_text(encoding="utf-8")
+    sizes = "2085 {}(version 3), 2341 (4), 2373 (5 to 9), 1377 (10)"
+    assert sizes.format("") in header
+    assert sizes.format("bytes ") in PAGES["protocol"]

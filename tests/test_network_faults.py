@@ -7,7 +7,7 @@ death (faults 6). Each test checks the robot's mode at the end, the error, the c
 that this takes. Clients that send single bytes are in test_raw_clients.
 
 Where time matters the robots run at a tenth of the wall's speed, so that the proxy in Python and a busy
-machine are no faults of their own; the rest runs in lock-step. The clients of one cell run side by side.
+machine are no faults of their own; the rest runs in lock-step. The clients of one test run side by side.
 """
 
 import os
