@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 """Every YAML file of the original's name loads as the original's does: as it stands, and with the original's
-arguments substituted and no other one. What it then says is what the original's says."""
+arguments substituted and no other one. The result has the original's values (decision 51)."""
 
 import re
 from pathlib import Path

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a bad network and a bad machine do to a motion, with genuine clients and the project's own.
 
-Cells 1 to 6 of the project's table of faults: loss, delay, damage, TCP, the client's timing, its death. Each
-says what mode the robot ends in, which error it names, what the client hears, and how long that may take.
-What goes byte by byte stands in test_raw_clients.
+Loss (faults 1), delay (faults 2), damage (faults 3), TCP (faults 4), the client's timing (faults 5) and its
+death (faults 6). Each test checks the robot's mode at the end, the error, the client's exception and the time
+that this takes. Clients that send single bytes are in test_raw_clients.
 
 Where time matters the robots run at a tenth of the wall's speed, so that the proxy in Python and a busy
-machine are no faults of their own; the rest runs in lock-step. The clients of one cell run side by side.
+machine are no faults of their own; the rest runs in lock-step. The clients of one test run side by side.
 """
 
 import os

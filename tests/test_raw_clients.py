@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a bad program does to a robot: wrong bytes, half connections, crashes, answers that come late.
 
-Cells 3, 4 and 5 of the project's table of faults, by a client that goes byte by byte (fci_wire).
+A client that sends single bytes (fci_wire): damage (faults 3), TCP (faults 4), its timing (faults 5).
 """
 
 import os

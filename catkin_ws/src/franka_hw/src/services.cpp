@@ -17,7 +17,7 @@ constexpr std::chrono::milliseconds kPatience{500};
 
 /// The robot for a short operation. @throws franka::InvalidOperationException while it is moving.
 std::unique_lock<std::mutex> takeRobot(std::mutex& robot_mutex) {
-  const RobotAccessRequest wanted;
+  const RobotAccessRequest request;
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   std::unique_lock<std::mutex> lock(robot_mutex, std::defer_lock);
   while (!lock.try_lock()) {

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kServedNap{1};  ///< where clients want to b
 constexpr std::chrono::milliseconds kStandStillNap{20};
 /// Compiling a world with several robots takes seconds on a slow machine.
 constexpr std::chrono::milliseconds kSpawnTimeout{60000};
-constexpr double kMostClockRate = 1000.0;  ///< [Hz] decision 22
+constexpr double kMostClockRate = 1000.0;  ///< [Hz] (decision 22)
 
 }  // namespace
 

@@ -278,8 +278,8 @@ TEST_P(Limited, CartesianVelocitiesKeepTheLimitsOfTheArm) {
   }
 }
 
-// Version 10 echoes in single precision, in which differences of a jerk drown: it is bounded by the
-// robot's own second history (decision 14) and tested on the simulated robot.
+// Version 10 echoes in single precision, whose rounding is larger than a jerk: there the robot's
+// own second history is the bound (decision 14), tested on the simulated robot.
 INSTANTIATE_TEST_SUITE_P(DoublePrecision, Limited,
                          ::testing::Values(std::uint16_t{3}, std::uint16_t{5}, std::uint16_t{6},
                                            std::uint16_t{9}),

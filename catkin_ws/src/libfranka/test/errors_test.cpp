@@ -22,7 +22,7 @@ struct NamedMember {
     #name, [](const Errors& errors) -> const bool& { return errors.name; } \
   }
 
-// In the order of the wire (fci.md 4.1).
+// In the order of the wire (protocol 4.3).
 const NamedMember kMembers[] = {
     MEMBER(joint_position_limits_violation),
     MEMBER(cartesian_position_limits_violation),

@@ -20,7 +20,7 @@ constexpr std::array<double, 16> kPose{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1,
 constexpr std::array<double, 7> kSeven{1, 2, 3, 4, 5, 6, 7};
 constexpr std::array<double, 6> kSix{1, 2, 3, 4, 5, 6};
 
-/// A command, how it is called, and what the table of texts (fci.md 1.11) calls it.
+/// A command, how it is called, and its name in the texts (protocol 3.4).
 struct Call {
   Command command;
   const char* name;

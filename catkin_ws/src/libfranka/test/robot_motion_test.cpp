@@ -133,7 +133,7 @@ TEST_P(Motion, AbortsWithTheTextOfTheirStatus) {
   }
 }
 
-// Text of an abort by reflex, as read off the genuine client (fci.md 1.11).
+// Text of an abort by reflex, as the genuine client gives it (protocol 3.4).
 TEST_P(Motion, AbortsByReflexWithErrorsRateAndLog) {
   const auto robot = connect(fake, 5);
   fake.script([](FakeRobot::Script& s) {

@@ -24,7 +24,7 @@ class RobotAccessRequest {
 
   /// Waits for a robot's mutex. Not for loops that read.
   static std::unique_lock<std::mutex> take(std::mutex& robot_mutex) {
-    const RobotAccessRequest wanted;
+    const RobotAccessRequest request;
     return std::unique_lock<std::mutex>(robot_mutex);
   }
 
@@ -32,7 +32,7 @@ class RobotAccessRequest {
   /// mutex until it ends. @returns without the mutex when there is none any more
   template <typename Reason>
   static std::unique_lock<std::mutex> takeWhile(std::mutex& robot_mutex, Reason&& reason) {
-    const RobotAccessRequest wanted;
+    const RobotAccessRequest request;
     std::unique_lock<std::mutex> lock(robot_mutex, std::defer_lock);
     while (reason() && !lock.try_lock()) {
       std::this_thread::sleep_for(kMoment);

@@ -8,7 +8,7 @@
 
 namespace franka_hw {
 
-/// Tells controllers the time: the robot's own milliseconds, set to the clock of ROS.
+/// The time of controllers: the robot's own milliseconds, set to the clock of ROS (decision 23).
 ///
 /// The time of a cycle is not when the thread happened to wake up, but when the robot measured:
 /// between two cycles passes what passed on the robot. It follows the clock of ROS by at most 1 %

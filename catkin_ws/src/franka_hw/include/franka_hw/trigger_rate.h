@@ -10,9 +10,9 @@ namespace franka_hw {
 
 /// Says when a periodic thing is due, on ROS time.
 ///
-/// Fires when at least one period has passed and advances its stamp by whole periods, so that 1000
-/// Hz asked in a 1 kHz loop are 1000 Hz delivered and no phase is lost. Time that jumps back starts
-/// a new period there. Not thread-safe. With an explicit time real-time safe; without one as
+/// Fires when at least one period has passed and advances its stamp by whole periods: 1000 Hz in a
+/// 1 kHz loop stay 1000 Hz, without a loss of phase (decision 24). Time that jumps back starts a
+/// new period there. Not thread-safe. With an explicit time real-time safe; without one as
 /// real-time safe as ros::Time::now(), which takes a lock under simulated time.
 class TriggerRate {
  public:

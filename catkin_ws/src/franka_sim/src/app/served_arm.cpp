@@ -19,7 +19,7 @@ constexpr std::array<double, 7> kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_
 constexpr double kFingersAtStart = 0.001;  // [m] each
 
 // Flange to the hand's nominal end effector: turned by -45 deg about z, 0.1034 m along it
-// (fci.md 3).
+// (protocol 8.3).
 constexpr std::array<double, 16> kHandF_T_NE{
     M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1};
 

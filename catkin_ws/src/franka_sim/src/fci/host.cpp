@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{1};
 
-/// Physics goes on for so long after an action, for what it set in motion to come to rest
+/// Physics continues for this long after an action, until everything has come to rest
 /// (decision 21).
 constexpr std::uint64_t kTicksAfterAction = 100;
 

@@ -13,11 +13,11 @@ namespace franka_sim::fci {
 
 namespace {
 
-// Force laws of the fingers: gains of the manual (franka_ros.md 9.5).
+// Force laws of the fingers: gains of the original's FrankaGripperSim (decision 29).
 constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
 
-// What an FR3's tau_ext_hat_filtered showed of nothing but its model's error (docs/fidelity.md)
-// [Nm].
+// External torque [Nm] that a real FR3 reports although nothing touches it: the error of its own
+// model, from a public recording (docs/fidelity.md).
 constexpr std::array<double, 7> kGravityError{-0.34, -0.39, -0.06, -0.23, -0.05, 0.14, -0.25};
 
 std::string toText(const std::array<double, 7>& values) {
@@ -67,7 +67,7 @@ RobotServerParameters servedAt(const std::string& address, const ProtocolRange& 
   server.oldest_version = protocols.oldest;
   server.newest_version = protocols.newest;
   server.model_library = servedLibrary(arm);
-  server.urdfs = {{8, servedUrdf(arm, 8)}, {10, servedUrdf(arm, 10)}};  // decision 8
+  server.urdfs = {{8, servedUrdf(arm, 8)}, {10, servedUrdf(arm, 10)}};  // (decision 8)
   return server;
 }
 

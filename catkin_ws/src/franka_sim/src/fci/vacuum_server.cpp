@@ -9,7 +9,7 @@ namespace franka_sim::fci {
 namespace codec = franka_core::fci::vacuum;
 
 namespace {
-constexpr double kVacuumUnit = 10.0;  // [mbar] of a request's set point (fci.md 2)
+constexpr double kVacuumUnit = 10.0;  // [mbar] of a request's set point (protocol 7.2)
 }  // namespace
 
 VacuumGripperUnit::Ticket VacuumDevice::start(VacuumGripperUnit& unit,

@@ -269,8 +269,9 @@ void MjcfWorld::inspect() {
   }
 }
 
-/// Of two surfaces the more slippery one decides, as in Gazebo; MuJoCo would take the rougher one.
-/// It takes the one of higher priority first, so the priority is the rank in slipperiness.
+/// Of two surfaces the more slippery one decides, as in Gazebo; MuJoCo would take the rougher one
+/// (decision 37). It takes the one of higher priority first, so the priority is the rank in
+/// slipperiness.
 void MjcfWorld::rankFrictions(XMLElement* root) const {
   std::map<std::string, double> frictions;
   for (const WorldGeom& geom : geoms_) {

@@ -22,7 +22,7 @@ using franka_core::RobotMode;
 
 namespace {
 
-constexpr double kJointElasticity = 14250.0;  // [Nm/rad], decision 2
+constexpr double kJointElasticity = 14250.0;  // [Nm/rad] (decision 2)
 
 const ControlUnitParameters& checked(const ControlUnitParameters& parameters) {
   checkParameters(parameters);
@@ -153,7 +153,7 @@ void ControlUnit::observeContacts() noexcept {
   in_acceleration_ = phase_.update(accelerating_);
   const bool in_K = parameters_.threshold_frame == ThresholdFrame::kStiffness;
   if (!parameters_.reflexes) {
-    // Without reflexes: the manual's formulas, applied to the published values.
+    // Without reflexes: the manual's formulas, applied to the published values (decision 48).
     const std::array<double, 6>& shown = in_K ? state_.K_F_ext_hat_K : state_.O_F_ext_hat_K;
     state_.joint_contact = above(state_.tau_ext_hat_filtered, thresholds().lower_torque);
     state_.joint_collision = above(state_.tau_ext_hat_filtered, thresholds().upper_torque);

@@ -18,12 +18,14 @@ using franka_core::RobotMode;
 
 namespace {
 
-constexpr int kReleaseTicks = 200;    // after a reflex the arm yields so long to what it met (ours)
-constexpr int kReflexTicks = 200;     // decision 16
-constexpr double kStandstill = 0.01;  // [rad/s]
+constexpr int kReleaseTicks = 200;    // after a reflex the arm yields so long (decision 16)
+constexpr int kReflexTicks = 200;     // then braking restarts (decision 16)
+constexpr double kStandstill = 0.01;  // [rad/s] of a recovery's end (decision 16)
 constexpr int kStillTicks = 20;       // so long below it
-constexpr int kRecoveryTicks = 5000;  // a recovery that takes longer has failed
-constexpr double kGuidingNullspace = 200.0;  // [Nm/rad] where the elbow is not free
+// Chosen here: braking and yielding take less than 1 s, so a recovery that takes longer has failed.
+constexpr int kRecoveryTicks = 5000;
+// [Nm/rad] where the elbow is not free. Chosen here: the hold of a locked elbow is not published.
+constexpr double kGuidingNullspace = 200.0;
 
 }  // namespace
 
@@ -124,7 +126,7 @@ void ControlUnit::finishMotion() noexcept {
 
 void ControlUnit::advanceRest() noexcept {
   if (rest_ == Rest::kReleasing) {
-    // The wanted pose follows the measured one, damped, until nothing presses (decision 16).
+    // The desired pose follows the measured one, damped, until nothing presses (decision 16).
     holdHere();
     rest_ = ++rest_ticks_ < kReleaseTicks ? Rest::kReleasing : Rest::kReached;
   }
@@ -135,7 +137,7 @@ void ControlUnit::advanceRest() noexcept {
   rest_ticks_++;
   const bool reflex = mode() == RobotMode::kReflex || mode() == RobotMode::kAutomaticErrorRecovery;
   if (reflex && rest_ticks_ == kReflexTicks && !brake_.atRest()) {
-    // Whatever the arm met: nothing keeps pressing from here on (decision 16).
+    // From here on the arm does not press on what it has met (decision 16).
     brake_.start(state_.q, state_.dq, generator_.limits().arm.ddq);
   }
   state_.q_d = brake_.q();
@@ -182,6 +184,7 @@ std::array<double, 7> ControlUnit::controlLaw() noexcept {
     return cartesianLaw(K, guiding_elbow_ ? 0.0 : kGuidingNullspace);
   }
   if (mode() != RobotMode::kMove) {
+    // Holds a pose that was latched when the mode began (decision 6).
     return hold_.torque(state_.q_d, state_.dq_d, state_.q, state_.dq, dynamics_.mass,
                         dynamics_.coriolis);
   }

@@ -478,7 +478,7 @@ void ControlUnit::showDesired(const DesiredMotion& desired) noexcept {
   state_.elbow_c = desired.elbow_c;
   state_.delbow_c = desired.delbow_c;
   state_.ddelbow_c = desired.ddelbow_c;
-  accelerating_ = desired.accelerating && !controlledOutside();  // decision 15
+  accelerating_ = desired.accelerating && !controlledOutside();  // (decision 15)
   desired_stale_ = false;
 }
 

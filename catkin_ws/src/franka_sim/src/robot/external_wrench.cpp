@@ -15,7 +15,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-constexpr double kSmallestSingularValue = 0.02;  // decision 5
+constexpr double kSmallestSingularValue = 0.02;  // (decision 5)
 
 // A symmetric matrix minus s^2 times one is positive definite exactly if its eigenvalues exceed
 // s^2.

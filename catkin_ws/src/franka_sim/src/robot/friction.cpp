@@ -10,7 +10,7 @@ namespace franka_sim {
 std::array<double, 7> frictionCompensation(const std::array<double, 7>& coulomb,
                                            const std::array<double, 7>& viscous,
                                            const std::array<double, 7>& dq) noexcept {
-  constexpr double kMoving = 0.01;  // [rad/s], decision 1
+  constexpr double kMoving = 0.01;  // [rad/s] (decision 1)
   std::array<double, 7> tau{};
   for (std::size_t i = 0; i < 7; i++) {
     if (std::abs(dq[i]) > kMoving) {

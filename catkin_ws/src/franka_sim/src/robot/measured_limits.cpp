@@ -9,10 +9,10 @@ namespace franka_sim {
 
 namespace {
 
-constexpr double kPositionMargin = 0.005;  // [rad], ours: within the stops' 0.02 (decision 8)
-// Decision 14. For the hand too: it overshoots what is commanded at up to 100 % of the limit.
+constexpr double kPositionMargin = 0.005;  // [rad], chosen here: below the stops' 0.02 (decision 8)
+// For joints and hand: the arm overshoots commands at 100 % of the limit (decision 14).
 constexpr double kSpeedMargin = 1.05;
-constexpr double kTorqueMargin = 1.2;  // decision 14
+constexpr double kTorqueMargin = 1.2;  // (decision 14)
 
 }  // namespace
 

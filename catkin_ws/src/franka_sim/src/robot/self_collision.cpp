@@ -13,7 +13,7 @@ namespace franka_sim {
 namespace {
 
 constexpr double kHalfRoot = 0.70710678118654752440;  // cos and sin of 45 degrees
-constexpr double kJitter = 1e-4;  // [m] by which an overlapping pair may come closer
+constexpr double kJitter = 1e-4;  // [m], chosen here: overlaps may deepen so much at rest
 
 struct Ends {
   Eigen::Vector3d from, to;

@@ -8,7 +8,7 @@ namespace franka_sim {
 
 namespace {
 
-constexpr double kPatience = 0.2;  // [s], decision 29
+constexpr double kPatience = 0.2;  // [s], chosen here (decision 29)
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace franka_sim {
 
 namespace {
 
-constexpr double kStep = 1000.0 * kTick;  // [Nm] per tick
+constexpr double kStep = 1000.0 * kTick;  // [Nm] per tick (protocol 5.5)
 
 }  // namespace
 

@@ -13,7 +13,7 @@ using franka_core::fci::CartesianLimit;
 
 namespace {
 
-constexpr double kJitter = 1e-4;  // [m] by which the depth may grow at a standstill
+constexpr double kJitter = 1e-4;  // [m], chosen here: the depth may grow so much at rest
 
 }  // namespace
 

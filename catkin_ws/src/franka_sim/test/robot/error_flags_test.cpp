@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Each error that the robot knows, raised through the whole control unit, alone.
+// Each error that the robot can raise, through the whole control unit, alone (decision 45).
 #include <random>
 
 #include "fci_fixture.h"

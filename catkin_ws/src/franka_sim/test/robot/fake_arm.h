@@ -17,8 +17,8 @@ using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
 /// An arm that obeys (M(q) + B) ddq + c + g + friction = tau + J^T F, in two semi-implicit Euler
-/// substeps of 0.5 ms, with the sensors of decision 2. Its payload is the true one, whatever the
-/// unit believes.
+/// substeps of 0.5 ms, with link-side torque sensors (decision 2). Its payload is the true one, not
+/// the one that is configured in the unit.
 class FakeArm : public ArmPlant {
  public:
   FakeArm(const franka_core::ArmModel& model, const std::array<double, 7>& q)

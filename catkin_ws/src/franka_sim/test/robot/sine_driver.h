@@ -15,7 +15,7 @@
 
 namespace franka_sim::test {
 
-/// Joint speed limits [rad/s], fci.md 5.5.
+/// Joint speed limits [rad/s] (protocol 5.5).
 constexpr std::array<double, 7> kPandaSpeed{{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}};
 constexpr std::array<double, 7> kFr3Speed{{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}};
 

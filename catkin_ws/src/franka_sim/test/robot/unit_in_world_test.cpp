@@ -382,7 +382,7 @@ TEST_P(UnitInWorldTest, InternalControllersHaveTheStiffnessThatWasSet) {
       }
       continue;
     }
-    // What the spring gives is what pushes (decision 4: the robot's own force counts).
+    // The reported force is that of the robot's own spring (decision 4).
     const double force = 500 * (before.O_T_EE_d[13] - s.O_T_EE[13]);
     EXPECT_NEAR(s.O_F_ext_hat_K[1], force, 0.005 * 4) << GetParam();
     EXPECT_NEAR(-4.0, s.O_F_ext_hat_K[1], 0.02);

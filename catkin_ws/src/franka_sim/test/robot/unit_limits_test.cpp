@@ -258,7 +258,7 @@ class JointEnds : public UnitLimits {
   // Where no joint's end brings the arm too close to itself.
   static constexpr Joints kClear{{0, 0, 0, -1.57, 0, 2.6, 0.79}};
 
-  /// Where the limit is as low as the cruise: fci.md 4.2, solved for the position.
+  /// Where the limit equals the cruise speed: its formula solved for the position (protocol 5.5).
   double endOfCruise(std::size_t joint, bool upper) const {
     const franka_core::PositionVelocityLimits& near = limits.velocity_near_ends;
     const double root = kCruise + near.offset[joint];

@@ -14,9 +14,9 @@ class World;
 
 namespace franka_sim_mujoco {
 
-/// The control unit's configuration from the parameters of a robot's namespace (franka_ros.md 9.2),
-/// with defaults from its URDF: end effector composed of everything behind the flange (decision 7),
-/// F_T_NE that of the hand when there is one.
+/// The control unit's configuration from the parameters of a robot's namespace, with the names of
+/// the original franka_gazebo, and with defaults from its URDF: the end effector is everything
+/// behind the flange (decision 7), F_T_NE that of the hand when there is one.
 /// @param gravity of the world [m/s^2], axes of the arm's base; the parameter gravity_vector wins
 /// @throws std::invalid_argument with one sentence for the first thing that is wrong
 franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,

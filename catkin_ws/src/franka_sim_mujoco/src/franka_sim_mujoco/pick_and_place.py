@@ -45,7 +45,7 @@ from franka_sim_mujoco.geometry import (
 )
 from franka_sim_mujoco.srv import GetBodyPose, GetContacts, RenderPicture, SetBodyPose
 
-# The scene (franka_ros.md 9.6): sizes [m], mass [kg].
+# The scene of the original's stone.sdf: sizes [m], mass [kg].
 STONE_SIZE = (0.025, 0.032, 0.064)
 STONE_MASS = 0.1024
 TRAY_SIZE = (0.235035, 0.144926, 0.023348)

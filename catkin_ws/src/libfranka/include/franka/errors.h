@@ -20,7 +20,7 @@ struct Errors {
   Errors();
   Errors(const Errors& other);
   Errors& operator=(Errors other);
-  /// @param errors flags in the order of the wire (fci.md 4.1).
+  /// @param errors flags in the order of the wire (protocol 4.3).
   explicit Errors(const std::array<bool, 41>& errors);
 
   /// True when at least one error is active.

@@ -121,7 +121,7 @@ class ArmModel {
 };
 
 /// End effector and load as one body about their common centre of mass (parallel-axis theorem).
-/// A part of zero mass contributes nothing, its inertia included (fci.md 4.3).
+/// A part of zero mass contributes nothing, its inertia included (protocol 8.4).
 Payload combine(const Payload& end_effector, const Payload& load) noexcept;
 
 /// What is mounted below `<prefix>link8` (hand and fingers, movable joints at position 0: fingers

@@ -8,8 +8,8 @@
 
 namespace franka_core {
 
-/// The names of the robot's errors in the order of the wire (fci.md 4.1), as the robot's logs and
-/// franka::Errors spell them. Protocol versions up to 4 know the first 37.
+/// The names of the robot's errors in the order of the wire (protocol 4.3), as the robot's logs and
+/// franka::Errors spell them. Protocol versions up to 4 have the first 37.
 constexpr std::array<const char*, kErrorCount> kErrorNames{{
     "joint_position_limits_violation",
     "cartesian_position_limits_violation",

@@ -55,8 +55,8 @@ inline JointVelocityRange rangeAt(const PositionVelocityLimits& limits,
   return range;
 }
 
-/// The velocity nearest to the wanted one within jerk, acceleration, and an acceleration that ends
-/// where the velocity does (fci.md 4.3; with two different ends).
+/// The velocity nearest to the desired one within jerk and acceleration, where the acceleration
+/// ends at the velocity limit; the two velocity limits may differ (protocol 5.6).
 /// @param lowest @param highest velocity [rad/s] @param dt a cycle [s]
 /// @param last_velocity [rad/s] @param last_acceleration [rad/s^2] of the cycle before
 inline double limitVelocity(double lowest, double highest, double max_acceleration, double max_jerk,

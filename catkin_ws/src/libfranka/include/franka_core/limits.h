@@ -8,7 +8,7 @@
 #include <cstddef>
 
 /// @file
-/// The limits of both arms, each once. Source: Franka's published tables (fci.md 4.2 and 5.5).
+/// The limits of both arms, each once. Source: Franka's published tables (protocol 5.5).
 /// Everything here is constant or pure, allocation-free and safe in the 1 kHz loop.
 
 namespace franka_core {
@@ -87,7 +87,7 @@ constexpr ArmLimits kFr3LimitsBefore59 = limits_detail::withPositions(
     kFr3Limits, {{-2.7437, -1.7837, -2.9007, -3.0421, -2.8065, 0.5445, -3.0159}},
     {{2.7437, 1.7837, 2.9007, -0.1518, 2.8065, 4.5169, 3.0159}});
 
-/// The limits that hold for a robot speaking this protocol version (decisions 8 and 25).
+/// The limits that hold for a robot speaking this protocol version (decisions 8, 25).
 constexpr const ArmLimits& limitsOfProtocol(unsigned version) noexcept {
   return version <= 5 ? kFerLimits : (version < 10 ? kFr3LimitsBefore59 : kFr3Limits);
 }
@@ -101,7 +101,7 @@ struct PositionVelocityLimits {
   std::array<double, 7> q_max;         ///< upper end [rad]
 };
 
-/// FR3, as the client's header has them since 0.11 (fci.md 4.2).
+/// FR3, as in the client's header since libfranka 0.11 (protocol 5.5).
 constexpr PositionVelocityLimits kFr3PositionVelocityLimits{
     {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}},
     {{0.30, 0.20, 0.20, 0.30, 0.35, 0.35, 0.35}},
@@ -109,8 +109,8 @@ constexpr PositionVelocityLimits kFr3PositionVelocityLimits{
     {{-2.7501, -1.7918, -2.9065, -3.0481, -2.8101, 0.54092, -3.0196}},
     {{2.7501, 1.7918, 2.9065, -0.1458, 2.8101, 4.5205, 3.0196}}};
 
-/// FR3 with system 5.9 or later: what its URDF tells protocol 10 clients (fci.md 4.2 and 5.5); c is
-/// twice the URDF's deceleration.
+/// FR3 with system 5.9 or later, as in the URDF for clients of protocol 10; c is twice the URDF's
+/// deceleration (protocol 5.5).
 constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59{
     kFr3Limits.dq,
     {{0.6599, 0.2517, 0.2000, 0.3533, 0.5757, 0.4878, 0.4628}},

@@ -5,7 +5,8 @@
 #include <string>
 
 /// @file
-/// Whether a motion needs a real-time kernel: one rule for the client and for the nodes.
+/// Whether a motion needs a real-time kernel: one rule for the client and for the nodes
+/// (decisions 27, 49).
 
 struct sockaddr;  // NOLINT(readability-identifier-naming)  the system's name
 

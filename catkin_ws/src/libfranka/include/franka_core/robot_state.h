@@ -8,7 +8,7 @@
 
 namespace franka_core {
 
-constexpr std::size_t kErrorCount = 41;  ///< index order of fci.md 4.1
+constexpr std::size_t kErrorCount = 41;  ///< (protocol 4.3)
 
 /// Numbers as on the wire and as in franka::RobotMode.
 enum class RobotMode : std::uint8_t {

@@ -7,7 +7,7 @@
 
 /// @file
 /// Which robot speaks which version of the control interface, in words. Source: Franka's published
-/// compatibility tables (fci.md 0).
+/// compatibility tables (protocol 1.1).
 
 namespace franka_core {
 

@@ -11,7 +11,7 @@
 namespace franka_core {
 
 /// How far the length of a rotation's row or column may be from 1, and the cosine of the angle
-/// between two columns from 0 (fci.md 4).
+/// between two columns from 0 (protocol 3.5).
 constexpr double kTransformTolerance = 1e-5;
 
 /// Whether a matrix passes the client's check of commanded poses: bottom row exactly 0 0 0 1, every

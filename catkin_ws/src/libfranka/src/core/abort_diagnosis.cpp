@@ -335,7 +335,7 @@ std::string Diagnosis::invalidFrame() const {
          "its rotation must be orthonormal, its last row 0 0 0 1, and it must be column-major.";
 }
 
-/// The numbers of the flags: index order of fci.md 4.1.
+/// By the numbers of the flags (protocol 4.3).
 std::string Diagnosis::explain(std::size_t flag) const {
   switch (flag) {
     case 0:

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 /// @file
-/// The numbers and sizes of commands, each once (fci.md 1.2 and 1.3). Columns are in the order of
+/// The numbers and sizes of commands, each once (protocol 3.1, 3.2). Columns are in the order of
 /// Command.
 
 namespace franka_core::fci::table {

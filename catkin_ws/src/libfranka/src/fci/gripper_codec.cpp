@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint16_t kConnect = 0;
 
-// Bytes behind the header, in the order of Command (fci.md 2).
+// Bytes behind the header, in the order of Command (protocol 7.1).
 constexpr std::array<std::size_t, 5> kPayload{{4, 0, 40, 16, 0}};
 
 void write(const ConnectRequest& request, wire::Writer& writer) noexcept {

@@ -8,7 +8,7 @@ namespace franka_core::fci {
 
 namespace {
 
-// The statuses of one kind of command in the order of their numbers (fci.md 1.4).
+// The statuses of one kind of command in the order of their numbers (protocol 3.3).
 struct Statuses {
   std::size_t count;
   std::array<Status, 12> in_order;

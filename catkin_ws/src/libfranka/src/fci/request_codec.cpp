@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint8_t kLastRequestedController =
     static_cast<std::uint8_t>(ControllerMode::kExternalController);
 
-// Each request's fields in the order of the wire (fci.md 1.3); constness follows the request's.
+// Each request's fields in the order of the wire (protocol 3.2), const where the request is.
 template <typename Visitor, typename T>
 void visitDeviation(Visitor& visit, T& deviation) noexcept {
   visit(deviation.translation, deviation.rotation, deviation.elbow);

@@ -14,8 +14,8 @@ constexpr std::uint16_t kSinglePrecisionVersion = 10;
 constexpr std::array<double, 3> kGravity{{0.0, 0.0, -9.81}};
 constexpr std::array<double, 16> kIdentity{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
 
-// Every field in the order of the wire (fci.md 1.6) with the version that brought it. Sizes,
-// offsets and both directions derive from this one list.
+// Every field in the order of the wire (protocol 4.1) with the version that introduced it. Sizes,
+// offsets, encoding and decoding derive from this one list.
 template <typename Visitor>
 constexpr void visitFields(Visitor&& visit) {
   using State = RobotState;

@@ -12,8 +12,8 @@
 
 namespace franka {
 
-/// What the user reads about a motion that ended by reflex: the genuine client's text word for word
-/// (fci.md 1.11), then, on lines of their own, what the log tells about the cause.
+/// The text about a motion that ended by reflex: the genuine client's text word for word
+/// (protocol 3.4), then, on lines of their own, the cause as the log shows it.
 /// @param text what happened. @param state the newest one, whose reflex_reason says why.
 /// @param log the last states and commands, oldest first. @param version the robot's protocol.
 std::string reflexText(const std::string& text, const franka_core::RobotState& state,

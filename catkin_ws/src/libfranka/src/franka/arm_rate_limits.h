@@ -42,9 +42,9 @@ struct ArmRateLimits {
                         const Joints& last_accelerations) const noexcept;
 };
 
-/// The limits of a robot that speaks this protocol: the Panda's classic constants up to version 5,
-/// those of the FR3 from 6 on, whose system 5.9 (version 10) has other velocities (fci.md 4.2);
-/// that robot's own description overrides them.
+/// The limits of a robot that speaks this protocol: the Panda's constants up to version 5, those of
+/// the FR3 from version 6 on; system 5.9 (version 10) has other velocities (protocol 5.5), and the
+/// URDF that such a robot sends overrides them.
 ArmRateLimits rateLimitsOfProtocol(std::uint16_t version);
 
 /// Joint velocity limits from the description a robot sends: for each of joint1 ... joint7 (by

@@ -20,7 +20,7 @@ namespace franka {
 
 namespace {
 
-// The functions of the shared object (fci.md 3). Index 0 to 6: joints, 7: flange, 8: end effector.
+// Functions of the shared object (protocol 8.1). Index 0 to 6: joints, 7: flange, 8: end effector.
 using PoseOfJoint = void (*)(const double q[7], double out[16]);
 using PoseOfEndEffector = void (*)(const double q[7], const double F_T_EE[16], double out[16]);
 using FirstJacobian = void (*)(double out[42]);

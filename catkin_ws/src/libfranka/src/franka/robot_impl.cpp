@@ -122,7 +122,7 @@ void Robot::Impl::connect(const std::string& address) {
   if (!wanted) {
     return;
   }
-  // A robot takes only its own version (fci.md 1.8), and says which that is.
+  // A robot accepts only its own version and replies which that is (protocol 2.2).
   if (!fci::isRobotVersion(*wanted) || *wanted == fci::kNewestRobotVersion ||
       offer(endpoint, *wanted, deadline)) {
     throw IncompatibleVersionException(*wanted, fci::kNewestRobotVersion);

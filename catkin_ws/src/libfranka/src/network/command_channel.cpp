@@ -72,7 +72,7 @@ Descriptor connectTo(const Endpoint& endpoint, Clock::time_point deadline) {
   return socket;
 }
 
-// Without them a robot that loses power would look like one that is silent (fci.md 1.8).
+// Without keepalives a robot without power looks like a silent one (protocol 2.2).
 void enableKeepalive(int socket) {
   const auto set = [socket](int level, int option, int value) {
     setsockopt(socket, level, option, &value, sizeof(value));

@@ -17,10 +17,10 @@ namespace franka_sim::fci {
 
 /// How simulated time follows the wall's.
 struct Pace {
-  /// Waits within a motion for each answer, for as long as it takes up to `patience`; runs as fast
-  /// as machine and clients allow (decision 21), but by the clock within an asynchronous motion,
-  /// whose client owes no answers. Otherwise ticks are due every millisecond divided by `factor`,
-  /// whatever the clients do.
+  /// Within a motion each tick waits for the client's answer, at most `patience`; runs go as fast
+  /// as the machine and the clients allow (decision 21). An asynchronous motion runs by the clock,
+  /// because its client need not answer. Without lock-step a tick is due every millisecond divided
+  /// by `factor`, whatever the clients do.
   bool lockstep{false};
   /// With lock-step: time does not stand still between motions, but runs on as fast as the machine
   /// allows. For a world in which others live too.
@@ -31,8 +31,8 @@ struct Pace {
   double factor{1.0};
   /// After so long without an answer a client of a lock-step motion counts as lost; its cycles are
   /// then waited for a millisecond each. Time in which this process itself does not run does not
-  /// count. A client whose connection ends is waited for no longer. (Our choice: a starved machine
-  /// holds a program up for seconds, and what others ask of the robot meanwhile may take 60.)
+  /// count. A client whose connection ends is waited for no longer. The value is chosen here: a
+  /// starved machine stops a program for seconds (decision 50).
   std::chrono::milliseconds patience{30000};
 };
 
@@ -86,8 +86,8 @@ class Service {
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
 
-/// Runs a world and its robots tick by tick, in the order of decision 20: each state k goes out,
-/// its answer is awaited, and the physics from k to k + 1 runs with it.
+/// Runs a world and its robots tick by tick: the host sends state k, waits for the answer to it,
+/// and runs the physics from k to k + 1 with that answer (decision 20).
 class Host {
  public:
   /// @param step advances the world by one millisecond.

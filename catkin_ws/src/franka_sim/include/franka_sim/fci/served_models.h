@@ -14,8 +14,8 @@
 
 namespace franka_sim::fci {
 
-/// The shared object for clients of protocols 3 to 9: 30 C functions (fci.md 3) that need libc and
-/// libm only, with this arm's parameters in it. For the machine's own architecture.
+/// The shared object for clients of protocols 3 to 9: 30 C functions (protocol 8.1) that need libc
+/// and libm only, with this arm's parameters in it. For the machine's own architecture.
 /// @throws std::logic_error if the library of this build has no place for parameters.
 std::vector<std::uint8_t> servedLibrary(const franka_core::ArmModel& arm);
 

@@ -59,8 +59,8 @@ class SimRobot final : public HostedRobot {
   /// and a colon. Called within `serve`.
   void onRefusal(const ClientSlot::Tell& tell);
 
-  /// Of all states that were answered and those after them up to rest, without their ids: equal
-  /// hash, equal run (decision 21).
+  /// Hash of all states from the first answered one on, without their ids: equal hash, equal run
+  /// (decision 21).
   std::uint64_t hash() const noexcept { return hash_; }
   /// After the world was reset: as after the start; the hash begins anew. To be followed by
   /// `observe`, once: the one of the next tick, or within a tick one more.

@@ -18,7 +18,7 @@ struct JointPhysics {
   struct Stops {
     std::array<double, 7> lower, upper;  ///< [rad]
   };
-  std::optional<Stops> stops;  ///< decision 8; without them the URDF's limits are the stops
+  std::optional<Stops> stops;  ///< (decision 8); without them the URDF's limits are the stops
 };
 
 /// Reads franka_description's physics.yaml.

@@ -39,8 +39,9 @@ struct Picture {
 /// allocates).
 Scene captureScene(World& world);
 
-/// Draws scenes without a display: EGL surfaceless or OSMesa, whichever the machine has (decision
-/// 38: shadow map at most 1024, no multisampling). One thread owns a renderer.
+/// Draws scenes without a display, by EGL surfaceless or OSMesa, whichever the machine has. To save
+/// memory the shadow map has at most 1024 texels a side, without multisampling (decision 38). One
+/// thread owns a renderer.
 class Renderer {
  public:
   /// @throws std::runtime_error with a sentence when no way of drawing is found.

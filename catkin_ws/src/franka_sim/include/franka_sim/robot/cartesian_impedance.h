@@ -18,13 +18,13 @@ struct CartesianImpedanceInput {
   std::array<double, 7> q_d, q, dq;     ///< [rad], [rad/s]; q_d leads the null space
   std::array<double, 7> coriolis;       ///< C(q, dq) dq [Nm]
   std::array<double, 6> K;              ///< stiffness [N/m, Nm/rad], 0 or more
-  double nullspace_stiffness{10.0};     ///< [Nm/rad], decision 11
+  double nullspace_stiffness{10.0};     ///< [Nm/rad], chosen here (decision 11)
   std::array<double, 7> rotor_inertia;  ///< B [kg m^2]
 };
 
-/// The unit's Cartesian impedance law (decision 11): springs and dampers between the wanted and the
-/// measured stiffness frame, along and about the axes of the measured one; the joints' null space
-/// is held by a soft, critically damped spring; Coriolis torques are added.
+/// The unit's Cartesian impedance law (decision 11): springs and dampers between the desired and
+/// the measured stiffness frame, along and about the axes of the measured one; a soft, critically
+/// damped spring holds the joints' null space; Coriolis torques are added.
 /// D_i = 1.4 sqrt(K_i / (J (M + B)^-1 J^T)_ii). The rotation error is a rotation vector.
 /// Real-time safe. @returns torques without gravity [Nm]
 std::array<double, 7> cartesianImpedance(const CartesianImpedanceInput& input) noexcept;

@@ -8,8 +8,8 @@
 namespace franka_sim {
 
 /// The low-pass filters that clients up to protocol 5 can put before the motion generators and the
-/// torque controller (SetFilters). First order, with the gain of fci.md 4.3; at 1000 Hz a signal
-/// passes as it is. Rotations are filtered along the shortest arc. Real-time safe; one thread.
+/// torque controller (SetFilters). First order (protocol 5.6); at 1000 Hz a signal passes
+/// unchanged. Rotations are filtered along the shortest arc. Real-time safe; one thread.
 class CommandFilter {
  public:
   /// @returns whether all cutoffs are within 1 and 1000 Hz.

@@ -14,21 +14,20 @@ struct CollisionThresholds {
   std::array<double, 6> lower_force, upper_force;
 };
 
-/// Whose axes the wrench has that is compared with the Cartesian thresholds (decision 15).
+/// The axes of the wrench that is compared with the Cartesian thresholds (decision 15).
 enum class ThresholdFrame {
   kBase,      ///< O_F_ext_hat_K, as over the FCI
   kStiffness  ///< K_F_ext_hat_K, as the ROS simulation's manual says
 };
 
-/// The configuration a control unit starts with. Defaults and sources: decisions.md,
-/// franka_ros.md 9.2.
+/// The configuration a control unit starts with. Thresholds are the defaults of the original
+/// franka_gazebo; the source of each other default stands beside it.
 struct ControlUnitParameters {
   franka_core::ArmModel model;
-  std::array<double, 7> max_torque{{87, 87, 87, 87, 12, 12, 12}};  ///< saturation [Nm], fci.md 5.5
+  std::array<double, 7> max_torque{{87, 87, 87, 87, 12, 12, 12}};  ///< [Nm] (protocol 5.5)
   std::array<double, 7> rotor_inertia{
       {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< B [kg m^2] (decision 1)
-  /// Coulomb friction the unit compensates where |dq| > 0.01 rad/s [Nm] (decision 1: zero by
-  /// default).
+  /// Coulomb friction that the unit compensates where |dq| > 0.01 rad/s [Nm] (decision 1).
   std::array<double, 7> coulomb_friction{};
   std::array<double, 7> viscous_friction{};      ///< likewise [Nm s/rad]
   int substeps{2};                               ///< of the physics per tick (decision 3)
@@ -43,13 +42,13 @@ struct ControlUnitParameters {
                               {{20, 20, 20, 25, 25, 25}},
                               {{20, 20, 20, 25, 25, 25}}};
   CollisionThresholds acceleration{nominal};
-  /// Of the idle hold, and of joint impedance control until it is set [Nm/rad].
+  /// Of the idle hold, and of joint impedance control until it is set [Nm/rad] (decision 11).
   std::array<double, 7> joint_stiffness{{3000, 3000, 3000, 2500, 2500, 2000, 2000}};
   /// Of Cartesian impedance control until it is set [N/m, Nm/rad] (decision 11).
   std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
   bool has_hand{true};           ///< for the avoidance of self-collisions
-  unsigned protocol_version{5};  ///< whose limits hold (decisions 8 and 25)
-  /// Whether setters are taken in Move: the ROS simulation does, the FCI refuses (fci.md 5.1).
+  unsigned protocol_version{5};  ///< selects the limits (decisions 8, 25)
+  /// Whether setters are accepted in Move: in the ROS simulation, not over the FCI (protocol 5.1).
   bool setters_in_motion{true};
   ThresholdFrame threshold_frame{ThresholdFrame::kStiffness};
   /// Whether collisions, violated limits and lost commands end a motion. The robot does so; the ROS

@@ -7,8 +7,8 @@
 
 namespace franka_sim {
 
-/// The errors that the control unit finds by itself: indices into the robot's error flags (fci.md
-/// 4.1, franka_core::kErrorNames). Those of commanded motions are MotionFlag.
+/// The errors that the control unit finds by itself: indices into the robot's error flags,
+/// franka_core::kErrorNames (protocol 4.3). Those of commanded motions are MotionFlag.
 enum class ErrorFlag : std::uint8_t {
   kJointPositionLimits = 0,
   kVirtualWall = 1,

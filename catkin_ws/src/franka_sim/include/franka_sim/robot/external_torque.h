@@ -9,8 +9,7 @@
 
 namespace franka_sim {
 
-/// External joint torque: the measured torque minus what the model of the motion explains (decision
-/// 3),
+/// External joint torque: the measured torque minus that of the motion's model (decision 3),
 ///   tau_ext = tau_J - [M(q) a + c(q, dq) + g(q)],  a = (dq_k - dq_{k-1}) / T.
 ///
 /// tau_J is a mean over the tick. With n physics substeps the plant evaluated its dynamics at the

@@ -19,7 +19,7 @@ struct GripperParameters {
   double move_tolerance{0.005};     ///< a move has arrived within this of its width [m]
   double resting_threshold{0.001};  ///< at or below this width speed the fingers stand still [m/s]
   int consecutive_samples{3};       ///< ticks of standstill before it counts
-  double homing_speed{0.02};        ///< [m/s], franka_ros.md 9.5
+  double homing_speed{0.02};        ///< [m/s] (decision 29)
   double max_speed{0.1};    ///< faster commands are carried out at this speed [m/s], data sheet
   double max_force{140.0};  ///< stronger grasps are carried out with this force [N], data sheet
   /// Warming of the motor (our choice; Franka publishes no figures).

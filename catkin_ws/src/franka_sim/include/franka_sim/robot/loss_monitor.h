@@ -6,15 +6,15 @@
 
 namespace franka_sim {
 
-/// Counts the commands of a motion that arrived and those that did not (fci.md 5.3). Real-time
+/// Counts the commands of a motion that arrived and those that did not (protocol 5.3). Real-time
 /// safe; one thread.
 class LossMonitor {
  public:
   /// So many lost in a row end a motion.
   static constexpr int kLostInARow = 20;
 
-  /// One tick. Before a motion's first command nothing counts as lost: the client consumes states
-  /// without answering while it starts (fci.md 1.10).
+  /// One tick. Before a motion's first command nothing counts as lost: the client takes states
+  /// without an answer while it starts (protocol 5.2).
   /// @param patience ticks to wait for that first command @returns whether the client is lost.
   bool record(bool received, int patience = kPatience) noexcept;
   double rate() const noexcept { return window_.rate(); }

@@ -11,9 +11,9 @@
 
 namespace franka_sim {
 
-/// What holds of the measured arm in every mode in which it is driven (decision 14). Bounds of what
-/// is commanded are the motion generators' matter; these lie 5 % and more above them, so that an
-/// arm which follows well is not stopped.
+/// Limits of the measured arm, in every mode in which it is driven (decision 14). The motion
+/// generators check the commands; these limits lie at least 5 % above theirs, so that an arm which
+/// follows well is not stopped.
 /// @param O_dP_EE measured twist of EE in O [m/s, rad/s]
 /// @returns the first error of: tau_J_range_violation (|tau_J| above 1.2 times the motors' range),
 /// joint_position_limits_violation (0.005 rad beyond), joint_velocity_violation (1.05 times),

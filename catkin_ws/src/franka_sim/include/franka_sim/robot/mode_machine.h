@@ -23,8 +23,8 @@ enum class ModeEvent {
 };
 constexpr int kModeEventCount = 12;
 
-/// The robot's mode and the table of its transitions (fci.md 5.1). Events that the present mode
-/// does not know change nothing. Real-time safe; one thread.
+/// The robot's mode and the table of its transitions (protocol 5.1). An event without a transition
+/// from the present mode changes nothing. Real-time safe; one thread.
 class ModeMachine {
  public:
   franka_core::RobotMode mode() const noexcept { return mode_; }

@@ -32,7 +32,7 @@ std::string frameFault(const std::array<double, 16>& transform);
 /// Whether all thresholds are finite and not negative. Real-time safe.
 bool areThresholds(const CollisionThresholds& thresholds) noexcept;
 
-/// Whether the robot accepts these stiffnesses: 0 to 14250 Nm/rad (fci.md 5.2). Real-time safe.
+/// Whether the robot accepts these stiffnesses: 0 to 14250 Nm/rad (protocol 5.7). Real-time safe.
 bool isJointStiffness(const std::array<double, 7>& K) noexcept;
 
 /// Likewise: 10 to 3000 N/m, 1 to 300 Nm/rad. Real-time safe.

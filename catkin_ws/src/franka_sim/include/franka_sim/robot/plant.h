@@ -10,8 +10,8 @@ namespace franka_sim {
 struct ArmMeasurement {
   std::array<double, 7> q{};   ///< [rad]
   std::array<double, 7> dq{};  ///< [rad/s]
-  /// Link-side torque, mean over the last tick [Nm] (decision 2): what the motors or the closed
-  /// brakes give.
+  /// Link-side torque, mean over the last tick [Nm], of the motors or the closed brakes
+  /// (decision 2).
   std::array<double, 7> tau_J{};
 };
 

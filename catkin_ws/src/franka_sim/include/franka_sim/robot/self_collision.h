@@ -27,8 +27,8 @@ extern const std::array<Capsule, kCapsuleCount> kCapsules;
 double segmentDistance(const std::array<double, 3>& a0, const std::array<double, 3>& a1,
                        const std::array<double, 3>& b0, const std::array<double, 3>& b1) noexcept;
 
-/// Whether the arm comes too close to itself (decision 17). Pairs of links at least two apart are
-/// looked at, but for 1 and 3, whose volumes always meet. Real-time safe; one thread.
+/// Whether the arm comes too close to itself (decision 17). It checks pairs of links at least two
+/// apart, except 1 and 3, whose volumes always overlap. Real-time safe; one thread.
 class SelfCollision {
  public:
   struct Pair {

@@ -4,10 +4,10 @@
 
 namespace franka_sim {
 
-/// The robot's cycle [s] (fci.md 5.3).
+/// The robot's cycle [s] (protocol 5.3).
 constexpr double kTick = 1e-3;
 
-/// Cutoff of the unit's own signal filters [Hz] (decisions 2 and 3).
+/// Cutoff of the unit's own signal filters [Hz] (decisions 2, 3).
 constexpr double kSignalCutoff = 100.0;
 
 }  // namespace franka_sim

@@ -7,8 +7,8 @@
 namespace franka_sim {
 
 /// Leads the torque from one control law to the next without a step: what the laws differ by at
-/// the switch is added and fades at the torque rate that the robot allows (fci.md 5.5). Real-time
-/// safe; one thread.
+/// the switch is added and fades at the torque rate that the robot allows (protocol 5.5).
+/// Real-time safe; one thread.
 class TorqueBlend {
  public:
   /// The law changes before the next `apply`.

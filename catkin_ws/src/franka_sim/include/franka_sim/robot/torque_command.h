@@ -12,7 +12,7 @@ std::array<double, 7> saturate(const std::array<double, 7>& tau,
                                const std::array<double, 7>& limit) noexcept;
 
 /// The torque of external control: the last one commanded, cut to the motors' range and held while
-/// commands are missing (fci.md 5.3). Real-time safe; one thread.
+/// commands are missing (protocol 5.3). Real-time safe; one thread.
 class TorqueCommand {
  public:
   explicit TorqueCommand(const std::array<double, 7>& limit) noexcept : limit_(limit) {}
@@ -20,8 +20,8 @@ class TorqueCommand {
   /// @param tau without gravity [Nm]; ignored as a whole when any value is not finite
   /// @returns whether it was taken.
   bool receive(const std::array<double, 7>& tau) noexcept;
-  /// Whether a step to `tau` exceeds the rate of 1000 Nm/s (tolerance 0.01 Nm/s, decision 14), seen
-  /// both from the last torque as commanded and as it was cut; or is not finite.
+  /// Whether `tau` is not finite, or a step to it exceeds the rate of 1000 Nm/s from both the last
+  /// torque as commanded and the last torque as cut; tolerance 0.01 Nm/s (decision 14).
   bool jumps(const std::array<double, 7>& tau) const noexcept;
   void clear() noexcept {
     tau_.fill(0.0);

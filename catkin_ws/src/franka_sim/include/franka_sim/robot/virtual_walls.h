@@ -10,8 +10,8 @@
 
 namespace franka_sim {
 
-/// The cuboids that the end effector must not enter (GetCartesianLimit, fci.md 1.3). Real-time
-/// safe; one thread.
+/// The cuboids that the end effector must not enter, as GetCartesianLimit reports them
+/// (protocol 3.2). Real-time safe; one thread.
 class VirtualWalls {
  public:
   static constexpr std::size_t kCount = 8;  ///< numbers 0 to 7, our choice

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The shared object that a simulated robot serves: the arm's model behind the C functions that
-// clients of protocols 3 to 9 look up (fci.md 3). Arrays are column-major; Jacobians are 6x7.
+// clients of protocols 3 to 9 look up (protocol 8.1). Arrays are column-major; Jacobians are 6x7.
 #include "parameters.h"
 
 namespace {

@@ -20,7 +20,7 @@ using Jacobian = Eigen::Matrix<double, 6, 7>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-// All from decision 12.
+// Chosen from measured convergence (decision 12).
 constexpr double kSingularStart = 0.01;
 constexpr double kNearlySingular = 0.02;
 constexpr double kLargestDamping = 0.02;

@@ -217,7 +217,7 @@ TEST(JointLimits, TheSpeedOfAnFr3ShrinksTowardsTheEndsOfItsJoints) {
     const MotionLimits limits = motionLimitsOfProtocol(protocol);
     for (std::size_t joint = 0; joint < 7; joint++) {
       SCOPED_TRACE(::testing::Message() << "protocol " << protocol << ", joint " << joint + 1);
-      // Closed form of fci.md 4.2, 0.3 rad before the end.
+      // Closed form, 0.3 rad before the end (protocol 5.5).
       const auto& near = limits.velocity_near_ends;
       Joints q = kReady;
       q[joint] = near.q_max[joint] - 0.3;

@@ -21,8 +21,8 @@ namespace {
 constexpr int kSeeds = 8;
 constexpr int kTicks = 20000;
 
-/// What the client keeps within: franka/rate_limiting.h for the Panda, fci.md 4.2 for the FR3,
-/// whose client keeps no packets free.
+/// The limits of the client's rate limiter: franka/rate_limiting.h for the Panda. The FR3's client
+/// has no margin for lost packets (protocol 5.6).
 struct Bounds {
   explicit Bounds(unsigned protocol)
       : protocol(protocol), limits(motionLimitsOfProtocol(protocol)) {}
@@ -51,7 +51,7 @@ struct Wire {
   }
 };
 
-// The FR3's limiter as fci.md 4.3 gives it, with the two ends of the velocity at q.
+// The FR3's limiter, with the two velocity limits at q (protocol 5.6).
 Joints limitFr3(const Bounds& bounds, const Joints& q, const Joints& wanted, const Joints& v,
                 const Joints& a) {
   Joints limited{};

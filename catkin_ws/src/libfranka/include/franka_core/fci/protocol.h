@@ -6,9 +6,8 @@
 #include <cstdint>
 
 /// @file
-/// What the Franka Control Interface is made of, and what each of its versions has. Version numbers
-/// of the robot are meant wherever nothing else is said. Everything here is constant; source:
-/// fci.md 0 to 2.
+/// The parts of the Franka Control Interface, and what each of its versions has. A version is the
+/// robot's unless another device is named. Everything here is constant (protocol 1.1, 1.2).
 
 namespace franka_core::fci {
 

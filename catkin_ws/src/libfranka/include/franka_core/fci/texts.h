@@ -7,8 +7,8 @@
 #include <string>
 
 /// @file
-/// What the genuine client says to the user about a reply (fci.md 1.11), word for word. Not
-/// real-time safe: strings.
+/// The genuine client's texts about a reply, word for word (protocol 3.4). Not real-time safe:
+/// strings.
 
 namespace franka_core::fci {
 

@@ -41,7 +41,7 @@ class SwitchHandover;
 /// share atomics only: update() takes no lock, allocates nothing and never waits.
 ///
 /// While the loop stands still, controllers can be listed, loaded and unloaded; a switch waits for
-/// the loop, lets the other requests through meanwhile, and fails after its timeout.
+/// the loop, lets the other requests through meanwhile, and fails after its timeout (decision 40).
 ///
 /// What a controller or the robot throws in the loop leaves update(), as in the original, unless
 /// abort_faulty_controllers holds it back; but only after the other controllers were updated and a

@@ -30,7 +30,7 @@ struct ElbowCommand {
 
 /// A motion of the end effector and of the elbow as it is commanded, and the judge of its next
 /// step; see JointMotion for how. Speeds, accelerations and jerks are judged by the norms of their
-/// linear and of their angular part, in the stages of decision 14; within a stage translation and
+/// linear and of their angular part, stage by stage (decision 14); within a stage translation and
 /// rotation come before the elbow. Real-time safe; one thread.
 class CartesianMotion {
  public:

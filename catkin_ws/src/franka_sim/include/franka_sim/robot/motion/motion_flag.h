@@ -8,8 +8,8 @@
 
 namespace franka_sim {
 
-/// The errors that a commanded motion can raise: indices into the robot's error flags (fci.md 4.1,
-/// franka_core::kErrorNames).
+/// The errors that a commanded motion can raise: indices into the robot's error flags,
+/// franka_core::kErrorNames (protocol 4.3).
 enum class MotionFlag : std::uint8_t {
   kJointPositionLimits = 0,  ///< in place of 12 and 27 from system 5.7.2 on
   kJointStartPose = 11,
@@ -31,7 +31,8 @@ enum class MotionFlag : std::uint8_t {
   kInvalidFrame = 31,
 };
 
-/// Nothing, or the one error of a command: the first failing stage alone speaks (decision 14).
+/// Nothing, or the one error of a command: only the first failing stage raises one (decision 14).
+/// Whether real robots raise several is open (decision 47).
 using MotionFault = std::optional<MotionFlag>;
 
 constexpr std::size_t indexOf(MotionFlag flag) noexcept { return static_cast<std::size_t>(flag); }

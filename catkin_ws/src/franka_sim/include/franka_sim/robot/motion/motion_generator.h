@@ -54,11 +54,11 @@ struct MotionStep {
 /// The robot's motion generators: turns one command a millisecond, or the lack of one, into what
 /// the arm is wanted to do, within the robot's limits.
 ///
-/// Commands are judged in stages (decision 14). A lost command is replaced by holding the
-/// acceleration, and what follows from that is judged like a command (fci.md 5.3). After a fault
-/// the motion is over: brake from desired() with BrakeTrajectory and start anew. A finish is
-/// judged as a stop within one tick: a client that is too fast for that raises the flag of the
-/// acceleration or jerk it would take; an asynchronous motion brakes and finishes at rest.
+/// Commands are judged in stages (decision 14). Where a command is lost the acceleration is held,
+/// and the result is judged like a command (protocol 5.3). After a fault the motion is over: brake
+/// from desired() with BrakeTrajectory and start anew. A finish is judged as a stop within one
+/// tick: a client that is too fast raises the flag of the acceleration or jerk that this would
+/// take; an asynchronous motion brakes and finishes at rest.
 ///
 /// One thread owns it. It neither allocates, locks nor throws, and may run in the 1 kHz loop.
 class MotionGenerator {

@@ -29,7 +29,7 @@ struct MotionLimits {
   MotionFlag positionFlag(bool solved) const noexcept;
 };
 
-/// The limits of a robot that speaks this protocol (decisions 8 and 25; fci.md 4.2 and 5.5).
+/// The limits of a robot that speaks this protocol (decisions 8, 25) (protocol 5.5).
 /// Protocol 10 takes the velocity limits of system 5.9, which its clients read from the URDF.
 MotionLimits motionLimitsOfProtocol(unsigned version) noexcept;
 

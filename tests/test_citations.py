@@ -1,0 +1,257 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every citation of docs/design resolves to a heading there, and the files and tests that it names exist.
+
+The forms are `(decision 14)`, `(decisions 2, 3)`, `(protocol 5.3)`, `(protocol 3.1, 3.2)` and `(faults 4)`; a
+citation is on one line.
+"""
+
+import re
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+TOP = Path(__file__).resolve().parent.parent
+DESIGN = TOP / "docs" / "design"
+LIBFRANKA = TOP / "catkin_ws" / "src" / "libfranka"
+PAGES = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DESIGN.glob("*.md"))}
+
+DECISION = re.compile(r"\((decisions?) (\d+(?:, \d+)*)\)")
+PROTOCOL = re.compile(r"\(protocol (\d+\.\d+(?:, \d+\.\d+)*)\)")
+FAULTS = re.compile(r"\(faults (\d+(?:, \d+)*)\)")
+# A citation in another form: what still matches when those in the right form are taken out of a line.
+LOOSE = re.compile(
+    r"\bdecisions? \d|\bprotocol \d+\.\d|\bfaults \d|\((?:decisions?|protocol|faults)$", re.IGNORECASE
+)
+# Documents outside the repository, and ours without their folder.
+OUTSIDE = re.compile(
+    r"\b(?:fci|franka_ros|ros_control|mujoco|desk|debian|users_ask|style)\.md\b|\b(?:manual|md5)\.txt\b"
+    r"|(?<![\w/(\[])(?:decisions|protocol|faults|fidelity)\.md\b"
+)
+# Files of the repository whose names OUTSIDE would match.
+OURS = {"tests/data/md5.txt"}
+NAMED_FILE = re.compile(r"`([\w.-]+/[\w./-]*\w|\w+\.(?:cpp|h|py|sh|yaml|md|xacro))`")
+TEST = re.compile(r"`(\w+\.\w+|test_\w+)`")
+FUNCTION = re.compile(r"\b([A-Z]\w*)::([a-z]\w*)\b")
+ITSELF = "tests/test_citations.py"
+
+
+def tracked() -> list[str]:
+    """The repository's files, those that are about to be added too."""
+    listing = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=TOP,
+        capture_output=True,
+        check=True,
+    ).stdout
+    return [name for name in listing.decode().split("\0") if name and (TOP / name).is_file()]
+
+
+FILES = tracked()
+
+
+def lines() -> Iterator[tuple[str, int, str]]:
+    for name in FILES:
+        if name == ITSELF:
+            continue
+        try:
+            text = (TOP / name).read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            continue
+        for number, line in enumerate(text.splitlines(), 1):
+            yield name, number, line
+
+
+LINES = list(lines())
+CPP = "\n".join(line for name, _, line in LINES if name.endswith((".h", ".cpp")))
+
+
+def headings(page: str) -> set[str]:
+    pattern = {
+        "decisions": r"^## Decision (\d+): \S",
+        "protocol": r"^#{2,3} (\d+(?:\.\d+)?) \S",
+        "faults": r"^## (\d+) \S",
+    }[page]
+    return set(re.findall(pattern, PAGES[page], re.MULTILINE))
+
+
+def cited(pattern: re.Pattern, group: int) -> Iterator[tuple[str, str]]:
+    """Numbers with the place where they are cited."""
+    for name, number, line in LINES:
+        for match in pattern.finditer(line):
+            for cited_number in match.group(group).split(", "):
+                yield cited_number, f"{name}:{number}"
+
+
+def unresolved(pattern: re.Pattern, group: int, page: str) -> list[str]:
+    known = headings(page)
+    return [f"{place}: {page} {number}" for number, place in cited(pattern, group) if number not in known]
+
+
+def test_the_search_finds_citations():
+    assert len(list(cited(DECISION, 2))) > 60
+    assert len(list(cited(PROTOCOL, 1))) > 40
+    assert len(list(cited(FAULTS, 1))) > 3
+
+
+def test_cited_decisions_are_headings():
+    assert not unresolved(DECISION, 2, "decisions")
+
+
+def test_cited_protocol_sections_are_headings():
+    assert not unresolved(PROTOCOL, 1, "protocol")
+
+
+def test_cited_faults_are_headings():
+    assert not unresolved(FAULTS, 1, "faults")
+
+
+def test_citations_have_one_form():
+    wrong = []
+    for name, number, line in LINES:
+        if re.match(r"#+ Decision \d+: ", line):
+            continue
+        rest = line
+        for pattern in (DECISION, PROTOCOL, FAULTS):
+            rest = pattern.sub("", rest)
+        # In the pages themselves numbers may stand in sentences.
+        if LOOSE.search(rest) and not name.startswith("docs/design/"):
+            wrong.append(f"{name}:{number}: {line.strip()}")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_several_decisions_are_called_so():
+    wrong = [
+        f"{name}:{number}"
+        for name, number, line in LINES
+        for match in DECISION.finditer(line)
+        if (match.group(1) == "decisions") != (", " in match.group(2))
+    ]
+    assert not wrong
+
+
+def test_numbers_in_sentences_of_the_pages_are_headings():
+    known = headings("decisions")
+    for page, text in PAGES.items():
+        for group in re.findall(r"\bdecisions? (\d+(?:(?:, | and | or )\d+)*)", text):
+            for number in re.findall(r"\d+", group):
+                assert number in known, f"{page}: decision {number}"
+    known = headings("protocol")
+    for number in re.findall(r"\bsection (\d+\.\d+)", PAGES["protocol"]):
+        assert number in known, number
+
+
+def test_decisions_are_numbered_without_gaps():
+    assert headings("decisions") == {str(number) for number in range(1, len(headings("decisions")) + 1)}
+
+
+def test_each_decision_is_cited_or_listed():
+    """A decision that no comment cites says so, and no other one does."""
+    by_code = {number for number, place in cited(DECISION, 2) if not place.startswith("docs/")}
+    for part in re.split(r"^## Decision ", PAGES["decisions"], flags=re.MULTILINE)[1:]:
+        number = part.split(":", 1)[0]
+        listed = "listed only, no comment cites it" in " ".join(part.split())
+        assert listed != (number in by_code), f"decision {number}: listed {listed}"
+
+
+def test_no_file_cites_documents_outside():
+    wrong = [
+        f"{name}:{number}: {line.strip()}"
+        for name, number, line in LINES
+        for match in OUTSIDE.finditer(line)
+        if not any(ours.endswith(match.group(0)) for ours in OURS)
+        and not (name.startswith("docs/") and (TOP / name).with_name(match.group(0)).is_file())
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def is_tracked(name: str) -> bool:
+    """Whether a tracked file has this name; folders in between may be left out: `fci/host.cpp`."""
+    *folders, base = name.split("/")
+    for file in FILES:
+        *steps, last = file.split("/")
+        way = iter(steps)
+        if last == base and all(folder in way for folder in folders):
+            return True
+    return False
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_named_files_exist(page):
+    assert not [name for name in NAMED_FILE.findall(PAGES[page]) if not is_tracked(name)]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_named_functions_exist(page):
+    """`Class::function`: C++ sources declare the class, and call or declare a function of that name."""
+    missing = [
+        f"{scope}::{function}"
+        for scope, function in set(FUNCTION.findall(PAGES[page]))
+        if not re.search(rf"\b{function}\(", CPP)
+        or not re.search(rf"\b(?:class|struct) {scope}\b|\b{scope}::{function}\(", CPP)
+    ]
+    assert not missing
+
+
+def test_tests_named_in_faults_exist():
+    sources = "\n".join(
+        (TOP / name).read_text(encoding="utf-8")
+        for name in FILES
+        if re.search(r"test[^/]*/.*\.(cpp|h|py)$", name) and name != ITSELF
+    )
+    named = set(TEST.findall(PAGES["faults"]))
+    assert len(named) > 50
+    missing = []
+    for name in sorted(named):
+        if name.endswith(".py"):
+            found = is_tracked(name)
+        elif name.startswith("test_"):
+            found = re.search(rf"\bdef {name}\b", sources)
+        elif re.search(r"\.(h|cpp)$", name):
+            found = is_tracked(name)
+        else:
+            suite, test = name.split(".")
+            found = re.search(rf"\bTEST(?:_F|_P)?\(\s*{suite},\s*{test}\b", sources)
+        if not found:
+            missing.append(name)
+    assert not missing
+
+
+def braced(source: str, name: str) -> list[int]:
+    """The numbers of a constant array."""
+    return [int(n) for n in re.search(rf"\b{name}\s*\{{\s*\{{([^}}]*)\}}\}}", source).group(1).split(",")]
+
+
+def rows(section: str) -> list[list[str]]:
+    """The table rows of a section of the protocol page."""
+    text = re.search(rf"^### {section} .*?(?=^##)", PAGES["protocol"], re.MULTILINE | re.DOTALL).group(0)
+    table = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in row] for row in table]
+
+
+def test_the_protocol_page_has_the_numbers_and_sizes_of_the_code():
+    table = (LIBFRANKA / "src/fci/command_table.h").read_text(encoding="utf-8")
+    commands = (LIBFRANKA / "include/franka_core/fci/commands.h").read_text(encoding="utf-8")
+    enumeration = re.search(r"enum class Command [^{]*\{(.*?)\};", commands, re.DOTALL).group(1)
+    names = re.findall(r"^  k(\w+),", enumeration, re.MULTILINE)
+    versions = ("kVersions3To5", "kVersions6And7", "kVersions8And9", "kVersion10")
+    columns = [braced(table, name) for name in versions]
+    numbers, sizes = {}, {}
+    for name, *cells in rows("3.1")[1:]:
+        listed = re.sub(r" \(.*\)", "", name).split(", ")
+        for i, command in enumerate(listed):
+            numbers[command] = [-1 if cell == "–" else int(cell.split(", ")[i]) for cell in cells]
+    for name, size, _ in rows("3.2")[1:]:
+        for command in name.split(", "):
+            sizes[command] = int(size.split(";")[0])
+    assert numbers == {name: [column[i] for column in columns] for i, name in enumerate(names)}
+    assert sizes == {name: 12 + size for name, size in zip(names, braced(table, "kRequestPayload"))}
+
+
+def test_the_protocol_page_has_the_sizes_of_the_state():
+    header = (LIBFRANKA / "include/franka_core/fci/state_codec.h").read_text(encoding="utf-8")
+    sizes = "2085 {}(version 3), 2341 (4), 2373 (5 to 9), 1377 (10)"
+    assert sizes.format("") in header
+    assert sizes.format("bytes ") in PAGES["protocol"]
