@@ -12,7 +12,6 @@ namespace codec = franka_core::fci;
 using codec::CodecError;
 using codec::Command;
 using codec::Status;
-using franka_core::MotionGeneratorMode;
 using franka_core::RobotMode;
 
 namespace {

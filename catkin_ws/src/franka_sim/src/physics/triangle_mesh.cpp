@@ -175,7 +175,7 @@ void keepOutermost(int most, TriangleMesh* mesh) {
   }
   std::vector<Eigen::Vector3f> vertices;
   for (const Eigen::Index index : kept) {
-    vertices.push_back(points.col(index));
+    vertices.emplace_back(points.col(index));
   }
   mesh->vertices = std::move(vertices);
 }
