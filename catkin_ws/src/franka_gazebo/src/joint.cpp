@@ -44,7 +44,7 @@ void Joint::update(const ros::Duration& period) {
   if (handle == nullptr) {
     return;
   }
-  const franka_sim_mujoco::JointMeasurement measured = handle->measure();
+  const franka_sim::JointMeasurement measured = handle->measure();
   position = measured.position;
   velocity = measured.velocity;
   effort = measured.effort;

@@ -26,12 +26,12 @@ static_assert(std::is_base_of_v<controller_interface::ControllerBase, FrankaGrip
 static_assert(std::is_base_of_v<franka_hw::ModelBase, ModelKDL>);
 static_assert(std::is_move_constructible_v<Joint> && !std::is_copy_constructible_v<Joint>);
 
-class FakeDrive : public franka_sim_mujoco::JointDrive {
+class FakeDrive : public franka_sim::JointDrive {
  public:
-  franka_sim_mujoco::JointMeasurement measure() const noexcept override { return measured; }
+  franka_sim::JointMeasurement measure() const noexcept override { return measured; }
   void applyEffort(double /*effort*/) noexcept override {}
   void follow(double /*position*/) noexcept override {}
-  franka_sim_mujoco::JointMeasurement measured;
+  franka_sim::JointMeasurement measured;
 };
 
 JointMap robot(const std::string& arm_id) {

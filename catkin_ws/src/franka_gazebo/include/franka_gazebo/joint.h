@@ -31,8 +31,8 @@ struct Joint {
   void update(const ros::Duration& period);
 
   std::string name;
-  franka_sim_mujoco::JointDrive* handle{nullptr};  ///< in the place of Gazebo's joint
-  int type{0};                                     ///< of urdf::Joint
+  franka_sim::JointDrive* handle{nullptr};  ///< in the place of Gazebo's joint
+  int type{0};                              ///< of urdf::Joint
   joint_limits_interface::JointLimits limits;
   Eigen::Vector3d axis{Eigen::Vector3d::Zero()};
 
