@@ -538,7 +538,8 @@ TEST(CommandShaper, HandsOnWhatIsNoNumberForTheRobotToJudge) {
 struct PoseControlledArm {
   PoseControlledArm(const franka_sim::ControlUnitParameters& parameters,
                     const ShapingOptions& shaping)
-      : plant(parameters.model, test::kReady), arm(parameters, plant, options(shaping)) {
+      : plant(parameters.model, franka_sim::test::kReady),
+        arm(parameters, plant, options(shaping)) {
     plant.payload = parameters.end_effector;
     arm.read(ros::Time(1));
     arm.control(franka_hw::ControlMode::CartesianPose, franka_hw::ControlMode::None);
@@ -554,12 +555,12 @@ struct PoseControlledArm {
     arm.read(ros::Time(1));
   }
 
-  test::FakeArm plant;
+  franka_sim::test::FakeArm plant;
   SimArm arm;
 };
 
 TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
-  franka_sim::ControlUnitParameters parameters = test::pandaWithHand();
+  franka_sim::ControlUnitParameters parameters = franka_sim::test::pandaWithHand();
   for (const bool reflexes : {false, true}) {
     for (const bool limited : {false, true}) {
       for (const double cutoff : {100.0, 1000.0}) {
@@ -569,7 +570,7 @@ TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
         shaping.cutoff_frequency = cutoff;
         const std::array<double, 16> pose =
             PoseControlledArm(parameters, shaping).arm.commands().pose;
-        for (const test::DustyMatrix& dusty : test::dustOn(pose)) {
+        for (const franka_sim::test::DustyMatrix& dusty : franka_sim::test::dustOn(pose)) {
           PoseControlledArm controlled(parameters, shaping);
           ASSERT_EQ(SimArm::Switch::kDone, controlled.arm.switchResult());
           controlled.arm.commands().pose = dusty.matrix;
@@ -589,8 +590,8 @@ TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
 }
 
 TEST(SimArm, FlagsAreTheManualsFormulasForTheFilteredValuesThatAreShown) {
-  franka_sim::ControlUnitParameters parameters = test::pandaWithHand();
-  test::FakeArm plant(parameters.model, test::kReady);
+  franka_sim::ControlUnitParameters parameters = franka_sim::test::pandaWithHand();
+  franka_sim::test::FakeArm plant(parameters.model, franka_sim::test::kReady);
   plant.payload = parameters.end_effector;
   SimArmOptions options;
   options.filter_alpha = 0.02;
