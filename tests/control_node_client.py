@@ -31,7 +31,8 @@ from tf2_msgs.msg import TFMessage
 ARM, ADDRESS = sys.argv[1:3]
 CONTROLLER = "position_joint_trajectory_controller"
 PUSH = [0.0, 0.0, -8.0]  # at the seventh link [N]
-PUSHED, LONG_PUSHED, BRIEFLY = 1000, 5000, 50  # [ms]
+FOREVER, BRIEFLY = 10**9, 50  # [ms]
+SETTLED, SLOWLY_SETTLED = 0.6, 3.0  # [s] of the robot, from the first state that shows a push
 WIDE = {"torque": [60.0] * 7, "force": [60.0] * 6}  # thresholds that nothing here reaches [Nm], [N, Nm]
 SOFT_JOINTS = [600.0] * 7  # [Nm/rad]
 SOFT_HAND = [800.0, 800.0, 800.0, 60.0, 60.0, 60.0]  # [N/m], [Nm/rad]
@@ -203,7 +204,7 @@ class Topics:
         """How far the topics of one cycle are apart, over so many cycles."""
         self.forget()
         complete = []
-        deadline = time.monotonic() + 30.0
+        deadline = time.monotonic() + 8 * PATIENCE
         while len(complete) < count and time.monotonic() < deadline:
             time.sleep(0.02)
             kept = {name: dict(messages) for name, messages in self.kept.items()}
@@ -285,31 +286,30 @@ def tree(robot):
     return difference
 
 
-def pushed(robot, operator, topics, duration=PUSHED):
-    """Pushes the arm; returns its state before, and one late in the push, when the arm has come to rest.
+def pushed(robot, operator, topics, settling=SETTLED):
+    """Pushes the arm until it rests under the push; returns its state before, and one at rest.
 
-    Topics drop what a busy machine has no time for: when too much is missing, the arm is pushed again, for
-    twice as long each time.
+    Topics drop what a busy machine has no time for, so the push lasts until such a state has come.
     """
     robot.waits(lambda: robot.state.robot_mode == FrankaState.ROBOT_MODE_MOVE)
     before = robot.state
-    for _ in range(5):
-        topics.forget()
-        operator.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {duration}")
-        deadline = time.monotonic() + 8 * PATIENCE  # the robot waits for each answer
-        felt, states = [], []
-        # By the clock of what is published: it may come late.
-        while not felt or states[-1].time < felt[-1].time + 0.3:
-            if time.monotonic() > deadline:
-                raise RuntimeError("The robot's time hardly passes: the push is not over.")
-            time.sleep(0.01)
-            states = [s for _, s in sorted(topics.kept["franka_states"].copy().items())]
-            felt = [s for s in states if abs(s.O_F_ext_hat_K[2]) > 0.8 * abs(PUSH[2])]
-        late = [s for s in felt if s.time - felt[0].time > 0.6e-3 * duration]
-        if late:
-            return before, late[-1]
-        duration *= 2
-    raise RuntimeError(f"Too few states were published under a push: {len(felt)} of {len(states)}.")
+    topics.forget()
+    push(operator, 1.0)
+    deadline = time.monotonic() + 8 * PATIENCE  # the robot waits for each answer
+    felt = []
+    while not felt or felt[-1].time - felt[0].time < settling:
+        if time.monotonic() > deadline:
+            raise RuntimeError(f"{len(felt)} states were published under a push; the arm did not come to rest.")
+        time.sleep(0.01)
+        states = [s for _, s in sorted(topics.kept["franka_states"].copy().items())]
+        felt = [s for s in states if abs(s.O_F_ext_hat_K[2]) > 0.8 * abs(PUSH[2])]
+    push(operator, -1.0)  # pushes add up
+    return before, felt[-1]
+
+
+def push(operator, share):
+    """A part of PUSH on the arm, for longer than the test lasts."""
+    operator.does(f"push {ARM}_link7 {' '.join(str(share * force) for force in PUSH)} {FOREVER}")
 
 
 def soft_joints(robot, operator, services, topics, diagnosis):
@@ -354,7 +354,7 @@ def soft_hand(robot, operator, services, topics):
         ]
     }
     report["started"] = services.switch([CONTROLLER])
-    before, last = pushed(robot, operator, topics, LONG_PUSHED)  # the null space comes to rest slowly
+    before, last = pushed(robot, operator, topics, SLOWLY_SETTLED)  # the null space comes to rest slowly
     moved = np.array(last.O_T_EE[12:15]) - np.array(before.O_T_EE_d[12:15])
     report["gives"] = (moved / (PUSH[2] / SOFT_HAND[2])).tolist()
     report["contacts"] = [any(last.cartesian_contact), any(last.joint_contact)]
