@@ -299,7 +299,9 @@ def pushed(robot, operator, topics, settling=SETTLED):
     felt = []
     while not felt or felt[-1].time - felt[0].time < settling:
         if time.monotonic() > deadline:
-            raise RuntimeError(f"{len(felt)} states were published under a push; the arm did not come to rest.")
+            raise RuntimeError(
+                f"{len(felt)} states were published under a push; the arm did not come to rest."
+            )
         time.sleep(0.01)
         states = [s for _, s in sorted(topics.kept["franka_states"].copy().items())]
         felt = [s for s in states if abs(s.O_F_ext_hat_K[2]) > 0.8 * abs(PUSH[2])]
