@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/lowpass_filter.h>
 #include <franka/rate_limiting.h>
+#include <franka_core/finite.h>
 #include <franka_core/joint_limiter.h>
 #include <franka_core/transform.h>
 #include <franka_sim/robot/tick.h>
@@ -29,11 +30,6 @@ Joints withMargin(Joints limits) noexcept {
     limit -= kMargin;
   }
   return limits;
-}
-
-template <std::size_t N>
-bool allFinite(const std::array<double, N>& values) noexcept {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
 bool contains(ControlMode mode, ControlMode part) noexcept {
@@ -140,7 +136,7 @@ void setElbow(const std::array<double, 2>& elbow, franka_core::RobotCommand& com
 void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbow,
                 const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
                 franka_core::RobotCommand& command) {
-  if (!command.valid_elbow || !allFinite(elbow)) {
+  if (!command.valid_elbow || !franka_core::allFinite(elbow)) {
     return;
   }
   double& q3 = command.elbow_c[0];
@@ -167,23 +163,24 @@ Joints shapeTorques(const ShapingOptions& options, Joints torque,
 void shapeAll(const ShapingOptions& options, ControlMode mode, const ArmCommands& wanted,
               const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
               franka_core::RobotCommand& command) {
-  if (contains(mode, ControlMode::JointTorque) && options.torques && allFinite(wanted.torque)) {
+  if (contains(mode, ControlMode::JointTorque) && options.torques &&
+      franka_core::allFinite(wanted.torque)) {
     command.tau_J_d = shapeTorques(options, wanted.torque, state, limits);
   }
-  if (contains(mode, ControlMode::JointPosition) && allFinite(wanted.position)) {
+  if (contains(mode, ControlMode::JointPosition) && franka_core::allFinite(wanted.position)) {
     command.q_c = shapePositions(options, wanted.position, state, limits);
   }
-  if (contains(mode, ControlMode::JointVelocity) && allFinite(wanted.velocity)) {
+  if (contains(mode, ControlMode::JointVelocity) && franka_core::allFinite(wanted.velocity)) {
     command.dq_c = shapeVelocities(options, wanted.velocity, state, limits);
   }
   if (contains(mode, ControlMode::CartesianPose)) {
-    if (allFinite(wanted.pose)) {
+    if (franka_core::allFinite(wanted.pose)) {
       command.O_T_EE_c = shapePose(options, wanted.pose, state, limits);
     }
     shapeElbow(options, wanted.pose_elbow, state, limits, command);
   }
   if (contains(mode, ControlMode::CartesianVelocity)) {
-    if (allFinite(wanted.twist)) {
+    if (franka_core::allFinite(wanted.twist)) {
       command.O_dP_EE_c = shapeTwist(options, wanted.twist, state, limits);
     }
     shapeElbow(options, wanted.twist_elbow, state, limits, command);

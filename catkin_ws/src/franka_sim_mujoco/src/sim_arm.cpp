@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/finite.h>
 #include <franka_core/to_franka.h>
 #include <franka_sim_mujoco/sim_arm.h>
 
@@ -22,15 +23,10 @@ void smooth(double alpha, const std::array<double, N>& signal,
   }
 }
 
-template <std::size_t N>
-bool allFinite(const std::array<double, N>& values) noexcept {
-  return std::all_of(values.begin(), values.end(),
-                     [](double value) { return std::isfinite(value); });
-}
-
-bool allFinite(const franka_core::RobotCommand& command) noexcept {
-  return allFinite(command.tau_J_d) && allFinite(command.q_c) && allFinite(command.dq_c) &&
-         allFinite(command.O_T_EE_c) && allFinite(command.O_dP_EE_c) && allFinite(command.elbow_c);
+bool isFinite(const franka_core::RobotCommand& command) noexcept {
+  return franka_core::allFinite(command.tau_J_d) && franka_core::allFinite(command.q_c) &&
+         franka_core::allFinite(command.dq_c) && franka_core::allFinite(command.O_T_EE_c) &&
+         franka_core::allFinite(command.O_dP_EE_c) && franka_core::allFinite(command.elbow_c);
 }
 
 /// An arm at full speed comes to rest within half a second.
@@ -122,7 +118,7 @@ const franka_core::RobotCommand* SimArm::command() noexcept {
     return nullptr;
   }
   command_ = shapeCommand(options_.shaping, mode_, commands_, unit_.state(), unit_.limits());
-  if (allFinite(command_)) {
+  if (isFinite(command_)) {
     return &command_;
   }
   refused_commands_.fetch_add(1, std::memory_order_relaxed);

@@ -3,6 +3,7 @@
 // The first half of a tick: from a measurement to a state, and what is wrong with it.
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/deviation.h>
+#include <franka_sim/robot/elbow.h>
 #include <franka_sim/robot/link_accelerometers.h>
 #include <franka_sim/robot/measured_limits.h>
 #include <franka_sim/robot/parameter_checks.h>
@@ -42,10 +43,6 @@ ArmMeasurement restingAt(const std::array<double, 7>& q) noexcept {
   ArmMeasurement measurement;
   measurement.q = q;
   return measurement;
-}
-
-std::array<double, 2> elbowOf(const std::array<double, 7>& q) noexcept {
-  return {{q[2], q[3] >= franka_core::kElbowFlip ? 1.0 : -1.0}};
 }
 
 std::array<double, 6> twist(const std::array<double, 42>& jacobian,

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The second half of a tick: from a command to torques.
+#include <franka_core/finite.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/deviation.h>
 #include <franka_sim/robot/friction.h>
@@ -72,9 +73,7 @@ bool ControlUnit::controlledOutside() const noexcept {
 
 void ControlUnit::advanceMotion(const franka_core::RobotCommand* received) noexcept {
   const franka_core::RobotCommand* command = received;
-  if (command != nullptr && !parameters_.reflexes &&
-      !std::all_of(command->tau_J_d.begin(), command->tau_J_d.end(),
-                   [](double tau) { return std::isfinite(tau); })) {
+  if (command != nullptr && !parameters_.reflexes && !franka_core::allFinite(command->tau_J_d)) {
     command = nullptr;
   }
   const bool due = !move_.use_async_motion_generator;

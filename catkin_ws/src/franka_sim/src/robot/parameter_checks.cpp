@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/finite.h>
 #include <franka_core/limits.h>
 #include <franka_core/transform.h>
 #include <franka_sim/robot/parameter_checks.h>
@@ -21,11 +22,6 @@ namespace {
 using franka_core::kMaxPayloadDistance;
 using franka_core::kMaxPayloadInertia;
 using franka_core::kMaxPayloadMass;
-
-template <std::size_t N>
-bool allFinite(const std::array<double, N>& values) noexcept {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
 
 template <std::size_t N>
 bool allFiniteNotNegative(const std::array<double, N>& values) noexcept {
@@ -88,13 +84,14 @@ void requireTransform(const Transform& transform, const std::string& name) {
 
 bool isPayload(const franka_core::Payload& payload) noexcept {
   return payload.mass >= 0.0 && payload.mass <= kMaxPayloadMass &&
-         distanceOf(payload) <= kMaxPayloadDistance && allFinite(payload.inertia) &&
+         distanceOf(payload) <= kMaxPayloadDistance && franka_core::allFinite(payload.inertia) &&
          largestOf(payload.inertia) <= kMaxPayloadInertia && isInertia(payload.inertia);
 }
 
 std::string payloadFault(const franka_core::Payload& payload) {
   char text[160] = "";
-  if (!std::isfinite(payload.mass) || !allFinite(payload.com) || !allFinite(payload.inertia)) {
+  if (!std::isfinite(payload.mass) || !franka_core::allFinite(payload.com) ||
+      !franka_core::allFinite(payload.inertia)) {
     return "Mass [kg], centre [m] and inertia [kg m^2] must be finite numbers.";
   }
   if (payload.mass < 0.0 || payload.mass > kMaxPayloadMass) {

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/finite.h>
 #include <franka_sim/robot/tick.h>
 #include <franka_sim/robot/torque_command.h>
 
@@ -30,7 +31,7 @@ bool TorqueCommand::jumps(const std::array<double, 7>& tau) const noexcept {
 }
 
 bool TorqueCommand::receive(const std::array<double, 7>& tau) noexcept {
-  if (!std::all_of(tau.begin(), tau.end(), [](double value) { return std::isfinite(value); })) {
+  if (!franka_core::allFinite(tau)) {
     return false;
   }
   asked_ = tau;

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/finite.h>
 #include <franka_core/transform.h>
 
 #include <algorithm>
@@ -15,10 +16,6 @@ using Matrix = std::array<double, 16>;
 
 double at(const Matrix& m, std::size_t row, std::size_t column) noexcept {
   return m[4 * column + row];
-}
-
-bool isFinite(const Matrix& m) noexcept {
-  return std::all_of(m.begin(), m.end(), [](double v) { return std::isfinite(v); });
 }
 
 bool hasExactBottomRow(const Matrix& m) noexcept {
@@ -76,12 +73,12 @@ bool isHomogeneousTransformation(const Matrix& matrix) noexcept {
 }
 
 bool isRigidTransform(const Matrix& matrix) noexcept {
-  return isFinite(matrix) && isHomogeneousTransformation(matrix) && areRight(matrix, 0, 1) &&
+  return allFinite(matrix) && isHomogeneousTransformation(matrix) && areRight(matrix, 0, 1) &&
          areRight(matrix, 1, 2) && areRight(matrix, 2, 0) && determinant(matrix) > 0.0;
 }
 
 std::string transformFault(const Matrix& matrix) {
-  if (!isFinite(matrix)) {
+  if (!allFinite(matrix)) {
     return "it holds an infinite value or one that is not a number";
   }
   char text[160];

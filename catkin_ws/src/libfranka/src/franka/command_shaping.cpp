@@ -5,6 +5,7 @@
 #include <franka/control_tools.h>
 #include <franka/lowpass_filter.h>
 #include <franka/rate_limiting.h>
+#include <franka_core/finite.h>
 #include <franka_core/transform.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using franka_core::RobotState;
 
 template <std::size_t kSize>
 void requireFinite(const std::array<double, kSize>& values, const char* sentence) {
-  if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) {
+  if (!franka_core::allFinite(values)) {
     throw std::invalid_argument(sentence);
   }
 }

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/lowpass_filter.h>
+#include <franka_core/finite.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -29,11 +30,6 @@ double gainOf(double sample_time, double cutoff_frequency) {
   return sample_time / (sample_time + 1.0 / (2.0 * kPi * cutoff_frequency));
 }
 
-template <std::size_t kSize>
-bool isFinite(const std::array<double, kSize>& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
 }  // namespace
 
 double lowpassFilter(double sample_time, double y, double y_last, double cutoff_frequency) {
@@ -47,7 +43,7 @@ std::array<double, 16> cartesianLowpassFilter(double sample_time, std::array<dou
                                               std::array<double, 16> y_last,
                                               double cutoff_frequency) {
   const double gain = gainOf(sample_time, cutoff_frequency);
-  require(isFinite(y) && isFinite(y_last),
+  require(franka_core::allFinite(y) && franka_core::allFinite(y_last),
           "libfranka lowpass filter: the poses to filter must be finite.");
   std::array<double, 16> filtered = y;
   Eigen::Map<Eigen::Matrix4d> matrix(filtered.data());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/control_tools.h>
 #include <franka/rate_limiting.h>
+#include <franka_core/finite.h>
 #include <franka_core/transform.h>
 
 #include <Eigen/Geometry>
@@ -24,7 +25,7 @@ struct Bounds {
 
 template <std::size_t kSize>
 void requireFinite(const std::array<double, kSize>& values) {
-  if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) {
+  if (!franka_core::allFinite(values)) {
     throw std::invalid_argument(
         "libfranka rate limiting: a commanded value is infinite or not a number.");
   }

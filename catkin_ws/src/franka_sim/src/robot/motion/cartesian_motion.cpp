@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/arm_model.h>
+#include <franka_core/finite.h>
 #include <franka_sim/robot/motion/cartesian_motion.h>
 #include <franka_sim/robot/tick.h>
 
@@ -94,7 +95,7 @@ MotionFault CartesianMotion::takePose(const Transform& pose, const ElbowCommand&
 MotionFault CartesianMotion::takeTwist(const std::array<double, 6>& twist,
                                        const ElbowCommand& elbow, double sign,
                                        const MotionLimits& limits) noexcept {
-  if (!std::all_of(twist.begin(), twist.end(), [](double v) { return std::isfinite(v); })) {
+  if (!franka_core::allFinite(twist)) {
     return MotionFlag::kCartesianVelocity;
   }
   if (const MotionFault fault = checkElbow(elbow, sign)) {

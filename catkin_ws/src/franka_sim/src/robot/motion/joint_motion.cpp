@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/finite.h>
 #include <franka_sim/robot/motion/joint_motion.h>
 
 #include <algorithm>
@@ -28,10 +29,6 @@ JointFlags solved(const MotionLimits& limits) noexcept {
           MotionFlag::kSolvedJointAcceleration, MotionFlag::kSolvedJointJerk, kSolvedJerkFactor};
 }
 
-bool allFinite(const std::array<double, 7>& values) noexcept {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
 using Step = JointSample (*)(const JointSample&, const std::array<double, 7>&);
 
 // Fails only what fails against both histories; the exact one names the flag.
@@ -56,7 +53,7 @@ void JointMotion::start(const std::array<double, 7>& q) noexcept {
 
 MotionFault JointMotion::takePositions(const std::array<double, 7>& q_c,
                                        const MotionLimits& limits) noexcept {
-  if (!allFinite(q_c)) {
+  if (!franka_core::allFinite(q_c)) {
     return MotionFlag::kJointVelocity;  // no velocity leads there
   }
   JointSample step = stepToPositions(last_, q_c);
@@ -80,7 +77,7 @@ MotionFault JointMotion::takePositions(const std::array<double, 7>& q_c,
 
 MotionFault JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
                                         const MotionLimits& limits) noexcept {
-  if (!allFinite(dq_c)) {
+  if (!franka_core::allFinite(dq_c)) {
     return MotionFlag::kJointVelocity;
   }
   const MotionFault fault = judgeBoth(stepByVelocities, dq_c, last_, limits);

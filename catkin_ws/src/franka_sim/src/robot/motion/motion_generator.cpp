@@ -1,6 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/finite.h>
 #include <franka_core/limits.h>
+#include <franka_sim/robot/elbow.h>
 #include <franka_sim/robot/motion/motion_generator.h>
 #include <franka_sim/robot/tick.h>
 
@@ -22,17 +24,9 @@ using Twist = std::array<double, 6>;
 constexpr double kAcceleratingShare = 0.1;  // of an acceleration limit (decision 15)
 constexpr double kEcho = 1e-6;  // [rad] that a position may lose on its way to the client and back
 
-bool allFinite(const Joints& values) noexcept {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
 bool allPositive(const Joints& values) noexcept {
   return std::all_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
 }
-
-double elbowSign(const Joints& q) noexcept { return q[3] >= franka_core::kElbowFlip ? 1.0 : -1.0; }
-
-std::array<double, 2> elbowOf(const Joints& q) noexcept { return {{q[2], elbowSign(q)}}; }
 
 Twist twistOf(const std::array<double, 42>& jacobian, const Joints& dq) noexcept {
   Twist twist;
@@ -56,12 +50,12 @@ bool isJointMode(MotionGeneratorMode mode) noexcept {
 }
 
 bool isPossible(const MotionStart& start) noexcept {
-  if (!allFinite(start.q_d)) {
+  if (!franka_core::allFinite(start.q_d)) {
     return false;
   }
   if (start.asynchronous) {
-    return start.mode == MotionGeneratorMode::kJointPosition && allFinite(start.maximum_velocity) &&
-           allPositive(start.maximum_velocity);
+    return start.mode == MotionGeneratorMode::kJointPosition &&
+           franka_core::allFinite(start.maximum_velocity) && allPositive(start.maximum_velocity);
   }
   return isJointMode(start.mode) || isCartesianMode(start.mode);
 }
@@ -118,7 +112,7 @@ MotionStep MotionGenerator::step(const franka_core::RobotCommand* command,
 
 MotionFault MotionGenerator::advanceAsync(const franka_core::RobotCommand* command) noexcept {
   if (command != nullptr) {
-    if (!allFinite(command->q_c)) {
+    if (!franka_core::allFinite(command->q_c)) {
       return MotionFlag::kJointVelocity;  // no velocity leads there
     }
     Joints target;

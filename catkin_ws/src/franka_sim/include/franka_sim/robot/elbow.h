@@ -1,0 +1,23 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/limits.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// Configuration of the elbow as the states show it: +1 where joint 4 is at or above
+/// franka_core::kElbowFlip, else -1. Real-time safe. Thread-safe.
+/// @param q joint positions [rad]
+inline double elbowSign(const std::array<double, 7>& q) noexcept {
+  return q[3] >= franka_core::kElbowFlip ? 1.0 : -1.0;
+}
+
+/// The elbow: position of joint 3 [rad] and elbowSign(). Real-time safe. Thread-safe.
+inline std::array<double, 2> elbowOf(const std::array<double, 7>& q) noexcept {
+  return {{q[2], elbowSign(q)}};
+}
+
+}  // namespace franka_sim
