@@ -3,6 +3,7 @@
 #include "abort_measures.h"
 
 #include <franka_core/limits.h>
+#include <franka_core/tick.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace franka_core {
 
 namespace {
-
-constexpr double kTick = 1e-3;  // [s]
 
 using Matrix4 = Eigen::Map<const Eigen::Matrix4d>;
 using Twist = Eigen::Matrix<double, 6, 1>;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/tick.h>
 #include <franka_sim/physics/joint_drive.h>
 #include <franka_sim/robot/plant.h>
 
@@ -116,7 +117,7 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  static constexpr double kTick = 1e-3;  ///< [s]
+  static constexpr double kTick = franka_core::kTick;  ///< [s]
   static constexpr int kSubsteps = 2;    ///< per tick: a grasp slips above 0.5 ms (decision 18)
 
   /// Merges a robot in; everything already there keeps its state. Nothing changes when it throws.

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/tick.h>
+
 namespace franka_sim {
 
-/// The robot's cycle [s] (protocol 5.3).
-constexpr double kTick = 1e-3;
+using franka_core::kTick;
 
 /// Cutoff of the unit's own signal filters [Hz] (decisions 2, 3).
 constexpr double kSignalCutoff = 100.0;
