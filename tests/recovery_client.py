@@ -7,7 +7,6 @@ robot, how many reflexes.
 """
 
 import json
-import socket
 import sys
 import time
 
@@ -15,32 +14,26 @@ import actionlib
 import rospy
 import rospy_connections
 from actionlib_msgs.msg import GoalStatus
+from control_interface import ask
 from controller_manager_msgs.srv import ListControllers, SwitchController
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
 from geometry_msgs.msg import PoseStamped
 from std_msgs.msg import Bool, String
 
 CONTROLLER = "cartesian_impedance_example_controller"
-CONTROL_PORT = 1340
 PATIENCE = 15.0  # for whatever should happen at once [s]
 PUSH = "0 0 -220 60"  # far beyond the thresholds [N, ms]
 
 
 class Operator:
-    """Whoever stands beside the robot: pushes it, presses the user stop."""
+    """The user beside the robot: pushes it, presses the user stop."""
 
     def __init__(self, address):
-        self._address = (address, CONTROL_PORT)
+        self._address = address
 
     def does(self, line):
-        """@returns what follows `ok`. Connects for each line: the robot closes those that keep silent."""
-        with socket.create_connection(self._address, 5.0) as connection, connection.makefile("rw") as stream:
-            stream.write(line + "\n")
-            stream.flush()
-            answer = stream.readline().strip()
-        if not answer.startswith("ok"):
-            raise RuntimeError(f"{line}: {answer}")
-        return answer[3:]
+        """Returns what follows `ok`."""
+        return ask(self._address, line)
 
 
 class Robot:

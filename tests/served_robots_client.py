@@ -45,7 +45,7 @@ def at(x, y, z):
 
 
 class Operator:
-    """Whoever stands beside a robot."""
+    """The user beside a robot."""
 
     def __init__(self, robot):
         self._services = f"/{robot}/franka_sim/"

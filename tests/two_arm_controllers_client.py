@@ -7,18 +7,17 @@ dual, or teleop and the address of the leader.
 """
 
 import json
-import socket
 import sys
 import time
 
 import numpy as np
 import rospy
 import rospy_connections
+from control_interface import ask
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import PoseStamped
 from visualization_msgs.msg import InteractiveMarkerFeedback
 
-CONTROL_PORT = 1340  # of a simulated robot
 LEFT_FROM_RIGHT = np.array([0.0, 1.0, 0.0])  # [m] base of the left arm in the right one's: dual_panda_example
 DRAG, STEPS, DRAG_PERIOD = np.array([0.03, 0.0, 0.04]), 20, 0.1  # [m], [s]
 
@@ -118,15 +117,11 @@ def teleop(robot, leader_address):
 
     wait_for(lambda: error() < 0.01 and arms.speed() < 1e-2, "Alignment")
     begin = [np.array(arms.last[name].q) for name in arms.names]
-    with socket.create_connection((leader_address, CONTROL_PORT), 10.0) as connection:
-        stream = connection.makefile("rw")
-        stream.write("push leader_link7 0 12 0 300\n")
-        stream.flush()
-        answer = stream.readline().strip()
+    ask(leader_address, "push leader_link7 0 12 0 300")
     moved = lambda: [  # noqa: E731
         float(np.abs(np.array(arms.last[name].q) - q).max()) for name, q in zip(arms.names, begin)
     ]
-    wait_for(lambda: moved()[0] > 0.05, f"A motion of the pushed leader ({answer})")
+    wait_for(lambda: moved()[0] > 0.05, "A motion of the pushed leader")
     arms.wait(0.5)
     wait_for(lambda: moved()[1] > 0.05, "A motion of the follower")
     wait_for(lambda: error() < 1e-3 and arms.speed() < 0.05, "The follower's coming to the leader")

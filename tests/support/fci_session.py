@@ -5,12 +5,12 @@
 import json
 import os
 import select
-import socket
 import subprocess
 import sys
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from control_interface import ask
 from lines import Lines
 
 HERE = Path(__file__).resolve().parent
@@ -48,17 +48,6 @@ def stop(process: subprocess.Popen) -> None:
         process.kill()
         process.wait()
         raise
-
-
-def ask(address: str, line: str) -> str:
-    """One command of the control interface; what follows `ok`."""
-    with socket.create_connection((address, 1340), timeout=60) as connection:
-        stream = connection.makefile("rw", newline="\n")
-        stream.write(line + "\n")
-        stream.flush()
-        answer = stream.readline().strip()
-    assert answer.startswith("ok"), f"{line}: {answer}"
-    return answer[3:]
 
 
 def memory_of(pid: int) -> float:

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from control_interface import answer
 from fci_session import program, start, stop
 from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, REFLEX, Client
 
@@ -200,14 +201,6 @@ def test_a_push_moves_the_held_arm_and_lets_it_come_back(tmp_path):
         until(lambda: float(say("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
 
 
-def ask(address, line):
-    with socket.create_connection((address, 1340), timeout=20) as connection:
-        stream = connection.makefile("rw", newline="\n")
-        stream.write(line + "\n")
-        stream.flush()
-        return stream.readline().rstrip("\n")
-
-
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
 def test_robots_of_one_world_have_addresses_and_names_of_their_own(pace):
     arms = "--robot panda"
@@ -224,12 +217,12 @@ def test_robots_of_one_world_have_addresses_and_names_of_their_own(pace):
         first = [float(word) for word in say("where panda_link7").split()[1:]]
         assert hand == pytest.approx([0.5 - first[1], 1 + first[0], first[2]], abs=2e-3)
         # A switch is one robot's, the world is everyone's.
-        assert ask("127.0.22.8", "user_stop on") == "ok"
-        assert ask("127.0.22.8", "state").startswith("ok User stopped")
+        assert answer("127.0.22.8", "user_stop on") == "ok"
+        assert answer("127.0.22.8", "state").startswith("ok User stopped")
         assert say("state").startswith("ok Idle")
-        assert ask("127.0.22.9", "state").startswith("ok Idle")
-        assert ask("127.0.22.9", "reset") == "ok"
-        assert ask("127.0.22.9", "quit") == "ok"
+        assert answer("127.0.22.9", "state").startswith("ok Idle")
+        assert answer("127.0.22.9", "reset") == "ok"
+        assert answer("127.0.22.9", "quit") == "ok"
         assert process.wait(10) == 0
 
 
