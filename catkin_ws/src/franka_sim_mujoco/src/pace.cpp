@@ -66,8 +66,8 @@ franka_sim::fci::Pace paceOf(double real_time_factor) {
                              std::to_string(kSlowestPace) + ".");
   }
   franka_sim::fci::Pace pace;
-  pace.lockstep = pace.flows = true;
-  pace.by_clock = real_time_factor > 0.0;
+  pace.mode = real_time_factor > 0.0 ? franka_sim::fci::PaceMode::kPatient
+                                     : franka_sim::fci::PaceMode::kFreeRunning;
   pace.factor = real_time_factor;
   pace.patience = kPatience;
   return pace;

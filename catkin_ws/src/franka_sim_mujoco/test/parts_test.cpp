@@ -112,8 +112,8 @@ TEST(Pace, RefusesWhatIsNone) {
                               std::numeric_limits<double>::infinity()}) {
     EXPECT_TRUE(contains(sentence([&] { paceOf(factor); }), "is wrong: it must be 0")) << factor;
   }
-  EXPECT_FALSE(paceOf(0.0).by_clock);
-  EXPECT_TRUE(paceOf(kSlowestPace).by_clock);
+  EXPECT_EQ(franka_sim::fci::PaceMode::kFreeRunning, paceOf(0.0).mode);
+  EXPECT_EQ(franka_sim::fci::PaceMode::kPatient, paceOf(kSlowestPace).mode);
 }
 
 TEST(Pace, TellsTheTimeLessOftenBeyondRealTime) {

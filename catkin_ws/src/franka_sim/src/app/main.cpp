@@ -129,7 +129,7 @@ void serve(const Options& options) {
     viewer.emplace(world, mutex);
   }
 
-  if (!options.pace.lockstep || options.pace.by_clock) {
+  if (!options.pace.standsStill()) {
     preferThisThread();
   }
   for (const ServedArm& arm : arms) {

@@ -114,11 +114,11 @@ std::uint16_t toPort(const std::string& text) {
 fci::Pace toPace(const std::string& text) {
   fci::Pace pace;
   if (text == "lockstep") {
-    pace.lockstep = true;
+    pace.mode = fci::PaceMode::kLockStep;
     return pace;
   }
   if (text == "patient") {
-    pace.lockstep = pace.flows = pace.by_clock = true;
+    pace.mode = fci::PaceMode::kPatient;
     return pace;
   }
   if (text == "realtime") {
@@ -176,7 +176,7 @@ void usePatience(const std::string& text, fci::Pace& pace) {
     return;
   }
   pace.patience = toPatience(text);
-  if (!pace.lockstep) {
+  if (!pace.waitsForClients()) {
     throw std::invalid_argument("--patience " + text +
                                 ": only a robot that waits for its client has patience; give "
                                 "--pace patient or --pace lockstep as well.");

@@ -53,6 +53,21 @@ timespec toTimespec(std::chrono::nanoseconds duration) noexcept {
           static_cast<long>(duration.count() % kNanoseconds)};
 }
 
+/// Another mode while it lives.
+class ModeForNow {
+ public:
+  ModeForNow(Pace& pace, PaceMode mode) noexcept : pace_(pace), before_(pace.mode) {
+    pace_.mode = mode;
+  }
+  ~ModeForNow() { pace_.mode = before_; }
+  ModeForNow(const ModeForNow&) = delete;
+  ModeForNow& operator=(const ModeForNow&) = delete;
+
+ private:
+  Pace& pace_;
+  const PaceMode before_;
+};
+
 }  // namespace
 
 Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare)
@@ -105,7 +120,7 @@ void Host::tick() {
   for (const Guest& guest : guests_) {
     guest.robot->observe();
   }
-  if (pace_.lockstep) {
+  if (pace_.waitsForClients()) {
     waitInLockStep();
     if (heedsClock()) {
       listenUntil(nextDeadline());
@@ -126,11 +141,8 @@ void Host::tick() {
 }
 
 void Host::tickAtOnce() {
-  const Pace kept = pace_;
-  pace_.lockstep = pace_.flows = true;
-  pace_.by_clock = false;
+  const ModeForNow free_running(pace_, PaceMode::kFreeRunning);
   tick();
-  pace_ = kept;
 }
 
 void Host::standStill() {
@@ -174,7 +186,7 @@ void Host::serveAll() {
     guest.robot->serve(stops_only);
   }
   // The next states wait for commands. Their sender may be waiting for an answer of a service.
-  const bool states_wait = pace_.lockstep && clientsAreDue();
+  const bool states_wait = pace_.waitsForClients() && clientsAreDue();
   for (Service* service : services_) {
     service->serve();
     if (states_wait) {
@@ -188,15 +200,15 @@ void Host::serveAll() {
 bool Host::holdsRequestsBack() const {
   const bool hand_busy = std::any_of(guests_.begin(), guests_.end(),
                                      [](const Guest& guest) { return guest.robot->handBusy(); });
-  return pace_.lockstep && !pace_.flows && rolling_ > 0 && held_back_ < kLongestDeferral &&
-         !hand_busy && !clientsAreDue() && !clientsAreAtLeisure();
+  return pace_.standsStill() && rolling_ > 0 && held_back_ < kLongestDeferral && !hand_busy &&
+         !clientsAreDue() && !clientsAreAtLeisure();
 }
 
 bool Host::settled() const {
   const auto moves = [](const Guest& guest) {
     return guest.robot->expectsCommand() || guest.robot->settling() || guest.robot->handBusy();
   };
-  return !pace_.lockstep || pace_.flows || held_back_ >= kLongestDeferral ||
+  return !pace_.standsStill() || held_back_ >= kLongestDeferral ||
          (rolling_ == 0 && std::none_of(guests_.begin(), guests_.end(), moves));
 }
 
@@ -270,7 +282,10 @@ bool Host::clientsAreAtLeisure() const {
 
 // In lock-step nothing but the clock says when the next tick of an asynchronous motion is due; in
 // time that flows the others do.
-bool Host::heedsClock() const { return pace_.by_clock || (!pace_.flows && clientsAreAtLeisure()); }
+bool Host::heedsClock() const {
+  return pace_.mode == PaceMode::kPatient ||
+         (pace_.mode != PaceMode::kFreeRunning && clientsAreAtLeisure());
+}
 
 // Of those that have not been given up.
 bool Host::somebodyIsAwaited() const {
@@ -321,7 +336,7 @@ void Host::waitInLockStep() {
       }
       continue;
     }
-    if (pace_.flows) {
+    if (!pace_.standsStill()) {
       return;
     }
     if (timeMustGoOn()) {

@@ -96,11 +96,9 @@ class HostRules : public ::testing::Test {
   Host host{[this] { steps++; }, Pace{}};
 };
 
-Pace waiting(bool flows, bool by_clock) {
+Pace waiting(PaceMode mode) {
   Pace pace;
-  pace.lockstep = true;
-  pace.flows = flows;
-  pace.by_clock = by_clock;
+  pace.mode = mode;
   pace.patience = milliseconds(50);
   return pace;
 }
@@ -119,7 +117,7 @@ TEST_F(HostRules, RealTimeGoesOnWithoutAnAnswer) {
 }
 
 TEST_F(HostRules, APatientHostWaitsForEachAnswer) {
-  use(waiting(true, true));
+  use(waiting(PaceMode::kPatient));
   robot.moving = true;
   robot.delay = milliseconds(5);
   EXPECT_GE(timeOf(20), milliseconds(100));
@@ -128,7 +126,7 @@ TEST_F(HostRules, APatientHostWaitsForEachAnswer) {
 
 TEST_F(HostRules, APatientHostIsNoFasterThanTheClock) {
   const Clock::time_point begin = Clock::now();
-  use(waiting(true, true));
+  use(waiting(PaceMode::kPatient));
   robot.moving = true;
   timeOf(50);
   EXPECT_GE(Clock::now() - begin, milliseconds(50));
@@ -140,7 +138,7 @@ TEST_F(HostRules, APatientHostIsNoFasterThanTheClock) {
 }
 
 TEST_F(HostRules, APatientHostGivesUpASilentClientAndWaitsForItAgainWhenItSpeaks) {
-  use(waiting(true, true));
+  use(waiting(PaceMode::kPatient));
   robot.moving = true;
   robot.answers = false;
   EXPECT_GE(timeOf(1), milliseconds(50));
@@ -154,7 +152,7 @@ TEST_F(HostRules, APatientHostGivesUpASilentClientAndWaitsForItAgainWhenItSpeaks
 
 TEST_F(HostRules, WhoWasGivenUpDoesNotTakeTheOthersTime) {
   CountingRobot other;
-  use(waiting(true, false));
+  use(waiting(PaceMode::kFreeRunning));
   host.add(other);
   robot.moving = true;
   robot.answers = false;
@@ -167,7 +165,7 @@ TEST_F(HostRules, WhoWasGivenUpDoesNotTakeTheOthersTime) {
 
 TEST_F(HostRules, WhileOneClientIsAwaitedTheOthersSeeThatTheirRobotsAreThere) {
   CountingRobot answered, resting;
-  Pace pace = waiting(false, false);
+  Pace pace = waiting(PaceMode::kLockStep);
   pace.patience = std::chrono::seconds(100);
   use(pace);
   host.add(answered);
@@ -195,7 +193,7 @@ TEST_F(HostRules, TimeInWhichTheHostIsHeldUpIsNotItsClientsSilence) {
     }
     int hold{0};
   } held;
-  host.setPace(waiting(false, false));  // 50 ms of patience
+  host.setPace(waiting(PaceMode::kLockStep));  // 50 ms of patience
   host.add(held);
   held.moving = true;
   held.hold = 10;
@@ -205,7 +203,7 @@ TEST_F(HostRules, TimeInWhichTheHostIsHeldUpIsNotItsClientsSilence) {
 }
 
 TEST_F(HostRules, TimeThatFlowsHeedsNoClockBetweenMotions) {
-  use(waiting(true, false));
+  use(waiting(PaceMode::kFreeRunning));
   timeOf(5000);
   EXPECT_EQ(5000, steps);
   EXPECT_LT(robot.published, 5000) << "states go out at the wall's pace";
@@ -226,7 +224,7 @@ TEST_F(HostRules, ATickAtOnceHeedsNoClockButWaitsForTheClient) {
 }
 
 TEST_F(HostRules, InLockStepAnAsynchronousMotionGoesByTheClockAndWaitsForNobody) {
-  Pace pace = waiting(false, false);
+  Pace pace = waiting(PaceMode::kLockStep);
   pace.patience = std::chrono::seconds(100);
   const Clock::time_point begin = Clock::now();
   use(pace);
@@ -244,7 +242,7 @@ TEST_F(HostRules, InLockStepAnAsynchronousMotionGoesByTheClockAndWaitsForNobody)
 
 TEST_F(HostRules, AnotherRobotsAnswersAreWaitedForBesideAnAsynchronousMotion) {
   CountingRobot other;
-  use(waiting(false, false));
+  use(waiting(PaceMode::kLockStep));
   host.add(other);
   robot.moving = robot.at_leisure = true;
   robot.answers = false;
@@ -255,7 +253,7 @@ TEST_F(HostRules, AnotherRobotsAnswersAreWaitedForBesideAnAsynchronousMotion) {
 }
 
 TEST_F(HostRules, ARobotThatNeverRestsHoldsNobodyBackForEver) {
-  use(waiting(false, false));
+  use(waiting(PaceMode::kLockStep));
   robot.restless = true;
   timeOf(1);  // in which the world was still at rest
   const int before = robot.served_all;
@@ -266,7 +264,7 @@ TEST_F(HostRules, ARobotThatNeverRestsHoldsNobodyBackForEver) {
 }
 
 TEST_F(HostRules, AWorldThatStandsStillIsShownWithoutATick) {
-  use(waiting(true, true));
+  use(waiting(PaceMode::kPatient));
   host.standStill();
   EXPECT_EQ(1U, robot.message_ids) << "states of a robot at rest count on";
   robot.moving = true;
@@ -279,7 +277,7 @@ TEST_F(HostRules, AWorldThatStandsStillIsShownWithoutATick) {
 }
 
 TEST_F(HostRules, AMotionsFirstStatesCountAllTicksBeforeIt) {
-  use(waiting(false, false));
+  use(waiting(PaceMode::kLockStep));
   robot.restless = true;
   timeOf(500);  // of which few are shown
   robot.moves_when_served = true;
@@ -293,7 +291,7 @@ TEST_F(HostRules, AMotionsFirstStatesCountAllTicksBeforeIt) {
 
 TEST_F(HostRules, WhoWasRemovedIsLeftAlone) {
   CountingRobot other;
-  use(waiting(true, false));
+  use(waiting(PaceMode::kFreeRunning));
   host.add(other);
   timeOf(1);
   host.remove(robot);
@@ -307,13 +305,13 @@ TEST_F(HostRules, WhoWasRemovedIsLeftAlone) {
 }
 
 TEST_F(HostRules, InLockStepAPushLetsTheWorldRunForItsTimeAndUntilAllRests) {
-  use(waiting(false, false));
+  use(waiting(PaceMode::kLockStep));
   host.letRun(50);
   EXPECT_EQ(150, stepsUntilStill(150)) << "50, and 100 for what was set in motion";
 }
 
 TEST_F(HostRules, AWorldThatBeginsAnewRunsAsLongWhateverWasToRunBefore) {
-  use(waiting(false, false));
+  use(waiting(PaceMode::kLockStep));
   host.letRun(500);
   timeOf(10);
   host.beginAnew();

@@ -130,7 +130,7 @@ class Stage {
 
 Pace lockStep() {
   Pace pace;
-  pace.lockstep = true;
+  pace.mode = PaceMode::kLockStep;
   return pace;
 }
 
@@ -382,7 +382,7 @@ TEST(RealTime, keepsToTheClock) {
 // On a machine that may stand still for longer than a robot does without commands.
 TEST(RealTime, runsAMotionByTheClockForAPatientRobot) {
   Pace pace;
-  pace.lockstep = pace.flows = pace.by_clock = true;
+  pace.mode = PaceMode::kPatient;
   pace.factor = 0.2;
   Stage stage(pace);
   TestClient client(stage.port());

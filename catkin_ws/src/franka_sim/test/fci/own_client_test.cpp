@@ -86,8 +86,7 @@ class SimulatedRobots {
   /// would lose their answers.
   static Pace pace(bool by_clock) {
     Pace pace;
-    pace.lockstep = true;
-    pace.flows = pace.by_clock = by_clock;
+    pace.mode = by_clock ? PaceMode::kPatient : PaceMode::kLockStep;
     return pace;
   }
 

@@ -15,25 +15,36 @@
 
 namespace franka_sim::fci {
 
-/// How simulated time follows the wall's.
+/// How simulated time follows wall-clock time.
+enum class PaceMode {
+  /// A tick is due every millisecond divided by the factor, whatever the clients do.
+  kRealTime,
+  /// Within a motion each tick waits for the client's answer, at most `patience`; motions run as
+  /// fast as the machine and the clients allow, and time stands still between them (decision 21).
+  /// An asynchronous motion runs by the clock, because its client need not answer.
+  kLockStep,
+  /// As kLockStep, but time runs on between motions, as fast as the machine allows: for a world
+  /// that others use, too.
+  kFreeRunning,
+  /// As kFreeRunning, but no tick comes before the clock says so. The robot is as fast as a real
+  /// one, and loses nothing on a machine that does not keep time.
+  kPatient,
+};
+
 struct Pace {
-  /// Within a motion each tick waits for the client's answer, at most `patience`; runs go as fast
-  /// as the machine and the clients allow (decision 21). An asynchronous motion runs by the clock,
-  /// because its client need not answer. Without lock-step a tick is due every millisecond divided
-  /// by `factor`, whatever the clients do.
-  bool lockstep{false};
-  /// With lock-step: time does not stand still between motions, but runs on as fast as the machine
-  /// allows. For a world in which others live too.
-  bool flows{false};
-  /// With lock-step: no tick comes before the clock says so. The robot is then as fast as a real
-  /// one and loses nothing on a machine that does not keep time.
-  bool by_clock{false};
+  PaceMode mode{PaceMode::kRealTime};
+  /// Simulated time per wall-clock time, in kRealTime and kPatient.
   double factor{1.0};
-  /// After so long without an answer a client of a lock-step motion counts as lost; its cycles are
-  /// then waited for a millisecond each. Time in which this process itself does not run does not
-  /// count. A client whose connection ends is waited for no longer. The value is chosen here: a
-  /// starved machine stops a program for seconds (decision 50).
+  /// After so long without an answer a client of a motion counts as lost, and its cycles are then
+  /// waited for a millisecond each. Time in which this process itself does not run does not count.
+  /// A client whose connection ends is waited for no longer. The value is chosen here: a starved
+  /// machine stops a program for seconds (decision 50).
   std::chrono::milliseconds patience{30000};
+
+  /// Whether a tick within a motion waits for the client's answer.
+  bool waitsForClients() const noexcept { return mode != PaceMode::kRealTime; }
+  /// Whether time stands still between motions.
+  bool standsStill() const noexcept { return mode == PaceMode::kLockStep; }
 };
 
 /// One robot as the host drives it: a control unit on a plant, with its servers. One thread.
