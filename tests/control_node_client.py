@@ -31,7 +31,7 @@ from tf2_msgs.msg import TFMessage
 ARM, ADDRESS = sys.argv[1:3]
 CONTROLLER = "position_joint_trajectory_controller"
 PUSH = [0.0, 0.0, -8.0]  # at the seventh link [N]
-FOREVER, BRIEFLY = 10**9, 50  # [ms]
+FOREVER, BRIEFLY = 10**6, 50  # [ms]
 SETTLED, SLOWLY_SETTLED = 0.6, 3.0  # [s] of the robot, from the first state that shows a push
 WIDE = {"torque": [60.0] * 7, "force": [60.0] * 6}  # thresholds that nothing here reaches [Nm], [N, Nm]
 SOFT_JOINTS = [600.0] * 7  # [Nm/rad]
