@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every test of the built workspace and closes with one line, `N passed, N failed`.
 
-Four kinds, in this order: style, gtest and rostest (as many at a time as there are processors), and
+In this order: style, compiler warnings, gtest and rostest (as many at a time as there are processors), and
 pytest (`test/test_*.py` of each package, then `tests/`). Cases are counted from the result files, since
 catkin's own summary counts some twice. Called by `./franka test`, which provides the environment.
 """
@@ -104,6 +104,8 @@ def main() -> int:
 
     style = [sys.executable, str(TOP / "tests" / "style.py")] + (["--long"] if arguments.long else [])
     style_failed = not arguments.packages and run("style", style)
+    compiler_warnings = [sys.executable, str(TOP / "tests" / "compiler_warnings.py")]
+    warned = not arguments.packages and run("compiler warnings", compiler_warnings)
     pytest_broken = 0
     if wanted or not arguments.packages:
         run_ctest("gtest", wanted)
@@ -129,6 +131,8 @@ def main() -> int:
         tally.add(path)
     if style_failed:
         tally.failed.append("style: see above")
+    if warned:
+        tally.failed.append("compiler warnings: see above")
     if pytest_broken:
         tally.failed.append("pytest could not run everything: see above")
     print()

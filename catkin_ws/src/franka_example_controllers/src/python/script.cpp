@@ -36,14 +36,14 @@ py::object pythonOf(XmlRpc::XmlRpcValue& value) {
       for (int i = 0; i < value.size(); ++i) {
         list.append(pythonOf(value[i]));
       }
-      return std::move(list);
+      return py::object(list);
     }
     case XmlRpc::XmlRpcValue::TypeStruct: {
       py::dict dict;
       for (auto& [name, member] : value) {
         dict[py::str(name)] = pythonOf(member);
       }
-      return std::move(dict);
+      return py::object(dict);
     }
     default:
       return py::none();

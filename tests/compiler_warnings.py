@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fails when the last build has printed a compiler warning about a file of this repository.
+
+The build itself goes on after a warning: a user with another compiler must get programs. Warnings about system
+headers do not count: what the optimiser says of them differs from release to release. ccache repeats the
+warnings of what it has kept, so a clean clone shows all of them.
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+TOP = Path(__file__).resolve().parent.parent
+BUILD = TOP / "catkin_ws" / "build"
+LOG = TOP / "out" / "build.log"
+WARNING = re.compile(r"^([^\s:]+):\d+(?::\d+)?: warning: .*", re.MULTILINE)
+
+
+def warnings(log: str, files: set[Path]) -> list[str]:
+    """The distinct warning lines of a log about one of `files`; paths are relative to a folder of the build."""
+    found = {}
+    for match in WARNING.finditer(log):
+        # Compilers run in folders of different depth.
+        name = re.sub(r"^(\.\./)+(?=src/)", f"{TOP}/catkin_ws/", match[1])
+        path = Path(name) if Path(name).is_absolute() else BUILD / name
+        if path.resolve() in files:
+            found[match[0]] = None
+    return list(found)
+
+
+def main() -> int:
+    if not LOG.exists():
+        print("There is no out/build.log: run ./franka build first.")
+        return 1
+    listing = subprocess.run(["git", "ls-files", "-z"], cwd=TOP, capture_output=True, check=True).stdout
+    files = {(TOP / name).resolve() for name in listing.decode().split("\0") if name}
+    found = warnings(LOG.read_text(errors="replace"), files)
+    print("\n".join(found) or "The compiler had no warnings.")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,26 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which lines of a build's output count as warnings."""
+
+from compiler_warnings import TOP, warnings
+
+SOURCE = TOP / "catkin_ws/src/franka_hw/src/franka_hw.cpp"
+LOG = """[ 12%] Building CXX object franka_hw.cpp.o
+../../src/franka_hw/src/franka_hw.cpp:7:5: warning: case value '3' not in enumerated type [-Wswitch]
+/usr/include/c++/14/bits/new_allocator.h:151:55: warning: argument 1 range exceeds [-Walloc-size]
+../../src/my_robot/src/mine.cpp:1:1: warning: unused variable [-Wunused-variable]
+CMake Warning at /usr/share/catkin/cmake/test/gtest.cmake:86 (message):
+"""
+
+
+def test_warnings_about_the_repository_count_once():
+    found = warnings(LOG + LOG, {SOURCE})
+    assert found == [LOG.splitlines()[1]]
+
+
+def test_absolute_paths_count():
+    assert warnings(f"{SOURCE}:7: warning: something\n", {SOURCE})
+
+
+def test_a_clean_log_has_none():
+    assert warnings("[100%] Built target franka_hw\n", {SOURCE}) == []
