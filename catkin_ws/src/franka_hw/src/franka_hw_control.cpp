@@ -253,42 +253,35 @@ bool FrankaHW::setRunFunction(const ControlMode& requested_control_mode, bool li
     };
   };
 
-  const ControlMode torque = ControlMode::JointTorque;
-  switch (requested_control_mode) {
+  const bool torques = (requested_control_mode & ControlMode::JointTorque) != ControlMode::None;
+  const auto useGenerator = [&](const auto& command) {
+    if (torques) {
+      run_function_ = torqueAnd(command);
+    } else {
+      run_function_ = generator(command);
+    }
+    return true;
+  };
+  switch (requested_control_mode & ~ControlMode::JointTorque) {
     case ControlMode::None:
-      return true;
-    case ControlMode::JointTorque:
-      run_function_ = [=](franka::Robot& robot, Callback ros_callback) {
-        robot.control(callback(effort_joint_command_libfranka_, ros_callback), limit_rate,
-                      cutoff_frequency);
-      };
+      if (torques) {
+        run_function_ = [=](franka::Robot& robot, Callback ros_callback) {
+          robot.control(callback(effort_joint_command_libfranka_, ros_callback), limit_rate,
+                        cutoff_frequency);
+        };
+      }
       return true;
     case ControlMode::JointPosition:
-      run_function_ = generator(position_joint_command_libfranka_);
-      return true;
+      return useGenerator(position_joint_command_libfranka_);
     case ControlMode::JointVelocity:
-      run_function_ = generator(velocity_joint_command_libfranka_);
-      return true;
+      return useGenerator(velocity_joint_command_libfranka_);
     case ControlMode::CartesianPose:
-      run_function_ = generator(pose_cartesian_command_libfranka_);
-      return true;
+      return useGenerator(pose_cartesian_command_libfranka_);
     case ControlMode::CartesianVelocity:
-      run_function_ = generator(velocity_cartesian_command_libfranka_);
-      return true;
-    case torque | ControlMode::JointPosition:
-      run_function_ = torqueAnd(position_joint_command_libfranka_);
-      return true;
-    case torque | ControlMode::JointVelocity:
-      run_function_ = torqueAnd(velocity_joint_command_libfranka_);
-      return true;
-    case torque | ControlMode::CartesianPose:
-      run_function_ = torqueAnd(pose_cartesian_command_libfranka_);
-      return true;
-    case torque | ControlMode::CartesianVelocity:
-      run_function_ = torqueAnd(velocity_cartesian_command_libfranka_);
-      return true;
+      return useGenerator(velocity_cartesian_command_libfranka_);
+    default:  // two generators at once
+      return false;
   }
-  return false;
 }
 
 }  // namespace franka_hw

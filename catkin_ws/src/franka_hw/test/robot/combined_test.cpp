@@ -233,8 +233,9 @@ TEST_F(Losing, ALostArmIsNamedAndTheOtherIsThereForEverybody) {
   EXPECT_TRUE(robot_.arms()[0]->hasOwnError());
   EXPECT_FALSE(robot_.arms()[1]->hasOwnError());
 
-  const franka::RobotState& right =
-      robot_.get<franka_hw::FrankaStateInterface>()->getHandle("right_robot").getRobotState();
+  const franka_hw::FrankaStateHandle handle =
+      robot_.get<franka_hw::FrankaStateInterface>()->getHandle("right_robot");
+  const franka::RobotState& right = handle.getRobotState();
   const std::uint64_t time = right.time.toMSec();
   EXPECT_TRUE(cycleUntil([&] { return right.time.toMSec() > time + 20; })) << "states go on";
   const std::string gone = left_.robot_nh.resolveName("set_load");
