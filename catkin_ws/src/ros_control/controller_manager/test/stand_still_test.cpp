@@ -90,7 +90,7 @@ TEST_F(StandStillTest, othersAreAnsweredWhileASwitchWaits) {
                                     "part in a switch that has not finished"));
   EXPECT_FALSE(manager_->switchController({}, {}, kStrict, false, 0.1)) << "one after the other";
   EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers, because the switch before this "
-                                    "one has not finished after 0.1"));
+                                    "one has not finished after "));
   EXPECT_FALSE(isReady(answer)) << "without a timeout it waits for ever";
   EXPECT_TRUE(stepUntil(std::move(answer)));
   EXPECT_TRUE(controller("a").isRunning());
