@@ -124,7 +124,16 @@ PLAIN = [
 BOUND = "int number = boost::bind<int>(std::minus<int>(), _2, _1)(1, 2);\n"
 
 # Debian keeps the headers of these in folders of their own.
-DEBIAN = ["ament_index_cpp", "angles", "class_loader", "pluginlib", "rcpputils", "rcutils", "xmlrpcpp"]
+DEBIAN = [
+    "ament_index_cpp",
+    "angles",
+    "class_loader",
+    "pluginlib",
+    "rcpputils",
+    "rcutils",
+    "urdfdom_headers",
+    "xmlrpcpp",
+]
 
 
 def include_folders() -> list[Path]:
