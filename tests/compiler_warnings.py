@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fails when the last build has printed a compiler warning about a file of this repository.
 
-The build itself goes on after a warning: a user with another compiler must get programs. Warnings about system
-headers do not count: what the optimiser says of them differs from release to release. ccache repeats the
-warnings of what it has kept, so a clean clone shows all of them.
+The build itself goes on after a warning: a user with another compiler must get programs. Warnings about
+system headers do not count: what the optimiser says of them differs from release to release. ccache repeats
+the warnings of what it has kept, so a clean clone shows all of them.
 """
 
 import re
@@ -20,7 +20,7 @@ WARNING = re.compile(r"^([^\s:]+):\d+(?::\d+)?: warning: .*", re.MULTILINE)
 
 
 def warnings(log: str, files: set[Path]) -> list[str]:
-    """The distinct warning lines of a log about one of `files`; paths are relative to a folder of the build."""
+    """The distinct warning lines of a log about one of `files`; its paths are relative to a build folder."""
     found = {}
     for match in WARNING.finditer(log):
         # Compilers run in folders of different depth.

@@ -58,9 +58,18 @@ def all_idle(request):
     yield
     for name in ("slow", "stepped", "patient"):
         for fixture in request.node.funcargs.get(name, []):
-            if fixture.client.process.poll() is None and "Reflex" in fixture.sim.ask("state"):
-                fixture.client.tell("connect", address=fixture.proxy.address)
-                fixture.client.tell("recover")
+            if fixture.client.process.poll() is None:
+                end_motion(fixture)
+
+
+def end_motion(fixture):
+    """A client that has given up leaves its robot in Move until the robot's patience is over."""
+    deadline = time.monotonic() + 10.0
+    while fixture.sim.ask("state").startswith("Move") and time.monotonic() < deadline:
+        time.sleep(0.05)
+    if "Reflex" in fixture.sim.ask("state"):
+        fixture.client.tell("connect", address=fixture.proxy.address)
+        fixture.client.tell("recover")
 
 
 @pytest.fixture(scope="module")
