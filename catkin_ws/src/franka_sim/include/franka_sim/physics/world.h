@@ -118,7 +118,7 @@ class World {
   World& operator=(const World&) = delete;
 
   static constexpr double kTick = franka_core::kTick;  ///< [s]
-  static constexpr int kSubsteps = 2;    ///< per tick: a grasp slips above 0.5 ms (decision 18)
+  static constexpr int kSubsteps = 2;  ///< per tick: a grasp slips above 0.5 ms (decision 18)
 
   /// Merges a robot in; everything already there keeps its state. Nothing changes when it throws.
   void addRobot(const RobotDescription& robot);
