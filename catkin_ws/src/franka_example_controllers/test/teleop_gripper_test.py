@@ -110,7 +110,8 @@ class TeleopGripperTest(unittest.TestCase):
         end = time.monotonic() + DEADLINE
         while not condition():
             self.assertLess(time.monotonic(), end, f"{what}: {self.hands.orders}")
-            self.assertIsNone(self.node.poll(), "The node has ended.")
+            if self.node.poll() is not None:
+                self.fail(f"The node has ended: {self.node.stdout.read()}")
             time.sleep(0.01)
 
     def follow(self, width, orders, what):
