@@ -28,7 +28,8 @@ def find_client_python(name: str) -> Path:
         result = subprocess.run(
             [*pip, "--only-binary=:all:", *PACKAGES[name]], capture_output=True, text=True, timeout=600
         )
-        if "No matching distribution found" in result.stderr:
+        # Without a network pip retries first, and then says the same.
+        if "No matching distribution found" in result.stderr and "Retrying" not in result.stderr:
             version = subprocess.check_output([python, "--version"], text=True).strip()
             raise NoWheel(f"PyPI has no wheel of {PACKAGES[name][0]} for {version}")
         assert result.returncode == 0, result.stderr

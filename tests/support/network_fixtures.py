@@ -3,6 +3,7 @@
 """Robots with clients behind a proxy, all in motion at the same time, for what a bad network does to them."""
 
 import sys
+import warnings
 from contextlib import ExitStack
 
 from fci_proxy import Proxy
@@ -34,7 +35,8 @@ def network_fixtures(
     for i, (library, robot) in enumerate(kinds):
         try:
             python = sys.executable if library == "pyfranka" else find_client_python(library)
-        except NoWheel:
+        except NoWheel as reason:
+            warnings.warn(f"{reason}: tested without this client", stacklevel=2)
             continue
         client = stack.enter_context(client_process(library, python))
         sim = stack.enter_context(simulated(robot, f"{network}.{2 * i + 1}", pace, *arguments))

@@ -10,11 +10,11 @@
 
 namespace franka_hw {
 
-/// That a thread wants a robot for a moment, to configure it or to let it recover.
+/// RAII request for short exclusive access to a robot, to configure it or to let it recover.
 ///
 /// A loop that only reads states holds FrankaHW::robotMutex() nearly all the time, and a mutex is
-/// not fair: who waits for it may wait for ever. While an object of this class lives, such loops
-/// stay away from their robots, so that nobody has to wait for them by spinning.
+/// not fair: another thread may wait for it for ever. While an object of this class exists, such
+/// loops leave their robots alone. Thread-safe. Not real-time safe.
 class RobotAccessRequest {
  public:
   RobotAccessRequest() noexcept { waiting_.fetch_add(1, std::memory_order_relaxed); }
@@ -22,14 +22,14 @@ class RobotAccessRequest {
   RobotAccessRequest(const RobotAccessRequest&) = delete;
   RobotAccessRequest& operator=(const RobotAccessRequest&) = delete;
 
-  /// Waits for a robot's mutex. Not for loops that read.
+  /// Locks a robot's mutex; waits for it. Loops that read states do not call this.
   static std::unique_lock<std::mutex> take(std::mutex& robot_mutex) {
     const RobotAccessRequest request;
     return std::unique_lock<std::mutex>(robot_mutex);
   }
 
-  /// The same as long as there is a reason to wait: a motion that has begun meanwhile holds the
-  /// mutex until it ends. @returns without the mutex when there is none any more
+  /// Locks a robot's mutex, but waits only while `reason` returns true: a motion that began in the
+  /// meantime holds the mutex until it ends. @returns an unlocked lock when `reason` returns false
   template <typename Reason>
   static std::unique_lock<std::mutex> takeWhile(std::mutex& robot_mutex, Reason&& reason) {
     const RobotAccessRequest request;
@@ -40,8 +40,8 @@ class RobotAccessRequest {
     return lock;
   }
 
-  /// For a loop between two reads, without the mutex: sleeps for a moment, and longer while
-  /// somebody wants a robot of this process. 5 ms at most: states go on meanwhile.
+  /// A loop calls this between two reads, without the mutex: sleeps for 0.1 ms, and longer while
+  /// there is a request for a robot of this process, at most 5 ms, so that states go on.
   static void giveWay() {
     for (int i = 0; i < kMost; i++) {
       std::this_thread::sleep_for(kMoment);
@@ -51,7 +51,7 @@ class RobotAccessRequest {
     }
   }
 
-  /// Between two looks at whether the robot is free.
+  /// Period at which a waiting thread tries again.
   static constexpr std::chrono::microseconds kMoment{100};
 
  private:
@@ -59,10 +59,10 @@ class RobotAccessRequest {
   static inline std::atomic<int> waiting_{0};
 };
 
-/// That a motion holds a robot's mutex: it will not let go of it soon, and nobody need wait for it.
+/// Marks a robot's mutex as held by a motion, which keeps it until it ends: waiting is useless.
 class RobotInMotion {
  public:
-  /// For whoever holds the mutex, until this object ends.
+  /// The caller holds the mutex for as long as this object exists.
   explicit RobotInMotion(const std::mutex& robot_mutex) : robot_mutex_(&robot_mutex) {
     const std::lock_guard<std::mutex> lock(mutex_);
     moving_.insert(robot_mutex_);

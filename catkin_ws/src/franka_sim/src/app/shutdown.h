@@ -13,12 +13,12 @@
 
 namespace franka_sim {
 
-/// Lets clients go first. Whoever ends a robot and its clients at the same time, as roslaunch does,
-/// would otherwise hear from them that they have lost their robot.
+/// Delays the end of the program until its clients have disconnected. roslaunch ends a robot and
+/// its clients at the same time; without the delay the clients would report a lost robot.
 class Shutdown : public fci::Service {
  public:
-  /// @param asked the end was asked for
-  /// @param ended is set when no client is left, or `patience` after that
+  /// @param asked true once the end was requested
+  /// @param ended is set when no client is left, or `patience` after the request
   Shutdown(const std::atomic<bool>& asked, std::atomic<bool>& ended,
            std::chrono::duration<double> patience, std::vector<fci::SimRobot*> robots)
       : asked_(asked), ended_(ended), patience_(patience), robots_(std::move(robots)) {}

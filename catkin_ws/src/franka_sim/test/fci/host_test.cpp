@@ -376,7 +376,7 @@ TEST(RealTime, keepsToTheClock) {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
   EXPECT_EQ(last->message_id - first->message_id, 300U);
   EXPECT_GT(passed.count(), 0.25);
-  EXPECT_LT(passed.count(), 30.0);  // 9 s were measured where nine processes shared a processor
+  EXPECT_LT(passed.count(), 2.0);  // on a machine that does much else
 }
 
 // On a machine that may stand still for longer than a robot does without commands.

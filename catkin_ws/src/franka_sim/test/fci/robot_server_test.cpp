@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The robot's network face over real sockets, with a handler in the place of the control unit.
+// The FCI server over real sockets, with a fake request handler in place of the control unit.
 #include <cmath>
 #include <random>
 #include <string>

@@ -15,9 +15,9 @@
 
 namespace franka_sim_mujoco {
 
-/// Offers services that answer success=false and a sentence instead of failing the call. They have
-/// threads of their own, so that a controller switch that waits for a paused simulation cannot keep
-/// anyone from unpausing it.
+/// ROS services that answer success=false and a sentence instead of failing the call. They have
+/// threads of their own: a controller switch that waits for a paused simulation must not block the
+/// service that unpauses it.
 class ServiceHandlers {
  public:
   /// @param node in whose namespace they are offered

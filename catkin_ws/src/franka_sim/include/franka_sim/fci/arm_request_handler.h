@@ -10,8 +10,8 @@
 
 namespace franka_sim::fci {
 
-/// Where a robot server hands in what a client asks for, and learns how it ended. The control unit
-/// stands behind it; tests put something simpler there. One thread; nothing throws.
+/// Handles the requests that a robot server receives from its client, and reports how they ended.
+/// The control unit implements it; tests use a simpler implementation. One thread; nothing throws.
 class ArmRequestHandler {
  public:
   using Status = franka_core::fci::Status;
@@ -24,7 +24,7 @@ class ArmRequestHandler {
   virtual void connected(std::uint16_t version) noexcept = 0;
   /// The client has gone; a motion of its may still run.
   virtual void disconnected() noexcept = 0;
-  /// Whether clients may connect. Off: who is connected is dropped.
+  /// Whether clients may connect. When it is switched off, a connected client is dropped.
   virtual bool active() const noexcept = 0;
 
   /// The answer to any request but Connect and those for models. Move answers kMotionStarted, or
@@ -34,7 +34,7 @@ class ArmRequestHandler {
   /// The virtual wall of that number; nothing if there is no such number.
   virtual std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept = 0;
 
-  /// How the motion, the stop or the recovery ended; told once.
+  /// How the motion, the stop or the recovery ended; each end is returned once.
   virtual std::optional<Status> motionEnd() noexcept = 0;
   virtual std::optional<Status> stopEnd() noexcept = 0;
   virtual std::optional<Status> recoveryEnd() noexcept = 0;

@@ -10,7 +10,7 @@
 
 namespace franka_sim::fci {
 
-/// Hands requests to a control unit and its outcomes back, in the words of the protocol.
+/// Translates requests of the protocol for a control unit, and the unit's results back.
 class UnitRequestHandler final : public ArmRequestHandler {
  public:
   /// @param unit outlives the handler.

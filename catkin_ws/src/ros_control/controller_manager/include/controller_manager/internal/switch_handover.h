@@ -17,8 +17,8 @@
 namespace controller_manager {
 namespace internal {
 
-/// Hands switches to the loop, one at a time, and waits for them. The loop takes no lock and wakes
-/// nobody: the waiting side looks every 200 µs while a switch is under way.
+/// Passes switches to the control loop, one at a time, and waits for them. The loop neither locks
+/// nor notifies: the waiting thread polls every 200 µs while a switch is under way.
 class SwitchHandover {
  public:
   typedef std::chrono::steady_clock Clock;
