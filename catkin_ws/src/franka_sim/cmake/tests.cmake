@@ -42,6 +42,7 @@ sim_test(robot_unit_test
     test/robot/transform_entrances_test.cpp
     test/robot/unit_limits_test.cpp
     test/robot/unit_motion_test.cpp
+    test/robot/unit_parts_test.cpp
     test/robot/unit_restart_test.cpp
   LIBRARIES franka_sim_robot)
 

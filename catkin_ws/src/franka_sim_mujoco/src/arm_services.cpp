@@ -25,6 +25,9 @@
 
 namespace franka_sim_mujoco {
 
+namespace codec = franka_core::fci;
+using franka_sim::Status;
+
 namespace {
 
 constexpr char kLog[] = "franka_hw_sim";
@@ -123,16 +126,17 @@ void ArmServices::offerBetweenTicks(const std::string& name,
 void ArmServices::offerFrames() {
   offerBetweenTicks<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
     const std::array<double, 16> NE_T_EE = toArray<16>(request.NE_T_EE);
-    check(arm_.unit().setEE(NE_T_EE), notATransform("NE_T_EE", NE_T_EE));
+    check(arm_.unit().request(codec::SetNEToEERequest{NE_T_EE}), notATransform("NE_T_EE", NE_T_EE));
   });
   offerBetweenTicks<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
     const std::array<double, 16> EE_T_K = toArray<16>(request.EE_T_K);
-    check(arm_.unit().setK(EE_T_K), notATransform("EE_T_K", EE_T_K));
+    check(arm_.unit().request(codec::SetEEToKRequest{EE_T_K}), notATransform("EE_T_K", EE_T_K));
   });
   offerBetweenTicks<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
     const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
                                     toArray<9>(request.load_inertia)};
-    check(arm_.unit().setLoad(load), "The load was refused. " + franka_sim::payloadFault(load));
+    check(arm_.unit().request(franka_sim::loadRequest(load)),
+          "The load was refused. " + franka_sim::payloadFault(load));
   });
 }
 
@@ -145,7 +149,8 @@ void ArmServices::offerCollisionBehavior() {
                      toArray<6>(request.lower_force_thresholds_nominal),
                      toArray<6>(request.upper_force_thresholds_nominal)},
                     "");
-        check(arm_.unit().setCollisionBehavior(thresholds, thresholds), kNotThresholds);
+        check(arm_.unit().request(franka_sim::collisionRequest(thresholds, thresholds)),
+              kNotThresholds);
       });
   offerBetweenTicks<franka_msgs::SetFullCollisionBehavior>(
       "set_full_collision_behavior", [this](const auto& request) {
@@ -161,19 +166,22 @@ void ArmServices::offerCollisionBehavior() {
                      toArray<6>(request.lower_force_thresholds_nominal),
                      toArray<6>(request.upper_force_thresholds_nominal)},
                     "Nominal phase: ");
-        check(arm_.unit().setCollisionBehavior(acceleration, nominal), kNotThresholds);
+        check(arm_.unit().request(franka_sim::collisionRequest(acceleration, nominal)),
+              kNotThresholds);
       });
 }
 
 void ArmServices::offerImpedances() {
   offerBetweenTicks<franka_msgs::SetJointImpedance>(
       "set_joint_impedance", [this](const auto& request) {
-        check(arm_.unit().setJointImpedance(toArray<7>(request.joint_stiffness)),
+        check(arm_.unit().request(
+                  codec::SetJointImpedanceRequest{toArray<7>(request.joint_stiffness)}),
               "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
       });
   offerBetweenTicks<
       franka_msgs::SetCartesianImpedance>("set_cartesian_impedance", [this](const auto& request) {
-    check(arm_.unit().setCartesianImpedance(toArray<6>(request.cartesian_stiffness)),
+    check(arm_.unit().request(
+              codec::SetCartesianImpedanceRequest{toArray<6>(request.cartesian_stiffness)}),
           "cartesian_stiffness must hold three numbers from 10 to 3000 N/m and three from 1 to 300 "
           "Nm/rad.");
   });
@@ -198,7 +206,7 @@ void ArmServices::offerConnection(const std::string& name, bool connects) {
       throw std::runtime_error(connects ? "The arm is connected already."
                                         : "The arm is disconnected already.");
     }
-    if (arm_.setConnected(connects) != franka_sim::RequestStatus::kSuccess) {
+    if (!arm_.setConnected(connects)) {
       throw std::runtime_error(
           "A controller commands the arm: stop it (controller_manager/switch_controller) "
           "before disconnecting.");
@@ -252,20 +260,18 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
 
 // --- recovery ------------------------------------------------------------------------------------
 
-void ArmServices::check(franka_sim::RequestStatus status, const std::string& why_invalid) {
-  switch (status) {
-    case franka_sim::RequestStatus::kSuccess:
-      return;
-    case franka_sim::RequestStatus::kInvalidArgument:
-      throw std::runtime_error(why_invalid);
-    case franka_sim::RequestStatus::kNotPossible:
-      throw std::runtime_error(
-          arm_.unit().state().robot_mode == franka_core::RobotMode::kMove
-              ? "This cannot be done while a controller moves the arm: stop that controller "
-                "(controller_manager/switch_controller), then try again."
-              : "This cannot be done in the arm's present mode (" +
-                    std::to_string(static_cast<int>(arm_.unit().state().robot_mode)) +
-                    " in franka_msgs/FrankaState).");
+void ArmServices::check(std::optional<Status> status, const std::string& why_invalid) {
+  if (status == Status::kInvalidArgumentRejected) {
+    throw std::runtime_error(why_invalid);
+  }
+  if (status != Status::kSuccess) {
+    throw std::runtime_error(
+        arm_.unit().state().robot_mode == franka_core::RobotMode::kMove
+            ? "This cannot be done while a controller moves the arm: stop that controller "
+              "(controller_manager/switch_controller), then try again."
+            : "This cannot be done in the arm's present mode (" +
+                  std::to_string(static_cast<int>(arm_.unit().state().robot_mode)) +
+                  " in franka_msgs/FrankaState).");
   }
 }
 
@@ -289,7 +295,7 @@ void ArmServices::recoverUnit() {
           "The user stop is pressed: release it (service franka_control/set_user_stop) before "
           "recovering.");
     }
-    if (arm_.recover() != franka_sim::RequestStatus::kSuccess) {
+    if (!arm_.recover()) {
       throw std::runtime_error(
           "The arm cannot recover by itself: it stands beyond a joint limit or is led by hand. Put "
           "it elsewhere (service set_franka_model_configuration).");

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/lowpass_filter.h>
-#include <franka_core/error_names.h>
+#include <franka_core/robot_error.h>
 #include <franka_core/transform.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
@@ -86,14 +86,16 @@ void warnOfGains(const ros::NodeHandle& node, const std::string& arm_id) {
 /// In parentheses, where there is something to say beyond the error's name.
 std::string detailOf(const SimArm::Abort& abort, std::size_t error) {
   std::string detail;
-  if (error == franka_sim::indexOf(franka_sim::ErrorFlag::kJointReflex) &&
+  if (error == franka_core::indexOf(franka_core::RobotError::kJointReflex) &&
       abort.joint_collision.happened) {
     detail = franka_sim::describeJointCollision(abort.joint_collision);
-  } else if (error == franka_sim::indexOf(franka_sim::ErrorFlag::kCartesianReflex) &&
+  } else if (error == franka_core::indexOf(franka_core::RobotError::kCartesianReflex) &&
              abort.cartesian_collision.happened) {
     detail = franka_sim::describeCartesianCollision(abort.cartesian_collision,
-                                                    franka_sim::ThresholdFrame::kStiffness);
-  } else if (error == franka_sim::indexOf(franka_sim::MotionFlag::kInvalidFrame)) {
+                                                    franka_sim::InterfaceRules::kRosControl);
+  } else if (error ==
+             franka_core::indexOf(
+                 franka_core::RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag)) {
     detail = "of the commanded pose " + franka_core::transformFault(abort.pose);
   }
   return detail.empty() ? "" : " (" + detail + ")";
@@ -142,15 +144,17 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
                         gravityInBase(world, arm_id_ + "_link0"));
   parameters.protocol_version = franka_sim::fci::protocolsOf(robot.robot_type).newest;
   parameters.has_hand = has_hand;
-  parameters.setters_in_motion = true;
-  parameters.reflexes = readBool(node, "reflexes").value_or(false);
+  parameters.rules = readBool(node, "reflexes").value_or(false)
+                         ? franka_sim::InterfaceRules::kRosControlWithReflexes
+                         : franka_sim::InterfaceRules::kRosControl;
   parameters.substeps = franka_sim::World::kSubsteps;
   parameters.rotor_inertia = robot.arm_physics.rotor_inertia;
   parameters.coulomb_friction = robot.arm_physics.coulomb_friction;
   parameters.viscous_friction = robot.arm_physics.damping;
   arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_),
-                                  readOptions(node, parameters.reflexes));
-  arm_->unit().setJointImpedance(readJointStiffness(node, arm_id_, parameters.joint_stiffness));
+                                  readOptions(node, hasReflexes(parameters.rules)));
+  arm_->unit().request(franka_core::fci::SetJointImpedanceRequest{
+      readJointStiffness(node, arm_id_, parameters.joint_stiffness)});
   warnOfGains(node, arm_id_);
   hand_ = has_hand ? &world.hand(robot.name, arm_id_) : nullptr;
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/error_names.h>
+#include <franka_core/robot_error.h>
 #include <franka_msgs/SetLoad.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
@@ -35,7 +35,8 @@ franka_sim::ControlUnitParameters unitParameters(const RobotPlan& plan, franka_s
   parameters.rotor_inertia = plan.arm_physics.rotor_inertia;
   parameters.coulomb_friction = plan.arm_physics.coulomb_friction;
   parameters.viscous_friction = plan.arm_physics.damping;
-  franka_sim::behaveAsOverFci(parameters, franka_sim::fci::protocolsOf(plan.robot_type).newest);
+  parameters.rules = franka_sim::InterfaceRules::kFci;
+  parameters.protocol_version = franka_sim::fci::protocolsOf(plan.robot_type).newest;
   return parameters;
 }
 
@@ -100,20 +101,18 @@ void ServedRobot::offer(
   });
 }
 
-void ServedRobot::offerSwitch(const std::string& name,
-                              void (franka_sim::ControlUnit::*turn)(bool)) {
-  offer<std_srvs::SetBool>(name, [this, turn](auto& request, auto& /*response*/) {
-    (robot_.unit().*turn)(request.data != 0);
+template <typename Switch>
+void ServedRobot::offerSwitch(const std::string& name) {
+  offer<std_srvs::SetBool>(name, [this](auto& request, auto& /*response*/) {
+    robot_.unit().request(Switch{request.data != 0});
   });
 }
 
 void ServedRobot::offerSwitches() {
-  offerSwitch("set_user_stop", &franka_sim::ControlUnit::setUserStop);
-  offerSwitch("set_guiding", &franka_sim::ControlUnit::setGuiding);
-  offerSwitch("set_fci", &franka_sim::ControlUnit::setFciActive);
-  offer<std_srvs::SetBool>("set_brakes", [this](auto& request, auto& /*response*/) {
-    request.data != 0 ? robot_.unit().closeBrakes() : robot_.unit().openBrakes();
-  });
+  offerSwitch<franka_sim::UserStop>("set_user_stop");
+  offerSwitch<franka_sim::Guiding>("set_guiding");
+  offerSwitch<franka_sim::FciActivation>("set_fci");
+  offerSwitch<franka_sim::Brakes>("set_brakes");
 }
 
 void ServedRobot::offerLink() {

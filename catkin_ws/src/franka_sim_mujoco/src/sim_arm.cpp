@@ -57,7 +57,7 @@ MotionGeneratorMode generatorOf(ControlMode mode) noexcept {
 SimArm::SimArm(const franka_sim::ControlUnitParameters& parameters, franka_sim::ArmPlant& plant,
                const SimArmOptions& options)
     : unit_(parameters), plant_(plant), options_(options) {
-  unit_.setUserStop(false);
+  unit_.request(franka_sim::UserStop{false});
 }
 
 // --- a tick --------------------------------------------------------------------------------------
@@ -88,10 +88,10 @@ void SimArm::show() noexcept {
 
 // The manual's formulas are for the values that are shown; reflexes have a rule of their own.
 void SimArm::showContacts() noexcept {
-  if (unit_.parameters().reflexes) {
+  if (hasReflexes(unit_.configuration().rules)) {
     return;
   }
-  const franka_sim::CollisionThresholds& thresholds = unit_.thresholds();
+  const franka_sim::CollisionThresholds thresholds = unit_.status().thresholds;
   state_.joint_contact = franka_sim::above(state_.tau_ext_hat_filtered, thresholds.lower_torque);
   state_.joint_collision = franka_sim::above(state_.tau_ext_hat_filtered, thresholds.upper_torque);
   state_.cartesian_contact = franka_sim::above(state_.K_F_ext_hat_K, thresholds.lower_force);
@@ -109,7 +109,7 @@ void SimArm::filter() noexcept {
 
 void SimArm::write() noexcept {
   const std::array<double, 7>& motor_torque = unit_.actuate(command());
-  plant_.setBrakes(unit_.brakesClosed());
+  plant_.setBrakes(unit_.status().brakes_closed);
   plant_.applyTorques(motor_torque);
 }
 
@@ -131,8 +131,8 @@ void SimArm::watch() noexcept {
   if (faulty && !faulty_.load(std::memory_order_relaxed)) {
     ++last_abort_.count;
     last_abort_.errors = unit_.state().errors;
-    last_abort_.joint_collision = unit_.jointCollision();
-    last_abort_.cartesian_collision = unit_.cartesianCollision();
+    last_abort_.joint_collision = unit_.status().joint_collision;
+    last_abort_.cartesian_collision = unit_.status().cartesian_collision;
     last_abort_.pose = command_.O_T_EE_c;
     abort_.write(last_abort_);
   }
@@ -150,7 +150,7 @@ bool SimArm::canConnect() const noexcept {
 }
 
 void SimArm::control(ControlMode mode, ControlMode without) noexcept {
-  unit_.stopMotion();
+  stopMotion();
   mode_ = mode;
   fallback_ = without;
   needs_recovery_ = needs_recovery_ && (userStopped() || mode == ControlMode::None);
@@ -160,7 +160,7 @@ void SimArm::control(ControlMode mode, ControlMode without) noexcept {
 void SimArm::controlRestarts() noexcept {
   if (mode_ != ControlMode::None && !needs_recovery_ &&
       (unit_.state().robot_mode != RobotMode::kMove || generates())) {
-    unit_.stopMotion();
+    stopMotion();
     connect();
   }
 }
@@ -179,12 +179,12 @@ void SimArm::tryToStart() noexcept {
     switch_ = Switch::kDone;
     return;
   }
-  franka_sim::ControlUnit::MoveRequest request;
+  franka_core::fci::MoveRequest request;
   request.motion_generator_mode = generatorOf(mode_);
   request.controller_mode = contains(mode_, ControlMode::JointTorque)
                                 ? franka_core::ControllerMode::kExternalController
                                 : options_.internal_controller;
-  if (unit_.startMotion(request) != franka_sim::ControlUnit::Status::kMotionStarted) {
+  if (unit_.request(request) != franka_sim::Status::kMotionStarted) {
     switch_ = Switch::kOngoing;
     if (++ticks_waited_ > kLongestStop) {
       refuse(Refusal::kNotAtRest);
@@ -202,13 +202,15 @@ void SimArm::tryToStart() noexcept {
   show();
 }
 
+void SimArm::stopMotion() noexcept { unit_.request(franka_core::fci::StopMoveRequest{}); }
+
 void SimArm::refuse(Refusal why) noexcept {
   refusal_.store(why, std::memory_order_relaxed);
   switch_ = Switch::kRefused;
   mode_ = fallback_;
   resetCommands();
   if (mode_ == ControlMode::JointTorque) {
-    unit_.startTorqueControl();
+    unit_.request(franka_sim::torqueControl());
   }
 }
 
@@ -226,40 +228,42 @@ void SimArm::setUserStop(bool pressed) noexcept {
   if (pressed == userStopped()) {
     return;
   }
-  unit_.setUserStop(pressed);
+  unit_.request(franka_sim::UserStop{pressed});
   user_stopped_.store(pressed, std::memory_order_relaxed);
   needs_recovery_ = true;
 }
 
-franka_sim::RequestStatus SimArm::recover() noexcept {
+bool SimArm::recover() noexcept {
   if (userStopped()) {
-    return franka_sim::RequestStatus::kNotPossible;
+    return false;
   }
-  const franka_sim::RequestStatus status = unit_.automaticErrorRecovery();
-  if (status == franka_sim::RequestStatus::kSuccess) {
-    needs_recovery_ = false;
+  const std::optional<franka_sim::Status> refusal =
+      unit_.request(franka_core::fci::AutomaticErrorRecoveryRequest{});
+  if (refusal && refusal != franka_sim::Status::kSuccess) {
+    return false;
   }
-  return status;
+  needs_recovery_ = false;
+  return true;
 }
 
 bool SimArm::recovering() const noexcept {
   return unit_.state().robot_mode == RobotMode::kAutomaticErrorRecovery;
 }
 
-franka_sim::RequestStatus SimArm::setConnected(bool connected) noexcept {
+bool SimArm::setConnected(bool connected) noexcept {
   if (!connected && mode_ != ControlMode::None) {
-    return franka_sim::RequestStatus::kNotPossible;
+    return false;
   }
-  unit_.setFciActive(connected);
+  unit_.request(franka_sim::FciActivation{connected});
   connected_.store(connected, std::memory_order_relaxed);
-  return franka_sim::RequestStatus::kSuccess;
+  return true;
 }
 
 void SimArm::worldWasReset() noexcept {
   // The history of a motion ends here; its controllers start anew with the next tick.
   const bool moving = unit_.state().robot_mode == RobotMode::kMove && generates();
   if (moving) {
-    unit_.stopMotion();
+    stopMotion();
   }
   unit_.restart();
   filter_is_fresh_ = true;
@@ -271,7 +275,7 @@ void SimArm::worldWasReset() noexcept {
 }
 
 void SimArm::jointsWerePlaced() noexcept {
-  unit_.stopMotion();
+  stopMotion();
   switch_ = Switch::kDone;
   worldWasReset();
 }

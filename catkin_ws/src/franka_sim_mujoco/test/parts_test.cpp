@@ -564,7 +564,8 @@ TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
   for (const bool reflexes : {false, true}) {
     for (const bool limited : {false, true}) {
       for (const double cutoff : {100.0, 1000.0}) {
-        parameters.reflexes = reflexes;
+        parameters.rules = reflexes ? franka_sim::InterfaceRules::kRosControlWithReflexes
+                                    : franka_sim::InterfaceRules::kRosControl;
         ShapingOptions shaping;
         shaping.rate_limiting = limited;
         shaping.cutoff_frequency = cutoff;
@@ -580,9 +581,10 @@ TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
           EXPECT_EQ(dusty.accepted, runs) << dusty << ", reflexes " << reflexes << ", limited "
                                           << limited << ", cutoff " << cutoff;
           EXPECT_EQ(dusty.accepted ? 0u : 1u, controlled.arm.lastAbort().count) << dusty;
-          EXPECT_EQ(!dusty.accepted,
-                    controlled.arm.lastAbort()
-                        .errors[franka_sim::indexOf(franka_sim::MotionFlag::kInvalidFrame)]);
+          EXPECT_EQ(
+              !dusty.accepted,
+              controlled.arm.lastAbort().errors[franka_core::indexOf(
+                  franka_core::RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag)]);
         }
       }
     }

@@ -4,8 +4,8 @@
 
 #include <franka/errors.h>
 #include <franka_core/diagnose_log.h>
-#include <franka_core/error_names.h>
 #include <franka_core/limits.h>
+#include <franka_core/robot_error.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

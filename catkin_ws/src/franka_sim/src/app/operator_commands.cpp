@@ -4,6 +4,7 @@
 
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/sizes.h>
+#include <franka_sim/robot/virtual_walls.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -35,8 +36,8 @@ std::array<double, 3> toVector(const Words& words, std::size_t first) {
   return {toNumber(words.at(first)), toNumber(words.at(first + 1)), toNumber(words.at(first + 2))};
 }
 
-void require(RequestStatus status, const std::string& sentence) {
-  if (status != RequestStatus::kSuccess) {
+void require(std::optional<Status> status, const std::string& sentence) {
+  if (status != Status::kSuccess) {
     throw std::invalid_argument(sentence);
   }
 }
@@ -44,12 +45,12 @@ void require(RequestStatus status, const std::string& sentence) {
 void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   constexpr std::uint64_t kReaction = 500;  // [ticks] in lock-step, for the arm to react
   lines.add("user_stop on|off", [&](const Words& words) {
-    robot.unit().setUserStop(toSwitch(words.at(0)));
+    robot.unit().request(UserStop{toSwitch(words.at(0))});
     host.letRun(kReaction);
     return "";
   });
   lines.add("guiding on|off", [&](const Words& words) {
-    robot.unit().setGuiding(toSwitch(words.at(0)));
+    robot.unit().request(Guiding{toSwitch(words.at(0))});
     host.letRun(kReaction);
     return "";
   });
@@ -58,12 +59,12 @@ void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
     if (what != "open" && what != "close") {
       throw std::invalid_argument("'" + what + "' is neither open nor close.");
     }
-    what == "open" ? robot.unit().openBrakes() : robot.unit().closeBrakes();
+    robot.unit().request(Brakes{what == "close"});
     host.letRun(kReaction);
     return "";
   });
   lines.add("fci on|off", [&](const Words& words) {
-    robot.unit().setFciActive(toSwitch(words.at(0)));
+    robot.unit().request(FciActivation{toSwitch(words.at(0))});
     robot.serve(true);  // the port opens or closes before the answer goes
     return "";
   });
@@ -161,7 +162,7 @@ void addWalls(LineServer& lines, fci::SimRobot& robot) {
     if (!(number >= 0.0 && number < VirtualWalls::kCount) || number != std::floor(number)) {
       throw std::invalid_argument("'" + words.at(0) + "' is no number of a wall: 0 to 7.");
     }
-    require(robot.unit().setVirtualWall(static_cast<std::int32_t>(number), toWall(words)),
+    require(robot.unit().request(SetVirtualWall{static_cast<std::int32_t>(number), toWall(words)}),
             "The wall was refused: it has a negative edge, or the robot moves.");
     return "";
   });

@@ -92,7 +92,8 @@ ControlUnitParameters unitParameters(const ArmOptions& options, const std::strin
     parameters.F_T_NE = kHandF_T_NE;
   }
   parameters.has_hand = hand;
-  behaveAsOverFci(parameters, protocolsOf(options).newest);
+  parameters.rules = InterfaceRules::kFci;
+  parameters.protocol_version = protocolsOf(options).newest;
   return parameters;
 }
 

@@ -229,14 +229,14 @@ bool RobotServer::replyWithWall(const Pending& to, std::int32_t id) {
 }
 
 void RobotServer::collectEnds() noexcept {
-  const auto collect = [](std::optional<Status>& where, std::optional<Status> what) {
-    if (what) {
-      where = what;
+  const auto collect = [this](std::optional<Status>& status, PendingAnswer which) {
+    if (const std::optional<Status> answer = handler_.takeAnswer(which)) {
+      status = answer;
     }
   };
-  collect(motion_end_, handler_.motionEnd());
-  collect(stop_end_, handler_.stopEnd());
-  collect(recovery_end_, handler_.recoveryEnd());
+  collect(motion_end_, PendingAnswer::kMotion);
+  collect(stop_end_, PendingAnswer::kStop);
+  collect(recovery_end_, PendingAnswer::kRecovery);
 }
 
 void RobotServer::replyTo(std::optional<Pending>& pending, std::optional<Status>& status) {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/error_names.h>
 #include <franka_core/fci/texts.h>
+#include <franka_core/robot_error.h>
 #include <franka_sim/fci/served_models.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/robot/parameter_checks.h>
@@ -10,6 +10,8 @@
 #include <stdexcept>
 
 namespace franka_sim::fci {
+
+using franka_core::RobotError;
 
 namespace {
 
@@ -31,14 +33,15 @@ std::string toText(const std::array<double, 7>& values) {
 }
 
 std::string detailOf(const ControlUnit& unit, std::size_t error) {
-  if (error == indexOf(ErrorFlag::kSelfCollision)) {
-    return linksOf(unit.selfCollisionPair());
+  const UnitStatus status = unit.status();
+  if (error == indexOf(RobotError::kSelfCollisionAvoidanceViolation)) {
+    return linksOf(status.self_collision);
   }
-  if (error == indexOf(ErrorFlag::kJointReflex) && unit.jointCollision().happened) {
-    return describeJointCollision(unit.jointCollision());
+  if (error == indexOf(RobotError::kJointReflex) && status.joint_collision.happened) {
+    return describeJointCollision(status.joint_collision);
   }
-  if (error == indexOf(ErrorFlag::kCartesianReflex) && unit.cartesianCollision().happened) {
-    return describeCartesianCollision(unit.cartesianCollision(), unit.parameters().threshold_frame);
+  if (error == indexOf(RobotError::kCartesianReflex) && status.cartesian_collision.happened) {
+    return describeCartesianCollision(status.cartesian_collision, unit.configuration().rules);
   }
   return "";
 }
@@ -85,20 +88,20 @@ std::string linksOf(const SelfCollision::Pair& pair) {
 }
 
 void setLoad(SimRobot& robot, const franka_core::Payload& load) {
-  switch (robot.unit().setLoad(load)) {
-    case RequestStatus::kSuccess:
-      return;
-    case RequestStatus::kInvalidArgument:
-      throw std::runtime_error("The load was refused. " + payloadFault(load));
-    case RequestStatus::kNotPossible:
-      throw std::runtime_error("The load was refused: a motion runs. End it, then set the load.");
+  const std::optional<Status> status = robot.unit().request(loadRequest(load));
+  if (status == Status::kInvalidArgumentRejected) {
+    throw std::runtime_error("The load was refused. " + payloadFault(load));
+  }
+  if (status != Status::kSuccess) {
+    throw std::runtime_error("The load was refused: a motion runs. End it, then set the load.");
   }
 }
 
-std::string collisionOf(const ControlUnit& unit, ErrorFlag error) {
+std::string collisionOf(const ControlUnit& unit, RobotError error) {
   const std::string detail = detailOf(unit, indexOf(error));
-  return error == ErrorFlag::kSelfCollision ? "its " + detail + " came too close to each other"
-                                            : "it met something, " + detail;
+  return error == RobotError::kSelfCollisionAvoidanceViolation
+             ? "its " + detail + " came too close to each other"
+             : "it met something, " + detail;
 }
 
 std::array<double, 7> restingNear(const std::array<double, 7>& q,

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/error_names.h>
+#include <franka_core/robot_error.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/fci/sim_robot.h>
 #include <franka_sim/robot/tick.h>
@@ -11,6 +11,8 @@
 #include <utility>
 
 namespace franka_sim::fci {
+
+using franka_core::RobotError;
 
 namespace {
 
@@ -37,14 +39,14 @@ SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServer
 }
 
 void SimRobot::halt() noexcept {
-  halted_ = !unit_.brakesClosed();
-  unit_.closeBrakes();
+  halted_ = !unit_.status().brakes_closed;
+  unit_.request(Brakes{true});
 }
 
 void SimRobot::restart() noexcept {
   unit_.restart();
   if (std::exchange(halted_, false)) {
-    unit_.openBrakes();
+    unit_.request(Brakes{false});
   }
   link_.restart();
   if (hand_) {
@@ -58,8 +60,9 @@ void SimRobot::restart() noexcept {
 }
 
 void SimRobot::observe() {
-  constexpr std::array<ErrorFlag, 3> kCollisions{ErrorFlag::kSelfCollision, ErrorFlag::kJointReflex,
-                                                 ErrorFlag::kCartesianReflex};
+  constexpr std::array<RobotError, 3> kCollisions{RobotError::kSelfCollisionAvoidanceViolation,
+                                                  RobotError::kJointReflex,
+                                                  RobotError::kCartesianReflex};
   std::array<bool, kCollisions.size()> before{};
   for (std::size_t i = 0; i < before.size(); i++) {
     before[i] = unit_.state().errors[indexOf(kCollisions[i])];
@@ -87,7 +90,7 @@ void SimRobot::actuate() {
     updateHash();
   }
   const std::array<double, 7>& torque = unit_.actuate(command);
-  arm_.setBrakes(unit_.brakesClosed());
+  arm_.setBrakes(unit_.status().brakes_closed);
   arm_.applyTorques(torque);
   if (hand_) {
     hand_->plant.applyForces(hand_->unit.step(hand_->plant.measure(), kTick));
@@ -170,7 +173,7 @@ bool SimRobot::settling() const {
   }
   const bool abandoned =
       state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
-  return unit_.settling() || abandoned ||
+  return unit_.status().settling || abandoned ||
          std::any_of(state.dq.begin(), state.dq.end(),
                      [](double v) { return std::abs(v) > kRest; });
 }

@@ -47,10 +47,10 @@ std::string describeJointCollision(const Collision& collision) {
   return "joint " + std::to_string(collision.index + 1) + ": " + against(collision, "torque", "Nm");
 }
 
-std::string describeCartesianCollision(const Collision& collision, ThresholdFrame frame) {
+std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules) {
   static constexpr const char* kAxes[] = {"x", "y", "z"};
-  const std::string axis = std::string(kAxes[collision.index % 3]) +
-                           (frame == ThresholdFrame::kBase ? " of O" : " of K");
+  const std::string axis =
+      std::string(kAxes[collision.index % 3]) + (judgesWrenchInBase(rules) ? " of O" : " of K");
   return collision.index < 3 ? "along " + axis + ": " + against(collision, "force", "N")
                              : "about " + axis + ": " + against(collision, "torque", "Nm");
 }

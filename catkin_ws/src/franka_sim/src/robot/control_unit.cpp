@@ -1,268 +1,136 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The first half of a tick: from a measurement to a state, and what is wrong with it.
+#include <franka_sim/robot/control_laws.h>
 #include <franka_sim/robot/control_unit.h>
-#include <franka_sim/robot/deviation.h>
-#include <franka_sim/robot/elbow.h>
-#include <franka_sim/robot/link_accelerometers.h>
-#include <franka_sim/robot/measured_limits.h>
-#include <franka_sim/robot/parameter_checks.h>
-#include <franka_sim/robot/tick.h>
-#include <franka_sim/robot/transforms.h>
+#include <franka_sim/robot/motion_supervisor.h>
+#include <franka_sim/robot/state_estimator.h>
 
-#include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
+#include <type_traits>
 
 namespace franka_sim {
 
-using franka_core::ArmFrame;
-using franka_core::MotionGeneratorMode;
-using franka_core::RobotMode;
+namespace codec = franka_core::fci;
 
 namespace {
 
-constexpr double kJointElasticity = 14250.0;  // [Nm/rad] (decision 2)
+/// The setters that change frames or loads, from which the desired pose is computed.
+template <typename Setter>
+constexpr bool kChangesFrames =
+    std::is_same_v<Setter, codec::SetNEToEERequest> ||
+    std::is_same_v<Setter, codec::SetEEToKRequest> || std::is_same_v<Setter, codec::SetLoadRequest>;
 
-const ControlUnitParameters& checked(const ControlUnitParameters& parameters) {
-  checkParameters(parameters);
-  return parameters;
-}
-
-bool isFinite(const ArmMeasurement& m) noexcept {
-  for (std::size_t i = 0; i < 7; i++) {
-    if (!std::isfinite(m.q[i]) || !std::isfinite(m.dq[i]) || !std::isfinite(m.tau_J[i])) {
-      return false;
-    }
-  }
-  return true;
-}
-
-ArmMeasurement restingAt(const std::array<double, 7>& q) noexcept {
-  ArmMeasurement measurement;
-  measurement.q = q;
-  return measurement;
-}
-
-std::array<double, 6> twist(const std::array<double, 42>& jacobian,
-                            const std::array<double, 7>& dq) noexcept {
-  std::array<double, 6> result;
-  Eigen::Map<Eigen::Matrix<double, 6, 1>>(result.data()) =
-      Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data())
-          .lazyProduct(Eigen::Map<const Eigen::Matrix<double, 7, 1>>(dq.data()));
-  return result;
-}
-
-bool any(const std::array<double, 7>& values) noexcept {
-  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
-}
-
-bool any(const std::array<double, 6>& values) noexcept {
-  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
-}
+/// The setters that Configuration takes.
+template <typename Setter>
+constexpr bool kConfigures =
+    kChangesFrames<Setter> || std::is_same_v<Setter, codec::SetCollisionBehaviorRequest> ||
+    std::is_same_v<Setter, codec::SetJointImpedanceRequest> ||
+    std::is_same_v<Setter, codec::SetCartesianImpedanceRequest>;
 
 }  // namespace
 
+// The parts refer to each other, so they stay where they are made.
+struct ControlUnit::Parts {
+  explicit Parts(const ControlUnitParameters& parameters)
+      : configuration(parameters),
+        estimator(configuration, state),
+        supervisor(configuration, estimator, state),
+        laws(configuration) {
+    configuration.show(state);
+  }
+
+  template <typename Request>
+  std::optional<Status> handle(const Request& request) noexcept {
+    if constexpr (kConfigures<Request>) {
+      return configure(request);
+    } else {
+      return supervisor.handle(request);
+    }
+  }
+
+  std::optional<Status> handle(const SetProtocolVersion& request) noexcept {
+    if (supervisor.isMoving()) {
+      return Status::kCommandNotPossibleRejected;
+    }
+    const Status status = configuration.apply(request);
+    supervisor.limitsChange();
+    return status;
+  }
+
+  template <typename Setter>
+  Status configure(const Setter& setter) noexcept {
+    // A generator's motion is computed for the end effector that it began with.
+    const bool fixed = std::is_same_v<Setter, codec::SetNEToEERequest> && supervisor.isMoving() &&
+                       supervisor.generates();
+    if (fixed || !supervisor.acceptsSetters()) {
+      return Status::kCommandNotPossibleRejected;
+    }
+    const Status status = configuration.apply(setter);
+    if (kChangesFrames<Setter> && status == Status::kSuccess) {
+      configuration.show(state);
+      supervisor.framesChange();
+    }
+    return status;
+  }
+
+  Configuration configuration;
+  franka_core::RobotState state;
+  StateEstimator estimator;
+  MotionSupervisor supervisor;
+  ControlLaws laws;
+};
+
 ControlUnit::ControlUnit(const ControlUnitParameters& parameters)
-    : parameters_(checked(parameters)),
-      external_torque_(parameters.substeps),
-      self_collision_(parameters.has_hand),
-      generator_(motionLimitsOfProtocol(parameters.protocol_version)),
-      torque_command_(parameters.max_torque),
-      hold_(parameters.joint_stiffness, parameters.rotor_inertia),
-      joint_controller_(parameters.joint_stiffness, parameters.rotor_inertia) {
-  showConfiguration();
-  showModes();
-}
+    : parts_(std::make_unique<Parts>(parameters)) {}
+ControlUnit::~ControlUnit() = default;
+ControlUnit::ControlUnit(ControlUnit&& other) noexcept = default;
+ControlUnit& ControlUnit::operator=(ControlUnit&& other) noexcept = default;
 
 const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measurement) noexcept {
-  const bool good = isFinite(measurement);
-  const bool measured = good && continuous_;
-  const bool first = !started_;
-  continuous_ = good;
-  started_ = true;
-  const ArmMeasurement now = good ? measurement : restingAt(state_.q);
-  const std::array<double, 7> dq_before = measured ? state_.dq : now.dq;
-
-  state_.message_id++;
-  state_.q = now.q;
-  state_.dq = now.dq;
-  parameters_.model.computeDynamics(ArmFrame::kEndEffector, now.q, now.dq, state_.F_T_EE,
-                                    state_.EE_T_K, total_, parameters_.gravity, dynamics_);
-  state_.O_T_EE = dynamics_.pose;
-  state_.elbow = elbowOf(now.q);
-  O_dP_EE_ = twist(dynamics_.zero_jacobian, now.dq);
-  if (first) {
-    state_.tau_J = dynamics_.gravity;
-    beginHere();
-  } else if (mode() == RobotMode::kGuiding) {
-    holdHere();
-  }
-  observeTorques(now, measured);
-  observeContacts();
-  observeAccelerometers(dq_before);
-  observeDesired();
-  if (parameters_.reflexes && measured) {
-    checkMeasurement();
-  }
-  state_.control_command_success_rate = losses_.rate();
-  return state_;
+  parts_->estimator.update(measurement, parts_->supervisor.beginTick());
+  parts_->supervisor.judge(parts_->laws.motorTorques());
+  return parts_->state;
 }
 
-// What a mode remembers of the pose in which it began belongs to this pose now.
-void ControlUnit::beginHere() noexcept {
-  holdHere();
-  guiding_pose_ = state_.O_T_EE;
-  guiding_q_ = state_.q;
-  if (mode() == RobotMode::kMove) {
-    self_collision_.begin(parameters_.model, state_.q);
-    walls_.begin(state_.O_T_EE);
+const std::array<double, 7>& ControlUnit::actuate(
+    const franka_core::RobotCommand* command) noexcept {
+  parts_->supervisor.advance(command);
+  const ControlTask task = parts_->supervisor.takeTask();
+  if (parts_->supervisor.brakesClosed() || !parts_->estimator.started()) {
+    return parts_->laws.rest();
   }
+  const std::array<double, 7>& torques =
+      parts_->laws.torques(task, parts_->state, parts_->estimator.estimate().dynamics);
+  parts_->state.tau_J_d =
+      parts_->supervisor.isMoving() ? parts_->laws.law() : std::array<double, 7>{};
+  return torques;
 }
 
-void ControlUnit::observeTorques(const ArmMeasurement& measurement, bool measured) noexcept {
-  const std::array<double, 7>& tau_J = measured ? measurement.tau_J : dynamics_.gravity;
-  std::array<double, 7> difference;
-  for (std::size_t i = 0; i < 7; i++) {
-    difference[i] = (tau_J[i] - state_.tau_J[i]) / kTick;
-  }
-  state_.tau_J = tau_J;
-  state_.dtau_J = dtau_J_filter_.update(difference);
-  for (std::size_t i = 0; i < 7; i++) {
-    state_.theta[i] = state_.q[i] + state_.tau_J[i] / kJointElasticity;
-    state_.dtheta[i] = state_.dq[i] + state_.dtau_J[i] / kJointElasticity;
-  }
-  if (measured) {
-    tau_ext_ = external_torque_.update(parameters_.model, total_, parameters_.gravity, measurement);
-  } else {
-    tau_ext_.fill(0.0);
-    external_torque_.restart(measurement);
-  }
-  state_.tau_ext_hat_filtered = tau_ext_filter_.update(tau_ext_);
+const franka_core::RobotState& ControlUnit::state() const noexcept { return parts_->state; }
+
+std::optional<Status> ControlUnit::request(const UnitRequest& request) noexcept {
+  return std::visit([this](const auto& what) { return parts_->handle(what); }, request);
 }
 
-void ControlUnit::observeContacts() noexcept {
-  external_wrench_.update(dynamics_.pose, dynamics_.zero_jacobian, state_.EE_T_K);
-  state_.O_F_ext_hat_K = external_wrench_.inBase(state_.tau_ext_hat_filtered);
-  state_.K_F_ext_hat_K = external_wrench_.inStiffness(state_.O_F_ext_hat_K);
-
-  in_acceleration_ = phase_.update(accelerating_);
-  const bool in_K = parameters_.threshold_frame == ThresholdFrame::kStiffness;
-  if (!parameters_.reflexes) {
-    // Without reflexes: the manual's formulas, applied to the published values (decision 48).
-    const std::array<double, 6>& shown = in_K ? state_.K_F_ext_hat_K : state_.O_F_ext_hat_K;
-    state_.joint_contact = above(state_.tau_ext_hat_filtered, thresholds().lower_torque);
-    state_.joint_collision = above(state_.tau_ext_hat_filtered, thresholds().upper_torque);
-    state_.cartesian_contact = above(shown, thresholds().lower_force);
-    state_.cartesian_collision = above(shown, thresholds().upper_force);
-    return;
-  }
-  // The robot's reflexes use the unfiltered values, which have no delay.
-  wrench_ = external_wrench_.inBase(tau_ext_);
-  if (in_K) {
-    wrench_ = external_wrench_.inStiffness(wrench_);
-  }
-  joint_contacts_.update(tau_ext_, thresholds().lower_torque, thresholds().upper_torque);
-  cartesian_contacts_.update(wrench_, thresholds().lower_force, thresholds().upper_force);
-  state_.joint_contact = joint_contacts_.contact();
-  state_.joint_collision = joint_contacts_.collision();
-  state_.cartesian_contact = cartesian_contacts_.contact();
-  state_.cartesian_collision = cartesian_contacts_.collision();
+std::optional<Status> ControlUnit::takeAnswer(PendingAnswer which) noexcept {
+  return parts_->supervisor.take(which);
 }
 
-void ControlUnit::observeAccelerometers(const std::array<double, 7>& dq_before) noexcept {
-  std::array<double, 7> ddq;
-  for (std::size_t i = 0; i < 7; i++) {
-    ddq[i] = (state_.dq[i] - dq_before[i]) / kTick;
-  }
-  const LinkAccelerations readings =
-      linkAccelerations(parameters_.model, state_.q, state_.dq, ddq, parameters_.gravity);
-  state_.accelerometer_top = readings.top;
-  state_.accelerometer_bottom = readings.bottom;
+void ControlUnit::restart() noexcept {
+  parts_->supervisor.restart();
+  parts_->estimator.restart();
+  parts_->laws.restart();
 }
 
-// While no generator shows them: at rest or braking.
-void ControlUnit::observeDesired() noexcept {
-  if (!desired_stale_) {
-    return;
-  }
-  desired_stale_ = false;
-  state_.O_T_EE_d =
-      parameters_.model.pose(ArmFrame::kEndEffector, state_.q_d, state_.F_T_EE, state_.EE_T_K);
-  state_.O_T_EE_c = state_.O_T_EE_d;
-  state_.O_dP_EE_d.fill(0.0);
-  if (any(state_.dq_d)) {
-    state_.O_dP_EE_d = twist(parameters_.model.zeroJacobian(ArmFrame::kEndEffector, state_.q_d,
-                                                            state_.F_T_EE, state_.EE_T_K),
-                             state_.dq_d);
-  }
-  state_.O_dP_EE_c = state_.O_dP_EE_d;
-  state_.O_ddP_EE_c.fill(0.0);
-  state_.elbow_d = elbowOf(state_.q_d);
-  state_.elbow_c = state_.elbow_d;
-  state_.delbow_c = {{state_.dq_d[2], 0.0}};
-  state_.ddelbow_c = {{state_.ddq_d[2], 0.0}};
+UnitStatus ControlUnit::status() const noexcept { return parts_->supervisor.status(); }
+
+const ControlUnitParameters& ControlUnit::configuration() const noexcept {
+  return parts_->configuration.parameters();
 }
 
-// --- what is wrong -------------------------------------------------------------------------------
+const MotionLimits& ControlUnit::limits() const noexcept { return parts_->supervisor.limits(); }
 
-void ControlUnit::checkMeasurement() noexcept {
-  if (mode() != RobotMode::kIdle && mode() != RobotMode::kMove) {
-    return;
-  }
-  const std::optional<ErrorFlag> violation =
-      measuredViolation(generator_.limits().arm, state_, O_dP_EE_);
-  if (violation) {
-    flag(indexOf(*violation));
-  }
-  checkContacts();
-  if (mode() == RobotMode::kMove) {
-    checkMotion();
-  }
-  react();
-}
-
-void ControlUnit::checkContacts() noexcept {
-  if (any(state_.joint_collision)) {
-    joint_collision_ = worstOf(tau_ext_, thresholds().upper_torque);
-    flag(indexOf(ErrorFlag::kJointReflex));
-  }
-  if (any(state_.cartesian_collision)) {
-    cartesian_collision_ = worstOf(wrench_, thresholds().upper_force);
-    flag(indexOf(ErrorFlag::kCartesianReflex));
-  }
-}
-
-void ControlUnit::checkMotion() noexcept {
-  // Torques from outside bring the arm wherever they like, whatever a generator beside them wants.
-  const bool generated = generates() && !controlledOutside();
-  if (self_collision_.violated(parameters_.model, generated ? state_.q_d : state_.q)) {
-    flag(indexOf(ErrorFlag::kSelfCollision));
-  }
-  if (walls_.violated(state_.O_T_EE)) {
-    flag(indexOf(ErrorFlag::kVirtualWall));
-  }
-  if (controlledOutside()) {
-    const std::optional<ErrorFlag> fault =
-        force_watch_.update(tau_ext_, state_.tau_J, motor_torque_, parameters_.max_torque);
-    if (fault) {
-      flag(indexOf(*fault));
-    }
-    return;
-  }
-  if (deviates(state_, move_.max_path_deviation)) {
-    flag(indexOf(ErrorFlag::kPathDeviation));
-  }
-  const bool cartesian = move_.motion_generator_mode == MotionGeneratorMode::kCartesianPosition ||
-                         move_.motion_generator_mode == MotionGeneratorMode::kCartesianVelocity;
-  // No rule is published; ours: the hand moves against its profile, by more than the speed limit.
-  const double difference =
-      std::hypot(O_dP_EE_[0] - state_.O_dP_EE_d[0], O_dP_EE_[1] - state_.O_dP_EE_d[1],
-                 O_dP_EE_[2] - state_.O_dP_EE_d[2]);
-  if (cartesian && difference > generator_.limits().arm.translation.velocity) {
-    flag(indexOf(ErrorFlag::kVelocityProfile));
-  }
+const codec::CartesianLimit* ControlUnit::virtualWall(std::int32_t id) const noexcept {
+  return parts_->supervisor.walls().get(id);
 }
 
 }  // namespace franka_sim

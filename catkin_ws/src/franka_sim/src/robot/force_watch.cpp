@@ -7,6 +7,8 @@
 
 namespace franka_sim {
 
+using franka_core::RobotError;
+
 namespace {
 
 // Chosen here: see ForceWatch. No rule is published.
@@ -15,20 +17,20 @@ constexpr int kPatience = 100;       // [ticks]
 
 }  // namespace
 
-std::optional<ErrorFlag> ForceWatch::update(const std::array<double, 7>& tau_ext,
-                                            const std::array<double, 7>& achieved,
-                                            const std::array<double, 7>& desired,
-                                            const std::array<double, 7>& range) noexcept {
+std::optional<RobotError> ForceWatch::update(const std::array<double, 7>& tau_ext,
+                                             const std::array<double, 7>& achieved,
+                                             const std::array<double, 7>& desired,
+                                             const std::array<double, 7>& range) noexcept {
   bool misses = false;
   for (std::size_t i = 0; i < 7; i++) {
     if (std::abs(tau_ext[i]) > range[i]) {
-      return ErrorFlag::kForceControlSafety;
+      return RobotError::kForceControlSafetyViolation;
     }
     misses = misses || std::abs(achieved[i] - desired[i]) > kTolerance;
   }
   missed_ = misses ? missed_ + 1 : 0;
   if (missed_ >= kPatience) {
-    return ErrorFlag::kForceTolerance;
+    return RobotError::kForceControllerDesiredForceToleranceViolation;
   }
   return std::nullopt;
 }

@@ -7,6 +7,8 @@
 
 namespace franka_sim {
 
+using franka_core::RobotError;
+
 namespace {
 
 constexpr double kPositionMargin = 0.005;  // [rad], chosen here: below the stops' 0.02 (decision 8)
@@ -26,29 +28,29 @@ bool beyondJointLimits(const franka_core::ArmLimits& limits,
   return false;
 }
 
-std::optional<ErrorFlag> measuredViolation(const franka_core::ArmLimits& limits,
-                                           const franka_core::RobotState& state,
-                                           const std::array<double, 6>& O_dP_EE) noexcept {
+std::optional<RobotError> measuredViolation(const franka_core::ArmLimits& limits,
+                                            const franka_core::RobotState& state,
+                                            const std::array<double, 6>& O_dP_EE) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
     if (std::abs(state.tau_J[i]) > kTorqueMargin * limits.tau[i]) {
-      return ErrorFlag::kTorqueRange;
+      return RobotError::kTauJRangeViolation;
     }
   }
   if (beyondJointLimits(limits, state.q)) {
-    return ErrorFlag::kJointPositionLimits;
+    return RobotError::kJointPositionLimitsViolation;
   }
   double power = 0.0;
   for (std::size_t i = 0; i < 7; i++) {
     if (std::abs(state.dq[i]) > kSpeedMargin * limits.dq[i]) {
-      return ErrorFlag::kJointVelocity;
+      return RobotError::kJointVelocityViolation;
     }
     power += std::abs(state.tau_J[i] * state.dq[i]);
   }
   if (std::hypot(O_dP_EE[0], O_dP_EE[1], O_dP_EE[2]) > kSpeedMargin * limits.translation.velocity) {
-    return ErrorFlag::kCartesianVelocity;
+    return RobotError::kCartesianVelocityViolation;
   }
   if (power > kPowerLimit) {
-    return ErrorFlag::kPower;
+    return RobotError::kPowerLimitViolation;
   }
   return std::nullopt;
 }

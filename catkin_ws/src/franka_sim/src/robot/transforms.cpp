@@ -14,6 +14,15 @@ Transform multiply(const Transform& a, const Transform& b) noexcept {
   return product;
 }
 
+std::array<double, 6> twist(const std::array<double, 42>& jacobian,
+                            const std::array<double, 7>& dq) noexcept {
+  std::array<double, 6> result;
+  Eigen::Map<Eigen::Matrix<double, 6, 1>>(result.data()) =
+      Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data())
+          .lazyProduct(Eigen::Map<const Eigen::Matrix<double, 7, 1>>(dq.data()));
+  return result;
+}
+
 bool isTransform(const Transform& matrix) noexcept { return franka_core::isRigidTransform(matrix); }
 
 }  // namespace franka_sim

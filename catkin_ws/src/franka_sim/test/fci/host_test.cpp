@@ -81,7 +81,8 @@ class Stage {
       description.rotor_inertia[joint] = unit.rotor_inertia[i];
     }
     unit.end_effector = franka_core::endEffectorFromUrdf(urdf, "panda");
-    behaveAsOverFci(unit, 5);
+    unit.rules = InterfaceRules::kFci;
+    unit.protocol_version = 5;
     world_.addRobot(description);
     RobotServerParameters server;
     server.port = 0;
@@ -291,7 +292,7 @@ TEST(LockStep, anArmThatCoastsInGuidingKeepsNobodyWaiting) {
   TestClient client(stage.port());
   connect(client);
   stage.between([](SimRobot& robot, World& world, Host& host) {
-    robot.unit().setGuiding(true);
+    robot.unit().request(Guiding{true});
     world.push("panda_link5", {0, 8, 0}, {}, 100);
     host.letRun(100);
   });

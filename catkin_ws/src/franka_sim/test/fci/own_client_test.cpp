@@ -108,7 +108,8 @@ class SimulatedRobots {
       description.rotor_inertia[joint] = unit.rotor_inertia[i];
     }
     unit.end_effector = franka_core::endEffectorFromUrdf(text.str(), name);
-    behaveAsOverFci(unit, place.version);
+    unit.rules = InterfaceRules::kFci;
+    unit.protocol_version = place.version;
     world_.addRobot(description);
     RobotServerParameters server;
     server.port = 0;

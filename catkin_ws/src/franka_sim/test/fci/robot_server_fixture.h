@@ -39,9 +39,17 @@ class FakeRequestHandler final : public ArmRequestHandler {
     wall.object_world_size[0] = 2.0;
     return id == 1 ? std::optional<codec::CartesianLimit>(wall) : std::nullopt;
   }
-  std::optional<Status> motionEnd() noexcept override { return take(motion_end); }
-  std::optional<Status> stopEnd() noexcept override { return take(stop_end); }
-  std::optional<Status> recoveryEnd() noexcept override { return take(recovery_end); }
+  std::optional<Status> takeAnswer(PendingAnswer which) noexcept override {
+    switch (which) {
+      case PendingAnswer::kMotion:
+        return take(motion_end);
+      case PendingAnswer::kStop:
+        return take(stop_end);
+      case PendingAnswer::kRecovery:
+        return take(recovery_end);
+    }
+    return std::nullopt;
+  }
 
   void startMotion() {
     answer = Status::kMotionStarted;

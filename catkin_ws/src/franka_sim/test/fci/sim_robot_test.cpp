@@ -31,7 +31,8 @@ using franka_test::TestClient;
 
 ControlUnitParameters unitOf(unsigned version) {
   ControlUnitParameters parameters = test::pandaWithHand();
-  behaveAsOverFci(parameters, version);
+  parameters.rules = InterfaceRules::kFci;
+  parameters.protocol_version = version;
   return parameters;
 }
 
@@ -128,7 +129,7 @@ TEST_F(Panda, startsAMotionFreeOfWhatADelayedLinkStillCarries) {
     for (int i = 0; i < 2000 && state().robot_mode != RobotMode::kReflex; i++) {
       tick();
     }
-    robot.unit().startErrorRecovery();
+    robot.unit().request(codec::AutomaticErrorRecoveryRequest{});
     for (int i = 0; i < 2000 && state().robot_mode != RobotMode::kIdle; i++) {
       tick();
     }
@@ -222,7 +223,7 @@ TEST_F(SimRobotTest, losesTheSameCommandsAgainAfterARestart) {
       rates.push_back(state().control_command_success_rate);
     }
     EXPECT_EQ(state().robot_mode, RobotMode::kMove);
-    robot.unit().stopMotion();
+    robot.unit().request(codec::StopMoveRequest{});
     leave(client);
     return rates;
   };
@@ -235,7 +236,7 @@ TEST_F(SimRobotTest, losesTheSameCommandsAgainAfterARestart) {
 TEST_F(Panda, SaysOnceWhichLinksCameTooClose) {
   std::vector<std::string> told;
   robot.onCollision([&](const std::string& what) { told.push_back(what); });
-  ASSERT_EQ(RequestStatus::kSuccess, robot.unit().startTorqueControl());
+  ASSERT_EQ(Status::kMotionStarted, robot.unit().request(torqueControl()));
   EXPECT_EQ(std::string::npos, describe(robot).find("hand"));
   const std::array<double, 7> folded{{0, -0.566, 0, -3.0, 0.085, 0.783, 0.785}};
   for (int i = 1; i <= 1000 && told.empty(); i++) {
@@ -273,7 +274,7 @@ TEST_F(SimRobotTest, aResetAnswersWhoeverWaitsForTheArmToComeToRest) {
   client.request(codec::StopMoveRequest{});
   robot.serve(false);
   tick();
-  ASSERT_TRUE(robot.unit().settling());
+  ASSERT_TRUE(robot.unit().status().settling);
   EXPECT_FALSE(client.answer(Command::kMove, 0));
   // A Move that does not wait for those answers would lose them.
   client.request(codec::MoveRequest{franka_core::ControllerMode::kExternalController,

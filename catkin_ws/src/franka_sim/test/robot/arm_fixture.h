@@ -30,7 +30,7 @@ class ArmTest : public ::testing::Test {
   /// Idle, then Move under external torque control.
   void startTorqueControl() {
     tick(unit, arm);
-    ASSERT_EQ(RequestStatus::kSuccess, unit.startTorqueControl());
+    ASSERT_EQ(Status::kMotionStarted, unit.request(torqueControl()));
   }
 
   const franka_core::RobotState& run(int ticks,

@@ -34,7 +34,7 @@ void tick(benchmark::State& state, bool motion) {
   ControlUnit unit(parameters());
   unit.observe(measurement(0));
   if (motion) {
-    unit.startTorqueControl();
+    unit.request(torqueControl());
   }
   const franka_core::RobotCommand command;
   int i = 0;
@@ -51,7 +51,8 @@ void torqueControlTick(benchmark::State& state) { tick(state, true); }
 void fciTick(benchmark::State& state, franka_core::MotionGeneratorMode generator,
              franka_core::ControllerMode controller) {
   ControlUnitParameters p = parameters();
-  franka_sim::behaveAsOverFci(p, 5);
+  p.rules = franka_sim::InterfaceRules::kFci;
+  p.protocol_version = 5;
   p.nominal.upper_torque.fill(1e9);
   p.nominal.upper_force.fill(1e9);
   p.acceleration = p.nominal;
@@ -62,7 +63,7 @@ void fciTick(benchmark::State& state, franka_core::MotionGeneratorMode generator
   franka_core::fci::MoveRequest move;
   move.motion_generator_mode = generator;
   move.controller_mode = controller;
-  unit.startMotion(move);
+  unit.request(move);
   franka_core::RobotCommand command;
   command.O_T_EE_c = unit.state().O_T_EE_c;
   command.q_c = unit.state().q_d;

@@ -166,7 +166,7 @@ TEST_F(ArmTest, FrictionIsCompensatedOnlyWhereAJointMoves) {
   m.q = kReady;
   m.dq = {{0.009, -0.009, 0.02, -0.02, 0, 0, 1.0}};
   unit.observe(m);
-  unit.startTorqueControl();
+  unit.request(torqueControl());
   const franka_core::RobotCommand zero;
   const std::array<double, 7> applied = unit.actuate(&zero);
   const std::array<double, 7> gravity = parameters.model.gravity(kReady, parameters.end_effector);

@@ -54,7 +54,7 @@ class ErrorFlags : public FciTest {
     EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
     EXPECT_EQ(MotionGeneratorMode::kIdle, unit.state().motion_generator_mode);
     EXPECT_TRUE(unit.state().reflex_reason[static_cast<std::size_t>(flag)]);
-    const std::optional<Status> end = unit.takeMotionEnd();
+    const std::optional<Status> end = unit.takeAnswer(PendingAnswer::kMotion);
     if (moved) {
       ASSERT_TRUE(end);
       EXPECT_EQ(Status::kReflexAborted, *end);
@@ -113,7 +113,7 @@ TEST_F(ErrorFlags, VirtualWall) {
   wall.object_frame = franka_core::kIdentityTransform;
   wall.object_frame[13] = 0.6;  // from y = 0.1 on
   wall.active = true;
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setVirtualWall(3, wall));
+  ASSERT_EQ(Status::kSuccess, unit.request(SetVirtualWall{3, wall}));
   moveTwist();
   ramp(1, 0.3);
   expectReflex(1);
@@ -128,7 +128,7 @@ TEST_F(ErrorFlags, OutOfAVirtualWallTheWayIsOpen) {
     wall.object_frame = franka_core::kIdentityTransform;
     wall.object_frame[13] = 0.48;  // from y = -0.02 on: the hand is two centimetres inside
     wall.active = true;
-    ASSERT_EQ(RequestStatus::kSuccess, unit.setVirtualWall(0, wall));
+    ASSERT_EQ(Status::kSuccess, unit.request(SetVirtualWall{0, wall}));
     moveTwist();
     ramp(1, 0.1 * direction, 800);
     if (direction > 0.0) {
@@ -147,8 +147,8 @@ TEST_F(ErrorFlags, SelfCollision) {
   turnJoints();
   ramp(near.joint, 0.5 * near.direction);
   expectReflex(2);
-  EXPECT_LT(unit.selfCollisionPair().distance, 0.0);
-  EXPECT_GE(unit.selfCollisionPair().second - unit.selfCollisionPair().first, 2);
+  EXPECT_LT(unit.status().self_collision.distance, 0.0);
+  EXPECT_GE(unit.status().self_collision.second - unit.status().self_collision.first, 2);
 }
 
 TEST_F(ErrorFlags, SelfCollisionUnderTorquesWhateverTheGeneratorWants) {
@@ -168,8 +168,8 @@ TEST_F(ErrorFlags, SelfCollisionUnderTorquesWhateverTheGeneratorWants) {
     });
     SCOPED_TRACE(static_cast<int>(generator));
     expectReflex(2);
-    EXPECT_LT(unit.selfCollisionPair().distance, 0.0);
-    EXPECT_GT(unit.selfCollisionPair().distance, -1e-3) << "told late";
+    EXPECT_LT(unit.status().self_collision.distance, 0.0);
+    EXPECT_GT(unit.status().self_collision.distance, -1e-3) << "told late";
   }
 }
 
@@ -207,7 +207,7 @@ TEST_F(ErrorFlags, ForceControlSafety) {
 TEST_F(ErrorFlags, JointReflex) {
   CollisionThresholds thresholds = parameters.nominal;
   thresholds.upper_force.fill(1e6);
-  unit.setCollisionBehavior(thresholds, thresholds);
+  unit.request(collisionRequest(thresholds, thresholds));
   moveJoints();
   arm.push = {{0, 60, 0, 0, 0, 0}};
   drive(200, [&](int, const RobotState&) { return still(); });
@@ -218,7 +218,7 @@ TEST_F(ErrorFlags, JointReflex) {
 TEST_F(ErrorFlags, CartesianReflex) {
   CollisionThresholds thresholds = parameters.nominal;
   thresholds.upper_torque.fill(1e6);
-  unit.setCollisionBehavior(thresholds, thresholds);
+  unit.request(collisionRequest(thresholds, thresholds));
   moveJoints();
   arm.push = {{0, 60, 0, 0, 0, 0}};
   drive(200, [&](int, const RobotState&) { return still(); });
@@ -235,7 +235,7 @@ TEST_F(ErrorFlags, GoalAndPathDeviation) {
     ignoreCollisions();
     auto move = request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance);
     (flag == 8 ? move.max_goal_deviation : move.max_path_deviation).translation = 1e-3;
-    ASSERT_EQ(Status::kMotionStarted, unit.startMotion(move));
+    ASSERT_EQ(Status::kMotionStarted, unit.request(move));
     moved = true;
     arm.push = {{0, 40, 0, 0, 0, 0}};
     drive(500, [&](int i, const RobotState&) {

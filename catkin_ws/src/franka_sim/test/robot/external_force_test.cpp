@@ -20,7 +20,7 @@ using franka_core::RobotState;
 
 double smallestSingularValue(const ControlUnit& unit) {
   const RobotState& s = unit.state();
-  const std::array<double, 42> J = unit.parameters().model.zeroJacobian(
+  const std::array<double, 42> J = unit.configuration().model.zeroJacobian(
       franka_core::ArmFrame::kStiffness, s.q, s.F_T_EE, s.EE_T_K);
   const Eigen::Map<const Eigen::Matrix<double, 6, 7>> jacobian(J.data());
   return Eigen::JacobiSVD<Eigen::Matrix<double, 6, 7>>(jacobian).singularValues()[5];
@@ -106,7 +106,7 @@ TEST_F(ArmTest, AKilogramThatIsNotConfiguredReadsItsWeight) {
   EXPECT_NEAR(0.0, unit.state().O_F_ext_hat_K[1], 0.01);
   EXPECT_NEAR(9.81, unit.state().O_F_ext_hat_K[2], 0.01);
 
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad(load));
+  ASSERT_EQ(Status::kSuccess, unit.request(loadRequest(load)));
   run(4000);
   EXPECT_LT(norm(unit.state().O_F_ext_hat_K, 0, 3), 1e-3);
   EXPECT_DOUBLE_EQ(1.76, unit.state().m_total);
@@ -122,7 +122,7 @@ TEST_F(ArmTest, LoadSetWhileMovingActsAsPhysicsSays) {
   run(10, &zero);
   const std::array<double, 7> before = arm.torques();
   const std::array<double, 7> q = arm.q();
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad(load));
+  ASSERT_EQ(Status::kSuccess, unit.request(loadRequest(load)));
   tick(unit, arm, &zero);
   franka_core::Payload difference = load;
   const franka_core::Payload none;
@@ -139,7 +139,7 @@ TEST_F(ArmTest, ContactShowsBetweenTheThresholdsAndClears) {
   t.upper_force.fill(20);
   t.lower_torque.fill(80);
   t.upper_torque.fill(90);
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(t, t)));
   arm.push = {{0, 0, 15, 0, 0, 0}};
   run(3000);
   EXPECT_EQ((std::array<double, 6>{{0, 0, 1, 0, 0, 0}}), unit.state().cartesian_contact);
@@ -156,7 +156,7 @@ TEST_F(ArmTest, WithoutReflexesTheFlagsAreTheManualsFormulasAtEveryMoment) {
   t.upper_force.fill(20);
   t.lower_torque.fill(3);
   t.upper_torque.fill(8);
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(t, t)));
   int contacts = 0;
   int collisions = 0;
   for (int i = 0; i < 3000; i++) {
@@ -184,7 +184,8 @@ TEST_F(ArmTest, WithoutReflexesTheFlagsAreTheManualsFormulasAtEveryMoment) {
 }
 
 TEST_F(ArmTest, CollisionLatchesUntilRecovery) {
-  behaveAsOverFci(parameters, 5);
+  parameters.rules = InterfaceRules::kFci;
+  parameters.protocol_version = 5;
   rebuild();
   run(1);
   CollisionThresholds t = parameters.nominal;
@@ -192,34 +193,34 @@ TEST_F(ArmTest, CollisionLatchesUntilRecovery) {
   t.upper_force.fill(20);
   t.lower_torque.fill(80);
   t.upper_torque.fill(90);
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
-  EXPECT_FALSE(unit.cartesianCollision().happened);
+  ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(t, t)));
+  EXPECT_FALSE(unit.status().cartesian_collision.happened);
   arm.push = {{0, 0, -30, 0, 0, 0}};
   run(100);
   EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
   EXPECT_EQ(1.0, unit.state().cartesian_collision[2]);
   EXPECT_EQ(0.0, unit.state().cartesian_contact[2]);
-  const Collision& collision = unit.cartesianCollision();
-  EXPECT_TRUE(collision.happened && !unit.jointCollision().happened);
+  const Collision& collision = unit.status().cartesian_collision;
+  EXPECT_TRUE(collision.happened && !unit.status().joint_collision.happened);
   EXPECT_EQ(2u, collision.index);
   EXPECT_GT(collision.value, 20.0);
   EXPECT_EQ(20.0, collision.threshold);
   arm.push.fill(0.0);
   run(3000);
   EXPECT_EQ(1.0, unit.state().cartesian_collision[2]);
-  EXPECT_EQ(RequestStatus::kSuccess, unit.automaticErrorRecovery());
+  EXPECT_EQ(std::nullopt, unit.request(codec::AutomaticErrorRecoveryRequest{}));
   run(100);
   EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_collision);
-  EXPECT_FALSE(unit.cartesianCollision().happened);
+  EXPECT_FALSE(unit.status().cartesian_collision.happened);
 }
 
 TEST(CollisionText, NamesValueThresholdUnitAndPlace) {
   EXPECT_EQ("joint 4: external torque -23.4 Nm, upper threshold 20 Nm",
             describeJointCollision({true, 3, -23.4, 20.0}));
   EXPECT_EQ("along z of O: external force 25.1 N, upper threshold 20 N",
-            describeCartesianCollision({true, 2, 25.1, 20.0}, ThresholdFrame::kBase));
+            describeCartesianCollision({true, 2, 25.1, 20.0}, InterfaceRules::kFci));
   EXPECT_EQ("about x of K: external torque 3.5 Nm, upper threshold 0 Nm",
-            describeCartesianCollision({true, 3, 3.5, 0.0}, ThresholdFrame::kStiffness));
+            describeCartesianCollision({true, 3, 3.5, 0.0}, InterfaceRules::kRosControl));
   const Collision worst = worstOf<6>({{5, -30, 9, 0, 0, 0}}, {{1, 20, 10, 1, 1, 1}});
   EXPECT_EQ(0u, worst.index);
   EXPECT_FALSE(worstOf<6>({}, {}).happened);
@@ -231,7 +232,7 @@ TEST_F(ArmTest, JointThresholdsActPerJoint) {
   t.upper_force.fill(1000);
   t.lower_torque.fill(5);
   t.upper_torque.fill(20);
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(t, t));
+  ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(t, t)));
   arm.push = {{0, 20, 0, 0, 0, 0}};
   run(3000);
   const RobotState& state = unit.state();
@@ -245,19 +246,20 @@ TEST_F(ArmTest, JointThresholdsActPerJoint) {
   EXPECT_LT(contacts, 7);
 }
 
-TEST_F(ArmTest, ThresholdsMeetTheWrenchInTheFrameOfTheFace) {
+TEST_F(ArmTest, ThresholdsMeetTheWrenchInTheFrameOfTheInterface) {
   // In the ready pose the hand points down: z of K is minus z of O, x of K is x of O turned by the
   // hand's own angle. Turn K by a quarter about x so that a push along z of O lies along y of K.
   parameters.EE_T_K = {{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1}};
   parameters.nominal.lower_force.fill(10);
   parameters.nominal.upper_force.fill(20);
-  for (const ThresholdFrame frame : {ThresholdFrame::kBase, ThresholdFrame::kStiffness}) {
-    parameters.threshold_frame = frame;
+  for (const InterfaceRules rules : {InterfaceRules::kFci, InterfaceRules::kRosControl,
+                                     InterfaceRules::kRosControlWithReflexes}) {
+    parameters.rules = rules;
     rebuild();
     arm.put(kReady);
     arm.push = {{0, 0, 15, 0, 0, 0}};
     run(3000);
-    const std::size_t axis = frame == ThresholdFrame::kBase ? 2 : 1;
+    const std::size_t axis = rules == InterfaceRules::kFci ? 2 : 1;
     std::array<double, 6> expected{};
     expected[axis] = 1.0;
     EXPECT_EQ(expected, unit.state().cartesian_contact);
@@ -265,7 +267,8 @@ TEST_F(ArmTest, ThresholdsMeetTheWrenchInTheFrameOfTheFace) {
 }
 
 TEST_F(ArmTest, ThresholdsDoNotWaitForTheFilter) {
-  behaveAsOverFci(parameters, 5);
+  parameters.rules = InterfaceRules::kFci;
+  parameters.protocol_version = 5;
   parameters.nominal.upper_force.fill(20);
   rebuild();
   run(100);

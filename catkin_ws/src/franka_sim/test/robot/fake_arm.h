@@ -13,6 +13,8 @@
 
 namespace franka_sim::test {
 
+namespace codec = franka_core::fci;
+
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
@@ -93,12 +95,12 @@ class FakeArm : public ArmPlant {
   bool braked_{false};
 };
 
-/// One tick of unit and arm, as both faces do it.
+/// One tick of unit and arm, as both interfaces do it.
 inline const franka_core::RobotState& tick(ControlUnit& unit, FakeArm& arm,
                                            const franka_core::RobotCommand* command = nullptr) {
   const franka_core::RobotState& state = unit.observe(arm.measure());
   arm.applyTorques(unit.actuate(command));
-  arm.setBrakes(unit.brakesClosed());
+  arm.setBrakes(unit.status().brakes_closed);
   arm.step();
   return state;
 }

@@ -25,7 +25,8 @@ using Status = franka_core::fci::Status;
 class FciTest : public ArmTest {
  protected:
   FciTest() {
-    behaveAsOverFci(parameters, 5);
+    parameters.rules = InterfaceRules::kFci;
+    parameters.protocol_version = 5;
     rebuild();
     test::tick(unit, arm);
   }
@@ -43,7 +44,7 @@ class FciTest : public ArmTest {
     high.upper_torque.fill(1e6);
     high.lower_force.fill(1e6);
     high.upper_force.fill(1e6);
-    ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(high, high));
+    ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(high, high)));
   }
 
   static franka_core::fci::MoveRequest request(MotionGeneratorMode generator,
@@ -56,7 +57,7 @@ class FciTest : public ArmTest {
 
   void startMove(MotionGeneratorMode generator,
                  ControllerMode controller = ControllerMode::kJointImpedance) {
-    ASSERT_EQ(Status::kMotionStarted, unit.startMotion(request(generator, controller)));
+    ASSERT_EQ(Status::kMotionStarted, unit.request(request(generator, controller)));
     ASSERT_EQ(RobotMode::kMove, unit.state().robot_mode);
   }
 
@@ -66,7 +67,7 @@ class FciTest : public ArmTest {
       const RobotState& state = unit.observe(arm.measure());
       const RobotCommand answer = command(i, state);
       arm.applyTorques(unit.actuate(&answer));
-      arm.setBrakes(unit.brakesClosed());
+      arm.setBrakes(unit.status().brakes_closed);
       arm.step();
       if (unit.state().robot_mode != RobotMode::kMove) {
         return i + 1;
@@ -82,7 +83,7 @@ class FciTest : public ArmTest {
     change(m);
     unit.observe(m);
     arm.applyTorques(unit.actuate(command));
-    arm.setBrakes(unit.brakesClosed());
+    arm.setBrakes(unit.status().brakes_closed);
     arm.step();
   }
 

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Control laws and geometry of the unit, against second answers.
+#include <franka_sim/robot/cartesian_impedance.h>
+#include <franka_sim/robot/joint_impedance.h>
 #include <franka_sim/robot/link_accelerometers.h>
 
 #include <Eigen/Core>
@@ -37,7 +39,7 @@ class Laws : public FciTest {
 TEST_F(Laws, JointStiffnessIsTheOneThatWasSet) {
   ignoreCollisions();
   const std::array<double, 7> K{{400, 600, 800, 1000, 300, 200, 100}};
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setJointImpedance(K));
+  ASSERT_EQ(Status::kSuccess, unit.request(codec::SetJointImpedanceRequest{K}));
   arm.push = {{5, 8, -6, 0.5, 0.4, -0.3}};
   hold(ControllerMode::kJointImpedance, 6000);
   for (std::size_t i = 0; i < 7; i++) {
@@ -51,7 +53,7 @@ TEST_F(Laws, CartesianStiffnessIsTheOneThatWasSetAlongEachAxisOfK) {
   for (std::size_t axis = 0; axis < 6; axis++) {
     standAt(kReady);
     ignoreCollisions();
-    ASSERT_EQ(RequestStatus::kSuccess, unit.setCartesianImpedance(K));
+    ASSERT_EQ(Status::kSuccess, unit.request(codec::SetCartesianImpedanceRequest{K}));
     const Eigen::Matrix4d from = Eigen::Map<const Eigen::Matrix4d>(unit.state().O_T_EE.data());
     const Eigen::Matrix3d R = from.topLeftCorner<3, 3>();
     Eigen::Vector3d load = Eigen::Vector3d::Zero();

@@ -25,29 +25,32 @@ using franka_core::RobotState;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST_F(ArmTest, EveryRequestInEveryModeEndsWhereTheTableSays) {
-  using Request = std::function<RequestStatus(ControlUnit&)>;
-  const Request start = [](ControlUnit& u) { return u.startTorqueControl(); };
-  const Request stop = [](ControlUnit& u) { return u.stopMotion(); };
-  const Request recover = [](ControlUnit& u) { return u.automaticErrorRecovery(); };
-  const Request press = [](ControlUnit& u) { return u.setUserStop(true), RequestStatus::kSuccess; };
-  const Request release = [](ControlUnit& u) {
-    return u.setUserStop(false), RequestStatus::kSuccess;
+  using Request = std::function<std::optional<Status>(ControlUnit&)>;
+  const Request start = [](ControlUnit& u) { return u.request(torqueControl()); };
+  const Request stop = [](ControlUnit& u) { return u.request(codec::StopMoveRequest{}); };
+  const Request recover = [](ControlUnit& u) {
+    return u.request(codec::AutomaticErrorRecoveryRequest{});
   };
-  constexpr auto kYes = RequestStatus::kSuccess;
-  constexpr auto kNo = RequestStatus::kNotPossible;
+  const Request press = [](ControlUnit& u) { return u.request(UserStop{true}); };
+  const Request release = [](ControlUnit& u) { return u.request(UserStop{false}); };
+  constexpr auto kYes = Status::kSuccess;
+  constexpr auto kNo = Status::kCommandNotPossibleRejected;
+  constexpr auto kManual = Status::kManualErrorRecoveryRequiredRejected;
+  constexpr auto kStarted = Status::kMotionStarted;
+  constexpr auto kLater = std::nullopt;
   struct Cell {
     const char* what;
     RobotMode from;
     Request request;
-    RequestStatus status;
+    std::optional<Status> status;
     RobotMode to;
   };
   const Cell cells[] = {
-      {"start in Idle", RobotMode::kIdle, start, kYes, RobotMode::kMove},
+      {"start in Idle", RobotMode::kIdle, start, kStarted, RobotMode::kMove},
       {"start in Move", RobotMode::kMove, start, kNo, RobotMode::kMove},
       {"start in UserStopped", RobotMode::kUserStopped, start, kNo, RobotMode::kUserStopped},
       {"stop in Idle", RobotMode::kIdle, stop, kNo, RobotMode::kIdle},
-      {"stop in Move", RobotMode::kMove, stop, kYes, RobotMode::kIdle},
+      {"stop in Move", RobotMode::kMove, stop, kLater, RobotMode::kIdle},
       {"stop in UserStopped", RobotMode::kUserStopped, stop, kNo, RobotMode::kUserStopped},
       {"press in Idle", RobotMode::kIdle, press, kYes, RobotMode::kUserStopped},
       {"press in Move", RobotMode::kMove, press, kYes, RobotMode::kUserStopped},
@@ -57,15 +60,16 @@ TEST_F(ArmTest, EveryRequestInEveryModeEndsWhereTheTableSays) {
       {"release in UserStopped", RobotMode::kUserStopped, release, kYes, RobotMode::kIdle},
       {"recover in Idle", RobotMode::kIdle, recover, kYes, RobotMode::kIdle},
       {"recover in Move", RobotMode::kMove, recover, kYes, RobotMode::kMove},
-      {"recover in UserStopped", RobotMode::kUserStopped, recover, kNo, RobotMode::kUserStopped},
+      {"recover in UserStopped", RobotMode::kUserStopped, recover, kManual,
+       RobotMode::kUserStopped},
   };
   for (const Cell& cell : cells) {
     rebuild();
     tick(unit, arm);
     if (cell.from == RobotMode::kMove) {
-      unit.startTorqueControl();
+      unit.request(torqueControl());
     } else if (cell.from == RobotMode::kUserStopped) {
-      unit.setUserStop(true);
+      unit.request(UserStop{true});
     }
     ASSERT_EQ(cell.from, unit.state().robot_mode) << cell.what;
     EXPECT_EQ(cell.status, cell.request(unit)) << cell.what;
@@ -78,12 +82,12 @@ TEST_F(ArmTest, EveryRequestInEveryModeEndsWhereTheTableSays) {
     EXPECT_EQ(moving ? ControllerMode::kExternalController : ControllerMode::kOther,
               unit.state().controller_mode)
         << cell.what;
-    EXPECT_EQ(cell.to == RobotMode::kUserStopped, unit.brakesClosed()) << cell.what;
+    EXPECT_EQ(cell.to == RobotMode::kUserStopped, unit.status().brakes_closed) << cell.what;
   }
 }
 
 TEST_F(ArmTest, NothingStartsBeforeTheFirstMeasurement) {
-  EXPECT_EQ(RequestStatus::kNotPossible, unit.startTorqueControl());
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(torqueControl()));
   EXPECT_EQ((std::array<double, 7>{}), unit.actuate(nullptr));
 }
 
@@ -109,7 +113,7 @@ TEST_F(ArmTest, SuccessRateBelongsToAMotion) {
   startTorqueControl();
   const franka_core::RobotCommand zero;
   EXPECT_EQ(1.0, run(5, &zero).control_command_success_rate);
-  unit.stopMotion();
+  unit.request(codec::StopMoveRequest{});
   EXPECT_EQ(0.0, run(5).control_command_success_rate);
   startTorqueControl();
   EXPECT_EQ(1.0, run(5, &zero).control_command_success_rate);
@@ -122,10 +126,10 @@ TEST_F(ArmTest, StoppedMotionIsCaughtAndHeld) {
   const double speed = unit.state().dq[0];
   const double begin = unit.state().q[0];
   EXPECT_GT(speed, 0.5);
-  unit.stopMotion();
-  EXPECT_TRUE(unit.settling());
+  unit.request(codec::StopMoveRequest{});
+  EXPECT_TRUE(unit.status().settling);
   run(1000);
-  EXPECT_FALSE(unit.settling());
+  EXPECT_FALSE(unit.status().settling);
   const std::array<double, 7> held = unit.state().q_d;
   // Joint 1 brakes with 15 rad/s^2.
   EXPECT_NEAR(speed * speed / 30.0, held[0] - begin, 1e-3 * speed);
@@ -152,7 +156,7 @@ TEST_F(ArmTest, UserStopLocksTheArmAndReleaseHoldsIt) {
   startTorqueControl();
   const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
   run(100, &push);
-  unit.setUserStop(true);
+  unit.request(UserStop{true});
   tick(unit, arm, &push);
   EXPECT_EQ((std::array<double, 7>{}), arm.torques());
   const std::array<double, 7> stopped = arm.q();
@@ -163,7 +167,7 @@ TEST_F(ArmTest, UserStopLocksTheArmAndReleaseHoldsIt) {
   EXPECT_NEAR(50, unit.state().O_F_ext_hat_K[2], 0.25) << "the brakes' torque shows on the sensors";
   arm.push.fill(0.0);
   run(10);
-  unit.setUserStop(false);
+  unit.request(UserStop{false});
   run(1000, &push);  // commands have no effect outside Move
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
   for (std::size_t i = 0; i < 7; i++) {
@@ -171,26 +175,29 @@ TEST_F(ArmTest, UserStopLocksTheArmAndReleaseHoldsIt) {
   }
 }
 
-TEST_F(ArmTest, SettersFollowTheRuleOfTheFace) {
+TEST_F(ArmTest, SettersFollowTheRulesOfTheInterface) {
   const auto all = [](ControlUnit& u) {
-    const ControlUnitParameters& p = u.parameters();
-    return std::array<RequestStatus, 4>{u.setEE(p.NE_T_EE), u.setK(p.EE_T_K), u.setLoad(p.load),
-                                        u.setCollisionBehavior(p.acceleration, p.nominal)};
+    const ControlUnitParameters& p = u.configuration();
+    return std::array<std::optional<Status>, 4>{
+        u.request(codec::SetNEToEERequest{p.NE_T_EE}), u.request(codec::SetEEToKRequest{p.EE_T_K}),
+        u.request(loadRequest(p.load)), u.request(collisionRequest(p.acceleration, p.nominal))};
   };
-  for (const bool in_motion : {true, false}) {
-    parameters.setters_in_motion = in_motion;
+  for (const InterfaceRules rules : {InterfaceRules::kFci, InterfaceRules::kRosControl,
+                                     InterfaceRules::kRosControlWithReflexes}) {
+    const bool in_motion = rules != InterfaceRules::kFci;
+    parameters.rules = rules;
     rebuild();
     tick(unit, arm);
-    for (const RequestStatus status : all(unit)) {
-      EXPECT_EQ(RequestStatus::kSuccess, status);
+    for (const std::optional<Status> status : all(unit)) {
+      EXPECT_EQ(Status::kSuccess, status);
     }
-    unit.startTorqueControl();
-    for (const RequestStatus status : all(unit)) {
-      EXPECT_EQ(in_motion ? RequestStatus::kSuccess : RequestStatus::kNotPossible, status);
+    unit.request(torqueControl());
+    for (const std::optional<Status> status : all(unit)) {
+      EXPECT_EQ(in_motion ? Status::kSuccess : Status::kCommandNotPossibleRejected, status);
     }
-    unit.setUserStop(true);
-    for (const RequestStatus status : all(unit)) {
-      EXPECT_EQ(RequestStatus::kSuccess, status);
+    unit.request(UserStop{true});
+    for (const std::optional<Status> status : all(unit)) {
+      EXPECT_EQ(Status::kSuccess, status);
     }
   }
 }
@@ -198,7 +205,7 @@ TEST_F(ArmTest, SettersFollowTheRuleOfTheFace) {
 TEST_F(ArmTest, FramesComeTogetherAndMoveTheDesiredPoseToo) {
   run(2);
   const std::array<double, 16> frame{{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1}};
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setEE(frame));
+  ASSERT_EQ(Status::kSuccess, unit.request(codec::SetNEToEERequest{frame}));
   const RobotState& state = run(2);
   EXPECT_EQ(frame, state.NE_T_EE);
   const double s = std::sqrt(0.5);
@@ -216,7 +223,7 @@ TEST_F(ArmTest, LoadAndEndEffectorAreCombined) {
   load.mass = 0.24;
   load.com = {{0, 0, 0.2}};
   load.inertia = {{1e-3, 0, 0, 0, 2e-3, 0, 0, 0, 3e-3}};
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad(load));
+  ASSERT_EQ(Status::kSuccess, unit.request(loadRequest(load)));
   const RobotState& state = unit.state();
   const franka_core::Payload& ee = parameters.end_effector;
   EXPECT_DOUBLE_EQ(ee.mass + 0.24, state.m_total);
@@ -243,15 +250,15 @@ TEST_F(ArmTest, BadFramesAreRefusedAndChangeNothing) {
   for (const std::array<double, 16>& bad :
        {with(0, 1.1), with(3, 0.5), with(15, 0.0), with(12, kNan), with(13, INFINITY), mirrored,
         sheared, std::array<double, 16>{}}) {
-    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setEE(bad));
-    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setK(bad));
+    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(codec::SetNEToEERequest{bad}));
+    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(codec::SetEEToKRequest{bad}));
   }
   EXPECT_EQ(identity, unit.state().NE_T_EE);
   EXPECT_EQ(identity, unit.state().EE_T_K);
   std::array<double, 16> four_digits = identity;
   four_digits[0] = 0.7071, four_digits[1] = -0.7071, four_digits[4] = 0.7071,
   four_digits[5] = 0.7071;
-  EXPECT_EQ(RequestStatus::kSuccess, unit.setEE(four_digits));
+  EXPECT_EQ(Status::kSuccess, unit.request(codec::SetNEToEERequest{four_digits}));
 }
 
 TEST_F(ArmTest, BadLoadsAreRefusedAndChangeNothing) {
@@ -270,10 +277,10 @@ TEST_F(ArmTest, BadLoadsAreRefusedAndChangeNothing) {
         load(1, {{0, 0, 0}}, {{1, 0.5, 0, -0.5, 1, 0, 0, 0, 1}}),
         load(1, {{0, 0, 0}}, {{-1, 0, 0, 0, 1, 0, 0, 0, 1}}),
         load(1, {{0, 0, 0}}, {{1, 2, 0, 2, 1, 0, 0, 0, 1}})}) {
-    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setLoad(bad));
+    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(loadRequest(bad)));
   }
   EXPECT_EQ(0.0, unit.state().m_load);
-  EXPECT_EQ(RequestStatus::kSuccess, unit.setLoad(load(0.1024, {{0, 0, 0.1}}, zero)));
+  EXPECT_EQ(Status::kSuccess, unit.request(loadRequest(load(0.1024, {{0, 0, 0.1}}, zero))));
 }
 
 TEST_F(ArmTest, LoadsBeyondAnyArmAreRefusedWithValueLimitAndUnit) {
@@ -302,7 +309,8 @@ TEST_F(ArmTest, LoadsBeyondAnyArmAreRefusedWithValueLimitAndUnit) {
     franka_core::Payload load{test.mass, test.com, {}};
     load.inertia[0] = load.inertia[4] = load.inertia[8] = test.moment;
     const bool good = *test.sentence == '\0';
-    EXPECT_EQ(good ? RequestStatus::kSuccess : RequestStatus::kInvalidArgument, unit.setLoad(load));
+    EXPECT_EQ(good ? Status::kSuccess : Status::kInvalidArgumentRejected,
+              unit.request(loadRequest(load)));
     const std::string fault = payloadFault(load);
     EXPECT_EQ(good, fault.empty()) << fault;
     EXPECT_NE(std::string::npos, fault.find(test.sentence)) << fault;
@@ -310,7 +318,7 @@ TEST_F(ArmTest, LoadsBeyondAnyArmAreRefusedWithValueLimitAndUnit) {
 }
 
 TEST_F(ArmTest, CompensationOfAHeavyLoadStaysWithinTheMotors) {
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setLoad({10, {{1, 0, 0}}, {}}));
+  ASSERT_EQ(Status::kSuccess, unit.request(loadRequest({10, {{1, 0, 0}}, {}})));
   const std::array<double, 7> limit{{87, 87, 87, 87, 12, 12, 12}};
   double largest = 0;
   for (int k = 0; k < 3; k++) {
@@ -328,12 +336,13 @@ TEST_F(ArmTest, CompensationOfAHeavyLoadStaysWithinTheMotors) {
 TEST_F(ArmTest, FramesFarFromTheArmAreRefused) {
   std::array<double, 16> frame = franka_core::kIdentityTransform;
   frame[12] = 10.0;
-  EXPECT_EQ(RequestStatus::kSuccess, unit.setEE(frame));
-  EXPECT_EQ(RequestStatus::kSuccess, unit.setK(frame));
+  EXPECT_EQ(Status::kSuccess, unit.request(codec::SetNEToEERequest{frame}));
+  EXPECT_EQ(Status::kSuccess, unit.request(codec::SetEEToKRequest{frame}));
   for (const double far : {10.1, -1e3, 1e11, 1e308}) {
     frame[12] = far;
-    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setEE(frame)) << far;
-    EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setK(frame)) << far;
+    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(codec::SetNEToEERequest{frame}))
+        << far;
+    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(codec::SetEEToKRequest{frame})) << far;
   }
 }
 
@@ -343,19 +352,19 @@ TEST_F(ArmTest, BadThresholdsAreRefusedAndChangeNothing) {
     torque.lower_torque[6] = bad;
     CollisionThresholds force = parameters.nominal;
     force.upper_force[5] = bad;
-    EXPECT_EQ(RequestStatus::kInvalidArgument,
-              unit.setCollisionBehavior(torque, parameters.nominal));
-    EXPECT_EQ(RequestStatus::kInvalidArgument,
-              unit.setCollisionBehavior(parameters.nominal, force));
+    EXPECT_EQ(Status::kInvalidArgumentRejected,
+              unit.request(collisionRequest(torque, parameters.nominal)));
+    EXPECT_EQ(Status::kInvalidArgumentRejected,
+              unit.request(collisionRequest(parameters.nominal, force)));
   }
-  EXPECT_EQ(parameters.nominal.upper_force, unit.parameters().nominal.upper_force);
+  EXPECT_EQ(parameters.nominal.upper_force, unit.configuration().nominal.upper_force);
 }
 
 TEST_F(ArmTest, RestartForgetsThePastAndHoldsTheNewPose) {
   startTorqueControl();
   const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
   run(200, &push);
-  unit.stopMotion();
+  unit.request(codec::StopMoveRequest{});
   const std::array<double, 7> elsewhere{{0.5, 0, -0.5, -2, 0.3, 1.8, 0}};
   arm.put(elsewhere);
   unit.restart();

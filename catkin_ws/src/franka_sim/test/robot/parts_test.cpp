@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The small parts of the robot room, each alone.
+// The small parts of the robot, each alone.
 #include <franka_sim/robot/command_filter.h>
 #include <franka_sim/robot/command_window.h>
 #include <franka_sim/robot/contact_monitor.h>

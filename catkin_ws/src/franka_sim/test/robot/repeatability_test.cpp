@@ -39,19 +39,19 @@ void story(AfterTick&& after_tick) {
   load.com = {{0, 0, 0.1}};
   for (int i = 0; i < 4000; i++) {
     if (i == 500) {
-      unit.startTorqueControl();
+      unit.request(torqueControl());
     } else if (i == 1000) {
       arm.push = {{5, -10, 20, 1, 0, -1}};
     } else if (i == 1500) {
-      unit.setLoad(load);
-      unit.setK(parameters.F_T_NE);
+      unit.request(loadRequest(load));
+      unit.request(codec::SetEEToKRequest{parameters.F_T_NE});
     } else if (i == 2000) {
-      unit.stopMotion();
+      unit.request(codec::StopMoveRequest{});
     } else if (i == 3000) {
-      unit.setUserStop(true);
+      unit.request(UserStop{true});
     } else if (i == 3300) {
-      unit.setUserStop(false);
-      unit.automaticErrorRecovery();
+      unit.request(UserStop{false});
+      unit.request(codec::AutomaticErrorRecoveryRequest{});
     }
     franka_core::RobotCommand command;
     command.tau_J_d[i % 7] = 0.3 * std::sin(0.01 * i);
@@ -60,7 +60,7 @@ void story(AfterTick&& after_tick) {
     const ArmMeasurement measurement = arm.measure();
     const franka_core::RobotState& state = unit.observe(measurement);
     arm.applyTorques(unit.actuate(lost ? nullptr : &command));
-    arm.setBrakes(unit.brakesClosed());
+    arm.setBrakes(unit.status().brakes_closed);
     const bool clean = scope.allocations() == 0 && scope.locks() == 0;
     arm.step();
     after_tick(state, clean);
@@ -86,7 +86,8 @@ TEST(Repeatability, ATickOfTheControlUnitNeitherAllocatesNorLocks) {
 template <typename AfterTick>
 void fciStory(AfterTick&& after_tick) {
   ControlUnitParameters parameters = pandaWithHand();
-  behaveAsOverFci(parameters, 5);
+  parameters.rules = InterfaceRules::kFci;
+  parameters.protocol_version = 5;
   ControlUnit unit(parameters);
   FakeArm arm(parameters.model, kReady);
   arm.payload = parameters.end_effector;
@@ -97,23 +98,23 @@ void fciStory(AfterTick&& after_tick) {
     if (i == 10) {
       move.motion_generator_mode = franka_core::MotionGeneratorMode::kCartesianVelocity;
       move.controller_mode = franka_core::ControllerMode::kCartesianImpedance;
-      unit.startMotion(move);
+      unit.request(move);
     } else if (i == 1000) {
       arm.push = {{0, -80, 0, 0, 0, 0}};
     } else if (i == 1200) {
       arm.push.fill(0.0);
     } else if (i == 1500) {
-      unit.startErrorRecovery();
+      unit.request(codec::AutomaticErrorRecoveryRequest{});
     } else if (i == 2500) {
       move.motion_generator_mode = franka_core::MotionGeneratorMode::kJointVelocity;
       move.controller_mode = franka_core::ControllerMode::kJointImpedance;
-      unit.startMotion(move);
+      unit.request(move);
     }
     command.O_dP_EE_c[1] = i < 1000 ? 2e-5 * (i - 10) : 0.0;
     command.dq_c[0] = i > 2500 ? 1e-4 * (i - 2500) : 0.0;
     const franka_core::RobotState& state = unit.observe(arm.measure());
     arm.applyTorques(unit.actuate(i % 11 == 0 ? nullptr : &command));
-    arm.setBrakes(unit.brakesClosed());
+    arm.setBrakes(unit.status().brakes_closed);
     const bool clean = scope.allocations() == 0 && scope.locks() == 0;
     arm.step();
     after_tick(state, clean);
@@ -144,16 +145,16 @@ TEST(Repeatability, RequestsNeitherAllocateNorLock) {
   ArmMeasurement m;
   m.q = kReady;
   unit.observe(m);
-  const ControlUnitParameters p = unit.parameters();
+  const ControlUnitParameters p = unit.configuration();
   rt_guard::Scope scope;
-  unit.startTorqueControl();
-  unit.setEE(p.NE_T_EE);
-  unit.setK(p.EE_T_K);
-  unit.setLoad(p.load);
-  unit.setCollisionBehavior(p.acceleration, p.nominal);
-  unit.setUserStop(true);
-  unit.automaticErrorRecovery();
-  unit.setUserStop(false);
+  unit.request(torqueControl());
+  unit.request(codec::SetNEToEERequest{p.NE_T_EE});
+  unit.request(codec::SetEEToKRequest{p.EE_T_K});
+  unit.request(loadRequest(p.load));
+  unit.request(collisionRequest(p.acceleration, p.nominal));
+  unit.request(UserStop{true});
+  unit.request(codec::AutomaticErrorRecoveryRequest{});
+  unit.request(UserStop{false});
   unit.restart();
   EXPECT_EQ(0u, scope.allocations());
   EXPECT_EQ(0u, scope.locks());

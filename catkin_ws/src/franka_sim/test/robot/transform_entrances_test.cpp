@@ -18,13 +18,12 @@ using TransformEntrances = FciTest;
 
 TEST_F(TransformEntrances, SettersAndParametersTakeOrRefuseDustAlike) {
   for (const DustyMatrix& dusty : dustOn(parameters.F_T_NE)) {
-    const RequestStatus expected =
-        dusty.accepted ? RequestStatus::kSuccess : RequestStatus::kInvalidArgument;
-    EXPECT_EQ(expected, unit.setEE(dusty.matrix)) << dusty;
-    EXPECT_EQ(expected, unit.setK(dusty.matrix)) << dusty;
+    const Status expected = dusty.accepted ? Status::kSuccess : Status::kInvalidArgumentRejected;
+    EXPECT_EQ(expected, unit.request(codec::SetNEToEERequest{dusty.matrix})) << dusty;
+    EXPECT_EQ(expected, unit.request(codec::SetEEToKRequest{dusty.matrix})) << dusty;
     franka_core::fci::CartesianLimit wall;
     wall.object_frame = dusty.matrix;
-    EXPECT_EQ(expected, unit.setVirtualWall(0, wall)) << dusty;
+    EXPECT_EQ(expected, unit.request(SetVirtualWall{0, wall})) << dusty;
     ControlUnitParameters changed = parameters;
     changed.NE_T_EE = dusty.matrix;
     try {
@@ -40,14 +39,15 @@ TEST_F(TransformEntrances, SettersAndParametersTakeOrRefuseDustAlike) {
 
 TEST_F(TransformEntrances, CommandedPosesTakeOrRefuseDustAlike) {
   for (const unsigned protocol : {5U, 10U}) {
-    behaveAsOverFci(parameters, protocol);
+    parameters.rules = InterfaceRules::kFci;
+    parameters.protocol_version = protocol;
     for (const double cutoff : {1000.0, 100.0}) {
       standAt(kReady);
       for (const DustyMatrix& dusty : dustOn(unit.state().O_T_EE_c)) {
         standAt(kReady);
         franka_core::fci::SetFiltersRequest filters;
         filters.cartesian_position = cutoff;
-        ASSERT_EQ(RequestStatus::kSuccess, unit.setFilters(filters));
+        ASSERT_EQ(Status::kSuccess, unit.request(filters));
         startMove(MotionGeneratorMode::kCartesianPosition);
         RobotCommand command;
         command.O_T_EE_c = dusty.matrix;

@@ -56,7 +56,8 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     parameters.end_effector = handPayload();
     parameters.F_T_NE = handFrame();
     if (over_fci) {
-      behaveAsOverFci(parameters, id() == "fr3" ? 10 : 5);
+      parameters.rules = InterfaceRules::kFci;
+      parameters.protocol_version = id() == "fr3" ? 10 : 5;
     }
     unit = std::make_unique<ControlUnit>(parameters);
     gripper = std::make_unique<GripperUnit>(GripperParameters{});
@@ -70,7 +71,7 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
 
   void act(const franka_core::RobotCommand* command) {
     arm->applyTorques(unit->actuate(command));
-    arm->setBrakes(unit->brakesClosed());
+    arm->setBrakes(unit->status().brakes_closed);
     hand->applyForces(gripper->step(hand->measure(), 1e-3));
     world->step();
   }
@@ -113,7 +114,7 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
 TEST_P(UnitInWorldTest, ZeroTorqueDoesNotDriftAndReadsNothing) {
   start("empty");
   tick();
-  ASSERT_EQ(RequestStatus::kSuccess, unit->startTorqueControl());
+  ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
   const franka_core::RobotCommand zero;
   double force = 0.0;
   double moment = 0.0;
@@ -136,8 +137,8 @@ TEST_P(UnitInWorldTest, ZeroTorqueDoesNotDriftAndReadsNothing) {
 TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
   start("empty");
   tick();
-  ASSERT_EQ(RequestStatus::kSuccess, unit->startTorqueControl());
-  SineDriver driver(unit->parameters(), unit->parameters().end_effector, 8.0, 0.9,
+  ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
+  SineDriver driver(unit->configuration(), unit->configuration().end_effector, 8.0, 0.9,
                     id() == "fr3" ? kFr3Speed : kPandaSpeed);
   double force = 0.0;
   double moment = 0.0;
@@ -165,8 +166,9 @@ TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
 TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
   start("empty");
   const double c = std::cos(0.5235987755982988);
-  ASSERT_EQ(RequestStatus::kSuccess,
-            unit->setK({{1, 0, 0, 0, 0, c, 0.5, 0, 0, -0.5, c, 0, 0.02, -0.03, 0.05, 1}}));
+  ASSERT_EQ(Status::kSuccess,
+            unit->request(codec::SetEEToKRequest{
+                {{1, 0, 0, 0, 0, c, 0.5, 0, 0, -0.5, c, 0, 0.02, -0.03, 0.05, 1}}}));
   double worst = 0.0;
   for (int axis = 0; axis < 3; axis++) {
     for (const double sign : {10.0, -10.0}) {
@@ -174,13 +176,13 @@ TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
       push[axis] = sign;
       for (int i = 0; i < 2000; i++) {
         const RobotState& s = tick();
-        const std::array<double, 16> K = unit->parameters().model.pose(
+        const std::array<double, 16> K = unit->configuration().model.pose(
             franka_core::ArmFrame::kStiffness, s.q, s.F_T_EE, s.EE_T_K);
         world->pushAt(id() + "_hand", {{K[12], K[13], K[14]}}, {{push[0], push[1], push[2]}}, 1);
       }
       const RobotState& s = unit->state();
-      const std::array<double, 16> K =
-          unit->parameters().model.pose(franka_core::ArmFrame::kStiffness, s.q, s.F_T_EE, s.EE_T_K);
+      const std::array<double, 16> K = unit->configuration().model.pose(
+          franka_core::ArmFrame::kStiffness, s.q, s.F_T_EE, s.EE_T_K);
       const Eigen::Matrix3d R = Eigen::Map<const Eigen::Matrix4d>(K.data()).topLeftCorner<3, 3>();
       const Eigen::Vector3d in_O = Eigen::Map<const Eigen::Vector3d>(s.O_F_ext_hat_K.data());
       const Eigen::Vector3d in_K = Eigen::Map<const Eigen::Vector3d>(s.K_F_ext_hat_K.data());
@@ -206,12 +208,12 @@ TEST_P(UnitInWorldTest, AKilogramThatIsNotConfiguredReadsItsWeightAndItsInertiaA
   // does. Its acceleration comes from the second difference of where the world has it.
   start("empty", "<mass value=\"0.73\"", "<mass value=\"1.73\"");
   tick();
-  ASSERT_EQ(RequestStatus::kSuccess, unit->startTorqueControl());
-  SineDriver driver(unit->parameters(), unit->parameters().end_effector, 4.0, 0.5,
+  ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
+  SineDriver driver(unit->configuration(), unit->configuration().end_effector, 4.0, 0.5,
                     id() == "fr3" ? kFr3Speed : kPandaSpeed);
   const Eigen::Vector3d in_hand = handCenter();
   constexpr double kSmoothing = 1e-3 / (1e-3 + 1.0 / (2 * 3.14159265358979324 * 100));
-  std::array<Eigen::Vector3d, 3> places;
+  std::array<Eigen::Vector3d, 3> places{};
   Eigen::Vector3d expected(0, 0, 9.81);
   double worst = 0.0;
   double strongest = 0.0;
@@ -239,11 +241,11 @@ TEST_P(UnitInWorldTest, AKilogramThatIsNotConfiguredReadsItsWeightAndItsInertiaA
 TEST_P(UnitInWorldTest, UserStopAtSpeedLocksTheArmWithoutACollision) {
   start("empty");
   tick();
-  ASSERT_EQ(RequestStatus::kSuccess, unit->startTorqueControl());
+  ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
   const franka_core::RobotCommand push = torques({{30, 0, 0, 0, 0, 0, 0}});
   run(80, &push);
   EXPECT_GT(std::abs(unit->state().dq[0]), 0.5);
-  unit->setUserStop(true);
+  unit->request(UserStop{true});
   run(200);
   const std::array<double, 7> stopped = unit->state().q;
   run(2000);
@@ -252,7 +254,7 @@ TEST_P(UnitInWorldTest, UserStopAtSpeedLocksTheArmWithoutACollision) {
     EXPECT_NEAR(0.0, unit->state().tau_ext_hat_filtered[i], 0.01);
   }
   EXPECT_EQ((std::array<double, 7>{}), unit->state().joint_collision);
-  unit->setUserStop(false);
+  unit->request(UserStop{false});
   run(1000);
   for (std::size_t i = 0; i < 7; i++) {
     EXPECT_NEAR(stopped[i], unit->state().q[i], 1e-5);
@@ -289,7 +291,7 @@ TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
   stone.mass = 0.1024;
   stone.com = {{0, 0, 0.1034}};
   EXPECT_NEAR(0.1024 * 9.81, unit->state().O_F_ext_hat_K[2], 0.02);
-  ASSERT_EQ(RequestStatus::kSuccess, unit->setLoad(stone));
+  ASSERT_EQ(Status::kSuccess, unit->request(loadRequest(stone)));
   run(1000);
   EXPECT_NEAR(0.0, unit->state().O_F_ext_hat_K[2], 0.02);
 
@@ -307,8 +309,8 @@ TEST_P(UnitInWorldTest, CollisionAtATenthOfAMetreASecondIsAReflexWithinThreeMill
   franka_core::fci::MoveRequest move;
   move.motion_generator_mode = franka_core::MotionGeneratorMode::kCartesianVelocity;
   move.controller_mode = franka_core::ControllerMode::kJointImpedance;
-  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
-  const double threshold = unit->parameters().nominal.upper_force[2];
+  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->request(move));
+  const double threshold = unit->configuration().nominal.upper_force[2];
   int crossed = -1;
   int reflex = -1;
   double top = 0.0;
@@ -337,14 +339,14 @@ TEST_P(UnitInWorldTest, CollisionAtATenthOfAMetreASecondIsAReflexWithinThreeMill
   EXPECT_EQ(franka_core::RobotMode::kReflex, state.robot_mode);
   EXPECT_TRUE(state.errors[6] || state.errors[7]);
   EXPECT_EQ(state.errors, state.reflex_reason);
-  EXPECT_EQ(franka_core::fci::Status::kReflexAborted, unit->takeMotionEnd());
+  EXPECT_EQ(franka_core::fci::Status::kReflexAborted, unit->takeAnswer(PendingAnswer::kMotion));
 
   run(300);
-  ASSERT_FALSE(unit->startErrorRecovery());
+  ASSERT_FALSE(unit->request(codec::AutomaticErrorRecoveryRequest{}));
   run(500);
-  EXPECT_EQ(franka_core::fci::Status::kSuccess, unit->takeRecoveryEnd());
+  EXPECT_EQ(franka_core::fci::Status::kSuccess, unit->takeAnswer(PendingAnswer::kRecovery));
   ASSERT_EQ(franka_core::RobotMode::kIdle, state.robot_mode);
-  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->request(move));
   const double from = state.O_T_EE[14];
   for (int i = 0; i < 1000; i++) {
     franka_core::RobotCommand command;
@@ -361,13 +363,14 @@ TEST_P(UnitInWorldTest, InternalControllersHaveTheStiffnessThatWasSet) {
     start("empty");
     tick();
     const std::array<double, 6> K{{500, 500, 500, 30, 30, 30}};
-    ASSERT_EQ(RequestStatus::kSuccess, unit->setCartesianImpedance(K));
-    ASSERT_EQ(RequestStatus::kSuccess,
-              unit->setJointImpedance({{600, 600, 600, 600, 300, 300, 300}}));
+    ASSERT_EQ(Status::kSuccess, unit->request(codec::SetCartesianImpedanceRequest{K}));
+    ASSERT_EQ(
+        Status::kSuccess,
+        unit->request(codec::SetJointImpedanceRequest{{{600, 600, 600, 600, 300, 300, 300}}}));
     franka_core::fci::MoveRequest move;
     move.controller_mode = cartesian ? franka_core::ControllerMode::kCartesianImpedance
                                      : franka_core::ControllerMode::kJointImpedance;
-    ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+    ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->request(move));
     franka_core::RobotCommand hold;
     hold.q_c = unit->state().q_d;
     run(100, &hold);
@@ -396,10 +399,10 @@ TEST_P(UnitInWorldTest, CartesianImpedanceHasTheSetStiffnessInEachOfItsSixAxes) 
   for (std::size_t axis = 0; axis < 6; axis++) {
     start("empty");
     tick();
-    ASSERT_EQ(RequestStatus::kSuccess, unit->setCartesianImpedance(K));
+    ASSERT_EQ(Status::kSuccess, unit->request(codec::SetCartesianImpedanceRequest{K}));
     franka_core::fci::MoveRequest move;
     move.controller_mode = franka_core::ControllerMode::kCartesianImpedance;
-    ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+    ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->request(move));
     franka_core::RobotCommand hold;
     hold.q_c = unit->state().q_d;
     const Eigen::Matrix4d from = Eigen::Map<const Eigen::Matrix4d>(unit->state().O_T_EE_d.data());
@@ -437,7 +440,7 @@ TEST_P(UnitInWorldTest, AsynchronousMotionsTakeTheArmToEachNewTarget) {
   franka_core::fci::MoveRequest move;
   move.use_async_motion_generator = true;
   move.maximum_velocity.fill(0.5);
-  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->startMotion(move));
+  ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->request(move));
   franka_core::RobotCommand target;
   target.q_c = unit->state().q_d;
   double fastest = 0.0;
@@ -463,7 +466,7 @@ TEST_P(UnitInWorldTest, AsynchronousMotionsTakeTheArmToEachNewTarget) {
   target.motion_generation_finished = true;
   run(20, &target);
   EXPECT_EQ(franka_core::RobotMode::kIdle, unit->state().robot_mode);
-  EXPECT_EQ(franka_core::fci::Status::kSuccess, unit->takeMotionEnd());
+  EXPECT_EQ(franka_core::fci::Status::kSuccess, unit->takeAnswer(PendingAnswer::kMotion));
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, UnitInWorldTest, ::testing::Values("panda", "fr3"));

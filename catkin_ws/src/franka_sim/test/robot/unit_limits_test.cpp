@@ -14,15 +14,20 @@
 
 namespace franka_sim::test {
 
+using franka_core::RobotError;
+
 namespace {
 
 constexpr std::array<Derivative, 3> kStages{
     {Derivative::kVelocity, Derivative::kAcceleration, Derivative::kJerk}};
-constexpr std::array<MotionFlag, 3> kJointFlags{
-    {MotionFlag::kJointVelocity, MotionFlag::kJointAcceleration, MotionFlag::kJointJerk}};
-constexpr std::array<MotionFlag, 3> kCartesianFlags{{MotionFlag::kCartesianVelocity,
-                                                     MotionFlag::kCartesianAcceleration,
-                                                     MotionFlag::kCartesianJerk}};
+constexpr std::array<RobotError, 3> kJointFlags{
+    {RobotError::kJointMotionGeneratorVelocityLimitsViolation,
+     RobotError::kJointMotionGeneratorVelocityDiscontinuity,
+     RobotError::kJointMotionGeneratorAccelerationDiscontinuity}};
+constexpr std::array<RobotError, 3> kCartesianFlags{
+    {RobotError::kCartesianMotionGeneratorVelocityLimitsViolation,
+     RobotError::kCartesianMotionGeneratorVelocityDiscontinuity,
+     RobotError::kCartesianMotionGeneratorAccelerationDiscontinuity}};
 
 double of(const franka_core::DerivativeLimits& limits, Derivative what) {
   return what == Derivative::kVelocity       ? limits.velocity
@@ -40,7 +45,7 @@ struct Approach {
   Joints start;  ///< [rad]
   std::function<std::unique_ptr<LimitClient>(double share)> client;
   std::function<double(const LimitClient&)> reached;  ///< share of the limit
-  MotionFlag flag;
+  RobotError flag;
   double rod{0.0};
 };
 
@@ -49,7 +54,8 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
   const MotionLimits limits{motionLimitsOfProtocol(GetParam())};
 
   void standAt(const Joints& start, double rod) {
-    behaveAsOverFci(parameters, GetParam());
+    parameters.rules = InterfaceRules::kFci;
+    parameters.protocol_version = GetParam();
     parameters.NE_T_EE[14] = rod;
     FciTest::standAt(start);
     ignoreCollisions();
@@ -78,7 +84,7 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
     std::optional<Status> end;
     for (int i = 0; i < 1000 && !end; i++) {
       run(1);
-      end = unit.takeMotionEnd();
+      end = unit.takeAnswer(PendingAnswer::kMotion);
     }
     EXPECT_EQ(Status::kSuccess, end);
   }
@@ -88,15 +94,15 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
     EXPECT_EQ(std::vector<int>{static_cast<int>(indexOf(approach.flag))}, raised());
     EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
     EXPECT_GT(reached, 1.0);
-    EXPECT_EQ(Status::kReflexAborted, unit.takeMotionEnd());
+    EXPECT_EQ(Status::kReflexAborted, unit.takeAnswer(PendingAnswer::kMotion));
   }
 
   void recover() {
-    EXPECT_FALSE(unit.startErrorRecovery());
+    EXPECT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
     std::optional<Status> end;
     for (int i = 0; i < 6000 && !end; i++) {
       run(1);
-      end = unit.takeRecoveryEnd();
+      end = unit.takeAnswer(PendingAnswer::kRecovery);
     }
     EXPECT_EQ(Status::kSuccess, end);
     EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
@@ -157,8 +163,9 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
     const franka_core::DerivativeLimits bounds = boundsOf(limits, way.part);
     Approach approach;
     approach.mode = mode;
-    approach.flag = way.part == Part::kElbow ? MotionFlag::kElbowLimit
-                                             : kCartesianFlags[static_cast<std::size_t>(what)];
+    approach.flag = way.part == Part::kElbow
+                        ? RobotError::kCartesianMotionGeneratorElbowLimitViolation
+                        : kCartesianFlags[static_cast<std::size_t>(what)];
     approach.start = way.start;
     approach.rod = way.rod;
     approach.client = [=](double share) {
@@ -213,7 +220,9 @@ TEST_P(UnitLimits, PositionsSentAsFloatsJerkByTheirRounding) {
       approachOfJoint(MotionGeneratorMode::kJointPosition, 3, 2, Floats::kSends);
   standAt(approach.start, 0.0);
   move(approach, 0.99);
-  EXPECT_EQ(std::vector<int>{static_cast<int>(indexOf(MotionFlag::kJointJerk))}, raised());
+  EXPECT_EQ(std::vector<int>{static_cast<int>(
+                indexOf(RobotError::kJointMotionGeneratorAccelerationDiscontinuity))},
+            raised());
 }
 
 TEST_P(UnitLimits, AStraightWayMeetsTheJointsLimitsFirst) {
@@ -228,7 +237,8 @@ TEST_P(UnitLimits, AStraightWayMeetsTheJointsLimitsFirst) {
     EXPECT_EQ(std::vector<int>{}, raised());
     standAt(row.way.start, 0.0);
     EXPECT_LT(move(approach, 0.99), 0.99);
-    EXPECT_EQ(std::vector<int>{static_cast<int>(indexOf(MotionFlag::kSolvedJointAcceleration))},
+    EXPECT_EQ(std::vector<int>{static_cast<int>(
+                  indexOf(RobotError::kCartesianMotionGeneratorJointVelocityDiscontinuity))},
               raised());
   }
 }
@@ -305,7 +315,7 @@ class JointEnds : public UnitLimits {
     const double start = endOfCruise(joint, upper) - lengthOf(way);
     Approach approach;
     approach.mode = mode;
-    approach.flag = MotionFlag::kJointVelocity;
+    approach.flag = RobotError::kJointMotionGeneratorVelocityLimitsViolation;
     approach.start = kClear;
     approach.start[joint] = start;
     approach.client = [=](double share) {

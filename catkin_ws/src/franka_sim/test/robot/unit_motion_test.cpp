@@ -1,6 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The life of a motion: start, run, end of every kind, and what people do to a robot meanwhile.
+#include <franka_sim/robot/mode_machine.h>
+
 #include <algorithm>
 #include <tuple>
 
@@ -130,8 +132,8 @@ TEST_F(UnitMotion, RunsToItsEndUnderEachController) {
     // The sensor-side inertia of the rotors is not fed forward (decision 2): a lag, no offset.
     EXPECT_LT(error, 0.01);
     run(1000);
-    EXPECT_EQ(Status::kSuccess, unit.takeMotionEnd());
-    EXPECT_FALSE(unit.takeMotionEnd()) << "told once";
+    EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kMotion));
+    EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kMotion)) << "told once";
     EXPECT_NEAR(begin[0] + 0.3, unit.state().q_d[0], 1e-9);
     EXPECT_NEAR(begin[0] + 0.3, arm.q()[0], 1e-4);
     EXPECT_EQ((std::array<double, 7>{}), unit.state().tau_J_d);
@@ -176,7 +178,7 @@ TEST_F(UnitMotion, AccelerationThresholdsHoldUnderInternalControllersOnly) {
        {std::pair{ControllerMode::kJointImpedance, RobotMode::kMove},
         std::pair{ControllerMode::kExternalController, RobotMode::kReflex}}) {
     standAt(kReady);
-    ASSERT_EQ(RequestStatus::kSuccess, unit.setCollisionBehavior(high, parameters.nominal));
+    ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(high, parameters.nominal)));
     startSwing(controller);
     // Accelerates by more than a tenth of the limit all the while.
     drive(300, [&](int i, const RobotState& state) {
@@ -200,7 +202,7 @@ TEST_F(UnitMotion, RequestsThatMakeNoSenseAreRefused) {
   const auto refused = [&](auto change) {
     auto bad = request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance);
     change(bad);
-    return unit.startMotion(bad) == Status::kInvalidArgumentRejected &&
+    return unit.request(bad) == Status::kInvalidArgumentRejected &&
            unit.state().robot_mode == RobotMode::kIdle;
   };
   EXPECT_TRUE(refused([](auto& r) { r.max_path_deviation.translation = 0; }));
@@ -214,10 +216,9 @@ TEST_F(UnitMotion, RequestsThatMakeNoSenseAreRefused) {
 TEST_F(UnitMotion, SingularStartIsToldAfterTheStart) {
   // Stretched: shoulder, elbow and wrist on one line.
   standAt({{0, 0.5, 0, franka_core::kElbowFlip, 0, 1.5, 0}});
-  EXPECT_EQ(Status::kMotionStarted,
-            unit.startMotion(
-                request(MotionGeneratorMode::kCartesianVelocity, ControllerMode::kJointImpedance)));
-  EXPECT_EQ(Status::kStartAtSingularPoseRejected, unit.takeMotionEnd());
+  EXPECT_EQ(Status::kMotionStarted, unit.request(request(MotionGeneratorMode::kCartesianVelocity,
+                                                         ControllerMode::kJointImpedance)));
+  EXPECT_EQ(Status::kStartAtSingularPoseRejected, unit.takeAnswer(PendingAnswer::kMotion));
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
 }
 
@@ -227,23 +228,23 @@ TEST_F(UnitMotion, StopMoveBrakesAndAnswersAtRest) {
   const double speed = unit.state().dq_d[0];
   ASSERT_GT(speed, 0.5);
   const double from = unit.state().q_d[0];
-  EXPECT_FALSE(unit.stopMove());
+  EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-  EXPECT_EQ(Status::kCommandNotPossibleRejected,
-            unit.startMotion(
-                request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
+  EXPECT_EQ(
+      Status::kCommandNotPossibleRejected,
+      unit.request(request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
   int ticks = 0;
-  while (unit.settling()) {
-    EXPECT_FALSE(unit.takeStopEnd());
-    EXPECT_FALSE(unit.takeMotionEnd());
+  while (unit.status().settling) {
+    EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kStop));
+    EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kMotion));
     ASSERT_LT(ticks++, 200);
     test::tick(unit, arm);
   }
   EXPECT_NEAR(speed / 15.0, 1e-3 * ticks, 2e-3);
   EXPECT_NEAR(speed * speed / 30.0, unit.state().q_d[0] - from, 1e-3 * speed);
-  EXPECT_EQ(Status::kSuccess, unit.takeStopEnd());
-  EXPECT_EQ(Status::kPreempted, unit.takeMotionEnd());
-  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.stopMove());
+  EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kStop));
+  EXPECT_EQ(Status::kPreempted, unit.takeAnswer(PendingAnswer::kMotion));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(codec::StopMoveRequest{}));
   startSwing();
 }
 
@@ -260,13 +261,14 @@ TEST_F(UnitMotion, SwitchesOfTheLawAreWithoutAStep) {
     }
     last = arm.torques();
   };
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setJointImpedance({{200, 200, 200, 200, 200, 200, 200}}));
+  ASSERT_EQ(Status::kSuccess,
+            unit.request(codec::SetJointImpedanceRequest{{{200, 200, 200, 200, 200, 200, 200}}}));
   startSwing();
   drive(300, [&](int, const RobotState&) {
     measure();
     return swing(-1);
   });
-  unit.stopMove();
+  unit.request(codec::StopMoveRequest{});
   for (int i = 0; i < 300; i++) {
     test::tick(unit, arm);
     measure();
@@ -280,19 +282,19 @@ TEST_F(UnitMotion, ReflexBrakesReleasesAndRecoversAtRest) {
   arm.push = {{0, -60, 0, 0, 0, 0}};
   drive(500, [&](int i, const RobotState&) { return swing(i); });
   ASSERT_EQ(RobotMode::kReflex, unit.state().robot_mode);
-  EXPECT_EQ(Status::kReflexAborted, unit.takeMotionEnd());
-  EXPECT_EQ(Status::kCommandNotPossibleRejected,
-            unit.startMotion(
-                request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
-  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.stopMove());
+  EXPECT_EQ(Status::kReflexAborted, unit.takeAnswer(PendingAnswer::kMotion));
+  EXPECT_EQ(
+      Status::kCommandNotPossibleRejected,
+      unit.request(request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(codec::StopMoveRequest{}));
   arm.push.fill(0.0);
   const auto reason = unit.state().reflex_reason;
-  ASSERT_FALSE(unit.startErrorRecovery());
+  ASSERT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
   EXPECT_EQ(RobotMode::kAutomaticErrorRecovery, unit.state().robot_mode);
   std::optional<Status> end;
   for (int i = 0; i < 6000 && !end; i++) {
     test::tick(unit, arm);
-    end = unit.takeRecoveryEnd();
+    end = unit.takeAnswer(PendingAnswer::kRecovery);
   }
   EXPECT_EQ(Status::kSuccess, end);
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
@@ -309,75 +311,77 @@ TEST_F(UnitMotion, APushAtRestIsAReflexToo) {
   arm.push = {{0, 60, 0, 0, 0, 0}};
   run(200);
   EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
-  EXPECT_FALSE(unit.takeMotionEnd());
+  EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kMotion));
 }
 
 TEST_F(UnitMotion, RecoveryNeedsTheUserWhereOnlyTheUserHelps) {
-  EXPECT_EQ(Status::kSuccess, unit.startErrorRecovery()) << "nothing to recover from";
-  unit.setUserStop(true);
-  EXPECT_EQ(Status::kManualErrorRecoveryRequiredRejected, unit.startErrorRecovery());
-  unit.setUserStop(false);
+  EXPECT_EQ(Status::kSuccess, unit.request(codec::AutomaticErrorRecoveryRequest{}))
+      << "nothing to recover from";
+  unit.request(UserStop{true});
+  EXPECT_EQ(Status::kManualErrorRecoveryRequiredRejected,
+            unit.request(codec::AutomaticErrorRecoveryRequest{}));
+  unit.request(UserStop{false});
   run(3);
 
   ignoreCollisions();
   arm.put({{2.91, -0.785, 0, -2.356, 0, 1.571, 0.785}});
   run(1);
   ASSERT_EQ(std::vector<int>{0}, raised());
-  EXPECT_EQ(Status::kManualErrorRecoveryRequiredRejected, unit.startErrorRecovery());
-  unit.setGuiding(true);
+  EXPECT_EQ(Status::kManualErrorRecoveryRequiredRejected,
+            unit.request(codec::AutomaticErrorRecoveryRequest{}));
+  unit.request(Guiding{true});
   EXPECT_EQ(RobotMode::kGuiding, unit.state().robot_mode);
   arm.put({{2.5, -0.785, 0, -2.356, 0, 1.571, 0.785}});
   run(3);
-  unit.setGuiding(false);
+  unit.request(Guiding{false});
   EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode) << "the error is still to be recovered";
-  EXPECT_FALSE(unit.startErrorRecovery());
+  EXPECT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
   run(500);
-  EXPECT_EQ(Status::kSuccess, unit.takeRecoveryEnd());
+  EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kRecovery));
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
 }
 
 TEST_F(UnitMotion, UserStopEndsMotionAndRecovery) {
   startSwing();
   drive(300, [&](int i, const RobotState&) { return swing(i); });
-  unit.setUserStop(true);
+  unit.request(UserStop{true});
   EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
-  EXPECT_TRUE(unit.brakesClosed());
-  EXPECT_EQ(Status::kEmergencyAborted, unit.takeMotionEnd());
-  EXPECT_EQ(
-      Status::kCommandNotPossibleRejected,
-      unit.startMotion(request(MotionGeneratorMode::kNone, ControllerMode::kExternalController)));
+  EXPECT_TRUE(unit.status().brakes_closed);
+  EXPECT_EQ(Status::kEmergencyAborted, unit.takeAnswer(PendingAnswer::kMotion));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected,
+            unit.request(request(MotionGeneratorMode::kNone, ControllerMode::kExternalController)));
   run(100);
-  unit.setUserStop(false);
+  unit.request(UserStop{false});
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
   run(100);
   EXPECT_TRUE(raised().empty());
 
   reflex();
-  ASSERT_FALSE(unit.startErrorRecovery());
-  unit.setUserStop(true);
-  EXPECT_EQ(Status::kEmergencyAborted, unit.takeRecoveryEnd());
-  unit.setUserStop(false);
+  ASSERT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
+  unit.request(UserStop{true});
+  EXPECT_EQ(Status::kEmergencyAborted, unit.takeAnswer(PendingAnswer::kRecovery));
+  unit.request(UserStop{false});
   EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode) << "the error has not been cleared";
 }
 
 TEST_F(UnitMotion, BrakesGuidingAndFciEndAMotion) {
   const std::tuple<void (*)(ControlUnit&), void (*)(ControlUnit&), RobotMode> cases[] = {
-      {[](ControlUnit& u) { u.closeBrakes(); }, [](ControlUnit& u) { u.openBrakes(); },
-       RobotMode::kOther},
-      {[](ControlUnit& u) { u.setGuiding(true); }, [](ControlUnit& u) { u.setGuiding(false); },
-       RobotMode::kGuiding},
-      {[](ControlUnit& u) { u.setFciActive(false); }, [](ControlUnit& u) { u.setFciActive(true); },
-       RobotMode::kIdle}};
+      {[](ControlUnit& u) { u.request(Brakes{true}); },
+       [](ControlUnit& u) { u.request(Brakes{false}); }, RobotMode::kOther},
+      {[](ControlUnit& u) { u.request(Guiding{true}); },
+       [](ControlUnit& u) { u.request(Guiding{false}); }, RobotMode::kGuiding},
+      {[](ControlUnit& u) { u.request(FciActivation{false}); },
+       [](ControlUnit& u) { u.request(FciActivation{true}); }, RobotMode::kIdle}};
   for (const auto& [begin_it, end_it, mode] : cases) {
     standAt(kReady);
     startSwing();
     drive(20, [&](int i, const RobotState&) { return swing(i); });
     begin_it(unit);
     EXPECT_EQ(mode, unit.state().robot_mode);
-    EXPECT_EQ(Status::kAborted, unit.takeMotionEnd());
+    EXPECT_EQ(Status::kAborted, unit.takeAnswer(PendingAnswer::kMotion));
     run(50);
     EXPECT_EQ(Status::kCommandNotPossibleRejected,
-              unit.startMotion(
+              unit.request(
                   request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
     end_it(unit);
     EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
@@ -387,17 +391,17 @@ TEST_F(UnitMotion, BrakesGuidingAndFciEndAMotion) {
 }
 
 TEST_F(UnitMotion, BrakesOpenIntoAPressedUserStop) {
-  unit.closeBrakes();
-  unit.setUserStop(true);
+  unit.request(Brakes{true});
+  unit.request(UserStop{true});
   EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
-  unit.openBrakes();
+  unit.request(Brakes{false});
   EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
 }
 
 TEST_F(UnitMotion, GuidingFollowsTheHandAlongFreeAxesOnly) {
-  ASSERT_EQ(RequestStatus::kSuccess,
-            unit.setGuidingMode({{false, true, false, false, false, false}}, false));
-  unit.setGuiding(true);
+  ASSERT_EQ(Status::kSuccess, unit.request(codec::SetGuidingModeRequest{
+                                  {{false, true, false, false, false, false}}, false}));
+  unit.request(Guiding{true});
   const std::array<double, 16> from = unit.state().O_T_EE;
   arm.push = {{4, 4, 4, 0, 0, 0}};
   run(400);
@@ -409,7 +413,7 @@ TEST_F(UnitMotion, GuidingFollowsTheHandAlongFreeAxesOnly) {
   EXPECT_EQ(state.q, state.q_d) << "what is wanted follows the hand";
   EXPECT_EQ((std::array<double, 7>{}), state.tau_J_d);
   arm.push.fill(0.0);
-  unit.setGuiding(false);
+  unit.request(Guiding{false});
   run(1000);
   const std::array<double, 7> left = arm.q();
   run(500);
@@ -419,32 +423,40 @@ TEST_F(UnitMotion, GuidingFollowsTheHandAlongFreeAxesOnly) {
 }
 
 TEST_F(UnitMotion, SettersAreRefusedInMoveAndChecked) {
-  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setJointImpedance({{-1, 0, 0, 0, 0, 0, 0}}));
-  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setJointImpedance({{14251, 0, 0, 0, 0, 0, 0}}));
-  EXPECT_EQ(RequestStatus::kSuccess, unit.setJointImpedance({{14250, 0, 0, 0, 0, 0, 0}}));
-  EXPECT_EQ(RequestStatus::kInvalidArgument,
-            unit.setCartesianImpedance({{3000, 3000, 9.9, 300, 300, 300}}));
-  EXPECT_EQ(RequestStatus::kInvalidArgument,
-            unit.setCartesianImpedance({{3000, 3000, 10, 300, 301, 300}}));
-  EXPECT_EQ(RequestStatus::kSuccess, unit.setCartesianImpedance({{10, 3000, 10, 1, 300, 1}}));
-  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setFilters({0.5, 1000, 1000, 1000, 1000}));
-  EXPECT_EQ(RequestStatus::kInvalidArgument,
-            unit.setFilters({1000, 1000, 1000, 1000, std::nan("")}));
-  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setVirtualWall(8, {}));
-  EXPECT_EQ(RequestStatus::kInvalidArgument, unit.setProtocolVersion(2));
+  EXPECT_EQ(Status::kInvalidArgumentRejected,
+            unit.request(codec::SetJointImpedanceRequest{{{-1, 0, 0, 0, 0, 0, 0}}}));
+  EXPECT_EQ(Status::kInvalidArgumentRejected,
+            unit.request(codec::SetJointImpedanceRequest{{{14251, 0, 0, 0, 0, 0, 0}}}));
+  EXPECT_EQ(Status::kSuccess,
+            unit.request(codec::SetJointImpedanceRequest{{{14250, 0, 0, 0, 0, 0, 0}}}));
+  EXPECT_EQ(Status::kInvalidArgumentRejected,
+            unit.request(codec::SetCartesianImpedanceRequest{{{3000, 3000, 9.9, 300, 300, 300}}}));
+  EXPECT_EQ(Status::kInvalidArgumentRejected,
+            unit.request(codec::SetCartesianImpedanceRequest{{{3000, 3000, 10, 300, 301, 300}}}));
+  EXPECT_EQ(Status::kSuccess,
+            unit.request(codec::SetCartesianImpedanceRequest{{{10, 3000, 10, 1, 300, 1}}}));
+  EXPECT_EQ(Status::kInvalidArgumentRejected,
+            unit.request(codec::SetFiltersRequest{0.5, 1000, 1000, 1000, 1000}));
+  EXPECT_EQ(Status::kInvalidArgumentRejected,
+            unit.request(codec::SetFiltersRequest{1000, 1000, 1000, 1000, std::nan("")}));
+  EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(SetVirtualWall{8, {}}));
+  EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(SetProtocolVersion{2}));
   EXPECT_EQ(nullptr, unit.virtualWall(-1));
   startSwing();
-  EXPECT_EQ(RequestStatus::kNotPossible, unit.setJointImpedance({}));
-  EXPECT_EQ(RequestStatus::kNotPossible, unit.setCartesianImpedance({{10, 10, 10, 1, 1, 1}}));
-  EXPECT_EQ(RequestStatus::kNotPossible, unit.setGuidingMode({}, true));
-  EXPECT_EQ(RequestStatus::kNotPossible, unit.setFilters({}));
-  EXPECT_EQ(RequestStatus::kNotPossible, unit.setVirtualWall(0, {}));
-  EXPECT_EQ(RequestStatus::kNotPossible, unit.setProtocolVersion(5));
-  EXPECT_EQ(RequestStatus::kNotPossible, unit.setEE(franka_core::kIdentityTransform));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(codec::SetJointImpedanceRequest{{}}));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected,
+            unit.request(codec::SetCartesianImpedanceRequest{{{10, 10, 10, 1, 1, 1}}}));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected,
+            unit.request(codec::SetGuidingModeRequest{{}, true}));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(codec::SetFiltersRequest{}));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(SetVirtualWall{0, {}}));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(SetProtocolVersion{5}));
+  EXPECT_EQ(Status::kCommandNotPossibleRejected,
+            unit.request(codec::SetNEToEERequest{franka_core::kIdentityTransform}));
 }
 
 TEST_F(UnitMotion, FiltersSmoothTheCommands) {
-  ASSERT_EQ(RequestStatus::kSuccess, unit.setFilters({1000, 10, 1000, 1000, 1000}));
+  ASSERT_EQ(Status::kSuccess, unit.request(codec::SetFiltersRequest{1000, 10, 1000, 1000, 1000}));
   startMove(MotionGeneratorMode::kJointVelocity);
   double last = 0.0;
   const double gain = 1e-3 / (1e-3 + 1.0 / (2 * 3.14159265358979323846 * 10));

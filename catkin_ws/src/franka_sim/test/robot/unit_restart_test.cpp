@@ -39,25 +39,25 @@ class UnitRestart : public FciTest {
 
 TEST_F(UnitRestart, AnswersAStopThatStillBrakes) {
   swing();
-  EXPECT_FALSE(unit.stopMove());
+  EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
   run(5);
-  ASSERT_TRUE(unit.settling());
-  ASSERT_FALSE(unit.takeStopEnd());
+  ASSERT_TRUE(unit.status().settling);
+  ASSERT_FALSE(unit.takeAnswer(PendingAnswer::kStop));
   putElsewhere();
-  EXPECT_EQ(Status::kSuccess, unit.takeStopEnd());
-  EXPECT_EQ(Status::kPreempted, unit.takeMotionEnd());
-  EXPECT_FALSE(unit.settling());
+  EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kStop));
+  EXPECT_EQ(Status::kPreempted, unit.takeAnswer(PendingAnswer::kMotion));
+  EXPECT_FALSE(unit.status().settling);
   expectToStayElsewhere();
   // Nothing of it is left for the next motion.
   startMove(MotionGeneratorMode::kJointPosition);
   run(21);
-  EXPECT_FALSE(unit.takeStopEnd());
+  EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kStop));
 }
 
 TEST_F(UnitRestart, EndsAMotionWhoseWayDoesNotLeadFromThere) {
   swing();
   putElsewhere();
-  EXPECT_EQ(Status::kAborted, unit.takeMotionEnd());
+  EXPECT_EQ(Status::kAborted, unit.takeAnswer(PendingAnswer::kMotion));
   expectToStayElsewhere();
 }
 
@@ -71,12 +71,12 @@ TEST_F(UnitRestart, LetsARecoveryComeToItsEnd) {
   });
   arm.push.fill(0.0);
   ASSERT_EQ(RobotMode::kReflex, unit.state().robot_mode);
-  ASSERT_FALSE(unit.startErrorRecovery());
+  ASSERT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
   putElsewhere();
   std::optional<Status> end;
   for (int i = 0; i < 1000 && !end; i++) {
     run(1);
-    end = unit.takeRecoveryEnd();
+    end = unit.takeAnswer(PendingAnswer::kRecovery);
   }
   EXPECT_EQ(Status::kSuccess, end);
   expectToStayElsewhere();
@@ -87,16 +87,16 @@ TEST_F(UnitRestart, LeavesThePhaseOfAcceleration) {
   rebuild();
   run(1);
   swing();
-  ASSERT_EQ(1e3, unit.thresholds().upper_force[0]);
+  ASSERT_EQ(1e3, unit.status().thresholds.upper_force[0]);
   putElsewhere();
   run(1);
-  EXPECT_EQ(parameters.nominal.upper_force, unit.thresholds().upper_force);
+  EXPECT_EQ(parameters.nominal.upper_force, unit.status().thresholds.upper_force);
 }
 
 TEST_F(UnitRestart, GuidedAxesAreHeldWhereTheArmIsNow) {
-  ASSERT_EQ(RequestStatus::kSuccess,
-            unit.setGuidingMode({{false, false, false, false, false, false}}, false));
-  unit.setGuiding(true);
+  ASSERT_EQ(Status::kSuccess, unit.request(codec::SetGuidingModeRequest{
+                                  {{false, false, false, false, false, false}}, false}));
+  unit.request(Guiding{true});
   run(10);
   putElsewhere();
   run(500);
@@ -107,20 +107,20 @@ TEST_F(UnitRestart, GuidedAxesAreHeldWhereTheArmIsNow) {
 
 TEST_F(UnitRestart, AStopThatAReflexOvertakesIsAnsweredAsSuch) {
   swing();
-  EXPECT_FALSE(unit.stopMove());
+  EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
   run(5);
   tickWith([](ArmMeasurement& m) { m.tau_J[0] += 60.0; });
   EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
-  EXPECT_EQ(Status::kReflexAborted, unit.takeStopEnd());
-  EXPECT_EQ(Status::kPreempted, unit.takeMotionEnd());
+  EXPECT_EQ(Status::kReflexAborted, unit.takeAnswer(PendingAnswer::kStop));
+  EXPECT_EQ(Status::kPreempted, unit.takeAnswer(PendingAnswer::kMotion));
 }
 
 TEST_F(UnitRestart, AStopWaitsNoLongerWhenTorquesOvertakeTheBraking) {
   swing();
-  EXPECT_FALSE(unit.stopMove());
+  EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
   run(5);
-  ASSERT_EQ(RequestStatus::kSuccess, unit.startTorqueControl());
-  EXPECT_EQ(Status::kSuccess, unit.takeStopEnd());
+  ASSERT_EQ(Status::kMotionStarted, unit.request(torqueControl()));
+  EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kStop));
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     franka_core::RobotCommand command;
     command.message_id = state.message_id;
     command.tau_J_d = law(state);
-    arm_->setBrakes(unit_->brakesClosed());
+    arm_->setBrakes(unit_->status().brakes_closed);
     arm_->applyTorques(unit_->actuate(&command));
     world_->step();
   }
@@ -144,7 +144,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
   // wrenches.
   std::pair<Vector6, Vector6> push(const Vector6& wrench) {
     idleTick();
-    EXPECT_EQ(RequestStatus::kSuccess, unit_->startTorqueControl());
+    EXPECT_EQ(Status::kMotionStarted, unit_->request(torqueControl()));
     const Matrix4 target = Matrix4::Map(unit_->state().O_T_EE.data());
     const Vector7 posture = vector(kReady);
     for (int k = 0; k < 6000; ++k) {

@@ -10,6 +10,7 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,7 @@ class ArmServices {
   void restartArmControllers();
   std::vector<std::string> runningArmControllers();
   /// @throws std::runtime_error with a sentence unless the unit accepted
-  void check(franka_sim::RequestStatus status, const std::string& why_invalid);
+  void check(std::optional<franka_sim::Status> status, const std::string& why_invalid);
 
   ros::NodeHandle node_;
   ros::NodeHandle control_node_;

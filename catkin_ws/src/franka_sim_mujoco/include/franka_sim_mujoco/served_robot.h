@@ -33,7 +33,8 @@ class ServedRobot {
   template <typename Service>
   void offer(const std::string& name,
              std::function<void(typename Service::Request&, typename Service::Response&)> handler);
-  void offerSwitch(const std::string& name, void (franka_sim::ControlUnit::*turn)(bool));
+  template <typename Switch>
+  void offerSwitch(const std::string& name);
   void offerSwitches();
   void offerLink();
   void offerStates();

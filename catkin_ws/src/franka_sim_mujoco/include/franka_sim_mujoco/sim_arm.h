@@ -76,14 +76,14 @@ class SimArm {
   /// The external activation device. Pressed: brakes; commands stay without effect until a
   /// recovery.
   void setUserStop(bool pressed) noexcept;
-  /// Begins a recovery. @returns kNotPossible while the user stop is pressed, the arm stands beyond
-  /// a limit or is being led
-  franka_sim::RequestStatus recover() noexcept;
+  /// Begins a recovery. @returns false while the user stop is pressed, the brakes are closed, or
+  /// the arm stands beyond a limit after an error
+  bool recover() noexcept;
   /// Whether a recovery still waits for standstill.
   bool recovering() const noexcept;
   /// Takes or gives back the connection that controllers command through.
-  /// @returns kNotPossible when controllers command the arm
-  franka_sim::RequestStatus setConnected(bool connected) noexcept;
+  /// @returns false when controllers command the arm
+  bool setConnected(bool connected) noexcept;
 
   /// The world was reset: what runs starts anew from where the arm stands in the next tick.
   void worldWasReset() noexcept;
@@ -114,6 +114,7 @@ class SimArm {
   bool canConnect() const noexcept;
   void connect() noexcept;
   void tryToStart() noexcept;
+  void stopMotion() noexcept;
   void refuse(Refusal why) noexcept;
   void resetCommands() noexcept;
   void watch() noexcept;

@@ -4,7 +4,7 @@
 
 #include <franka/log.h>
 #include <franka_core/abort_diagnosis.h>
-#include <franka_core/error_names.h>
+#include <franka_core/robot_error.h>
 
 #include <cstddef>
 #include <string>

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/abort_diagnosis.h>
-#include <franka_core/error_names.h>
 #include <franka_core/limits.h>
+#include <franka_core/robot_error.h>
 #include <franka_core/transform.h>
 
 #include <Eigen/Geometry>
@@ -337,58 +337,58 @@ std::string Diagnosis::invalidFrame() const {
 
 /// By the numbers of the flags (protocol 4.3).
 std::string Diagnosis::explain(std::size_t flag) const {
-  switch (flag) {
-    case 0:
+  switch (static_cast<RobotError>(flag)) {
+    case RobotError::kJointPositionLimitsViolation:
       return positionViolation();
-    case 3:
+    case RobotError::kJointVelocityViolation:
       return measuredVelocity();
-    case 6:
-    case 7:
+    case RobotError::kJointReflex:
+    case RobotError::kCartesianReflex:
       return collision();
-    case 8:
-    case 9:
+    case RobotError::kMaxGoalPoseDeviationViolation:
+    case RobotError::kMaxPathPoseDeviationViolation:
       return deviation();
-    case 11:
+    case RobotError::kJointPositionMotionGeneratorStartPoseInvalid:
       return startJoints();
-    case 12:
+    case RobotError::kJointMotionGeneratorPositionLimitsViolation:
       return rangeOf(commandedPosition(), kWasToGo, limits_);
-    case 13:
+    case RobotError::kJointMotionGeneratorVelocityLimitsViolation:
       return commanded(measures_.commandedJoints(1), 1);
-    case 14:
+    case RobotError::kJointMotionGeneratorVelocityDiscontinuity:
       return commanded(measures_.commandedJoints(2), 2);
-    case 15:
+    case RobotError::kJointMotionGeneratorAccelerationDiscontinuity:
       return commanded(measures_.commandedJoints(3), 3);
-    case 16:
+    case RobotError::kCartesianPositionMotionGeneratorStartPoseInvalid:
       return startPose();
-    case 17:
+    case RobotError::kCartesianMotionGeneratorElbowLimitViolation:
       return elbowLimit();
-    case 18:
+    case RobotError::kCartesianMotionGeneratorVelocityLimitsViolation:
       return commanded(measures_.commandedTwist(1), 1);
-    case 19:
+    case RobotError::kCartesianMotionGeneratorVelocityDiscontinuity:
       return commanded(measures_.commandedTwist(2), 2);
-    case 20:
+    case RobotError::kCartesianMotionGeneratorAccelerationDiscontinuity:
       return commanded(measures_.commandedTwist(3), 3);
-    case 21:
+    case RobotError::kCartesianMotionGeneratorElbowSignInconsistent:
       return elbowSign(false);
-    case 22:
+    case RobotError::kCartesianMotionGeneratorStartElbowInvalid:
       return startElbow();
-    case 24:
+    case RobotError::kStartElbowSignInconsistent:
       return elbowSign(true);
-    case 25:
+    case RobotError::kCommunicationConstraintsViolation:
       return lostPackets();
-    case 27:
+    case RobotError::kCartesianMotionGeneratorJointPositionLimitsViolation:
       return rangeOf(solvedPosition(), kWouldHaveFollowed, limits_);
-    case 28:
+    case RobotError::kCartesianMotionGeneratorJointVelocityLimitsViolation:
       return solved(1);
-    case 29:
+    case RobotError::kCartesianMotionGeneratorJointVelocityDiscontinuity:
       return solved(2);
-    case 30:
+    case RobotError::kCartesianMotionGeneratorJointAccelerationDiscontinuity:
       return solved(3);
-    case 31:
+    case RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag:
       return invalidFrame();
-    case 32:
+    case RobotError::kControllerTorqueDiscontinuity:
       return commanded(measures_.commandedTorques(), "a change of torque", 1);
-    case 34:
+    case RobotError::kTauJRangeViolation:
       return sensorTorque();
     default:
       return "see the robot's manual; the log holds no quantity that shows it.";

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/arm_model.h>
-#include <franka_core/error_names.h>
 #include <franka_core/fci/state_codec.h>
+#include <franka_core/robot_error.h>
 
 #include "wire.h"
 

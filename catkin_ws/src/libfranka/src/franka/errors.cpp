@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/errors.h>
-#include <franka_core/error_names.h>
+#include <franka_core/robot_error.h>
 
 #include <algorithm>
 #include <sstream>

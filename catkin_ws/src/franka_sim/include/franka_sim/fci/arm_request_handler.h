@@ -4,6 +4,7 @@
 
 #include <franka_core/fci/commands.h>
 #include <franka_core/robot_state.h>
+#include <franka_sim/robot/unit_requests.h>
 
 #include <cstdint>
 #include <optional>
@@ -28,16 +29,14 @@ class ArmRequestHandler {
   virtual bool active() const noexcept = 0;
 
   /// The answer to any request but Connect and those for models. Move answers kMotionStarted, or
-  /// why not. StopMove and AutomaticErrorRecovery may answer later: nothing now, and then by
-  /// stopEnd and recoveryEnd.
+  /// why not. StopMove and AutomaticErrorRecovery may answer later: nothing now, then by
+  /// takeAnswer.
   virtual std::optional<Status> handle(const franka_core::fci::Request& request) noexcept = 0;
   /// The virtual wall of that number; nothing if there is no such number.
   virtual std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept = 0;
 
-  /// How the motion, the stop or the recovery ended; each end is returned once.
-  virtual std::optional<Status> motionEnd() noexcept = 0;
-  virtual std::optional<Status> stopEnd() noexcept = 0;
-  virtual std::optional<Status> recoveryEnd() noexcept = 0;
+  /// How the motion, the stop or the recovery ended; each answer is returned once.
+  virtual std::optional<Status> takeAnswer(PendingAnswer which) noexcept = 0;
 };
 
 }  // namespace franka_sim::fci

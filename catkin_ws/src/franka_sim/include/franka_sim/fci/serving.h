@@ -38,7 +38,7 @@ void setLoad(SimRobot& robot, const franka_core::Payload& load);
 
 /// What the user is told of a collision that raised this error (self-collision, joint or Cartesian
 /// reflex): "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
-std::string collisionOf(const ControlUnit& unit, ErrorFlag error);
+std::string collisionOf(const ControlUnit& unit, franka_core::RobotError error);
 
 /// Where a real arm comes to rest that was told to go to q [rad]: its model of gravity is wrong by
 /// a few tenths of a newton metre, which the stiffness [Nm/rad] of the hold answers with about 1e-4

@@ -18,13 +18,11 @@ class UnitRequestHandler final : public ArmRequestHandler {
 
   const franka_core::RobotState& state() const noexcept override { return unit_.state(); }
   void connected(std::uint16_t version) noexcept override;
-  void disconnected() noexcept override { unit_.clientGone(); }
-  bool active() const noexcept override { return unit_.fciActive(); }
+  void disconnected() noexcept override { unit_.request(ClientLost{}); }
+  bool active() const noexcept override { return unit_.status().fci_active; }
   std::optional<Status> handle(const franka_core::fci::Request& request) noexcept override;
   std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept override;
-  std::optional<Status> motionEnd() noexcept override;
-  std::optional<Status> stopEnd() noexcept override;
-  std::optional<Status> recoveryEnd() noexcept override;
+  std::optional<Status> takeAnswer(PendingAnswer which) noexcept override;
 
  private:
   void applyVersion() noexcept;

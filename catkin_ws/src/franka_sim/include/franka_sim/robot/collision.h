@@ -32,6 +32,6 @@ std::array<double, N> above(const std::array<double, N>& values,
 std::string describeJointCollision(const Collision& collision);
 /// "along z of O: external force -25.1 N, upper threshold 20 N", or about it, or of K. Not
 /// real-time safe.
-std::string describeCartesianCollision(const Collision& collision, ThresholdFrame frame);
+std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules);
 
 }  // namespace franka_sim

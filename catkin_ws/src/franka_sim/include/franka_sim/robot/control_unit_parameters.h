@@ -14,11 +14,28 @@ struct CollisionThresholds {
   std::array<double, 6> lower_force, upper_force;
 };
 
-/// The axes of the wrench that is compared with the Cartesian thresholds (decision 15).
-enum class ThresholdFrame {
-  kBase,      ///< O_F_ext_hat_K, as over the FCI
-  kStiffness  ///< K_F_ext_hat_K, as the ROS simulation's manual says
+/// The rules of the interface through which a robot is commanded (protocol 5.1) (decision 15).
+enum class InterfaceRules {
+  /// A robot: collisions, violated limits and lost commands end a motion; setters are refused in
+  /// Move; the Cartesian thresholds are for O_F_ext_hat_K.
+  kFci,
+  /// The ROS simulation: contacts and collisions are only shown; setters are accepted in Move; the
+  /// Cartesian thresholds are for K_F_ext_hat_K, as its manual says.
+  kRosControl,
+  /// The ROS simulation with the reflexes of a robot.
+  kRosControlWithReflexes,
 };
+
+constexpr bool hasReflexes(InterfaceRules rules) noexcept {
+  return rules != InterfaceRules::kRosControl;
+}
+constexpr bool acceptsSettersInMotion(InterfaceRules rules) noexcept {
+  return rules != InterfaceRules::kFci;
+}
+/// Whether Cartesian thresholds are for O_F_ext_hat_K; otherwise they are for K_F_ext_hat_K.
+constexpr bool judgesWrenchInBase(InterfaceRules rules) noexcept {
+  return rules == InterfaceRules::kFci;
+}
 
 /// The configuration a control unit starts with. Thresholds are the defaults of the original
 /// franka_gazebo; the source of each other default stands beside it.
@@ -48,21 +65,7 @@ struct ControlUnitParameters {
   std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
   bool has_hand{true};           ///< for the avoidance of self-collisions
   unsigned protocol_version{5};  ///< selects the limits (decisions 8, 25)
-  /// Whether setters are accepted in Move: in the ROS simulation, not over the FCI (protocol 5.1).
-  bool setters_in_motion{true};
-  ThresholdFrame threshold_frame{ThresholdFrame::kStiffness};
-  /// Whether collisions, violated limits and lost commands end a motion. The robot does so; the ROS
-  /// simulation only shows contacts and collisions.
-  bool reflexes{false};
+  InterfaceRules rules{InterfaceRules::kRosControl};
 };
-
-/// Makes a unit behave as behind its own interface: reflexes, setters refused while it moves,
-/// thresholds for O_F_ext_hat_K.
-inline void behaveAsOverFci(ControlUnitParameters& parameters, unsigned protocol_version) {
-  parameters.protocol_version = protocol_version;
-  parameters.reflexes = true;
-  parameters.setters_in_motion = false;
-  parameters.threshold_frame = ThresholdFrame::kBase;
-}
 
 }  // namespace franka_sim

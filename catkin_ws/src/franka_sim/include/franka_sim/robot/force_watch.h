@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/error_flag.h>
+#include <franka_core/robot_error.h>
 
 #include <array>
 #include <optional>
@@ -22,10 +22,10 @@ class ForceWatch {
 
   /// One tick. All [Nm]. @param tau_ext external torque @param achieved link-side torque without
   /// gravity @param desired the one commanded for that tick @param range of the motors
-  std::optional<ErrorFlag> update(const std::array<double, 7>& tau_ext,
-                                  const std::array<double, 7>& achieved,
-                                  const std::array<double, 7>& desired,
-                                  const std::array<double, 7>& range) noexcept;
+  std::optional<franka_core::RobotError> update(const std::array<double, 7>& tau_ext,
+                                                const std::array<double, 7>& achieved,
+                                                const std::array<double, 7>& desired,
+                                                const std::array<double, 7>& range) noexcept;
 
  private:
   int missed_{0};  // [ticks]

@@ -24,9 +24,6 @@ class JointImpedance {
                                const std::array<double, 49>& mass,
                                const std::array<double, 7>& coriolis) const noexcept;
 
-  void setStiffness(const std::array<double, 7>& stiffness) noexcept { stiffness_ = stiffness; }
-  const std::array<double, 7>& stiffness() const noexcept { return stiffness_; }
-
  private:
   std::array<double, 7> stiffness_;
   std::array<double, 7> rotor_inertia_;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <franka_core/limits.h>
+#include <franka_core/robot_error.h>
 #include <franka_core/robot_state.h>
-#include <franka_sim/robot/error_flag.h>
 
 #include <array>
 #include <optional>
@@ -19,9 +19,9 @@ namespace franka_sim {
 /// joint_position_limits_violation (0.005 rad beyond), joint_velocity_violation (1.05 times),
 /// cartesian velocity (1.05 times that of the translation), power_limit_violation (kPowerLimit).
 /// Real-time safe.
-std::optional<ErrorFlag> measuredViolation(const franka_core::ArmLimits& limits,
-                                           const franka_core::RobotState& state,
-                                           const std::array<double, 6>& O_dP_EE) noexcept;
+std::optional<franka_core::RobotError> measuredViolation(
+    const franka_core::ArmLimits& limits, const franka_core::RobotState& state,
+    const std::array<double, 6>& O_dP_EE) noexcept;
 
 /// Sum of |tau_J dq| over the joints [W]. The data sheet gives the arm's highest electrical power
 /// as about 350 W; what the joints give mechanically cannot be more (our choice).

@@ -14,6 +14,8 @@
 
 namespace franka_sim {
 
+using franka_core::RobotError;
+
 namespace {
 
 using Eigen::Vector3d;
@@ -136,26 +138,26 @@ MotionFault judge(const CartesianSample& step, const CartesianSample& last,
   using Bounds = franka_core::DerivativeLimits;
   const Bounds elbow = limits.elbow();
   if (positionFails(step.elbow, last.elbow, limits)) {
-    return MotionFlag::kElbowLimit;
+    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
   }
   if (anyFails(step.twist, limits, [](const Bounds& b) { return b.velocity; })) {
-    return MotionFlag::kCartesianVelocity;
+    return RobotError::kCartesianMotionGeneratorVelocityLimitsViolation;
   }
   if (!(std::abs(step.elbow.dq3) <= elbow.velocity)) {
-    return MotionFlag::kElbowLimit;
+    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
   }
   if (anyFails(step.acceleration, limits, [](const Bounds& b) { return b.acceleration; })) {
-    return MotionFlag::kCartesianAcceleration;
+    return RobotError::kCartesianMotionGeneratorVelocityDiscontinuity;
   }
   if (!(std::abs(step.elbow.ddq3) <= elbow.acceleration)) {
-    return MotionFlag::kElbowLimit;
+    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
   }
   if (jerkFails(step, last, 0, limits.arm.translation) ||
       jerkFails(step, last, 3, limits.arm.rotation)) {
-    return MotionFlag::kCartesianJerk;
+    return RobotError::kCartesianMotionGeneratorAccelerationDiscontinuity;
   }
   if (elbowJerks(step.elbow, last.elbow, limits)) {
-    return MotionFlag::kElbowLimit;
+    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
   }
   return {};
 }

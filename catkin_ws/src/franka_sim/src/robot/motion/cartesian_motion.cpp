@@ -13,6 +13,8 @@
 
 namespace franka_sim {
 
+using franka_core::RobotError;
+
 namespace {
 
 constexpr double kPoseTolerance = 1e-3;   // [m]; [rad] likewise (decision 13)
@@ -52,13 +54,13 @@ MotionFault CartesianMotion::checkElbow(const ElbowCommand& command, double sign
     return {};
   }
   if (!std::isfinite(command.elbow[0])) {
-    return MotionFlag::kElbowLimit;
+    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
   }
   if (command.elbow[1] != sign) {
-    return MotionFlag::kElbowSign;
+    return RobotError::kCartesianMotionGeneratorElbowSignInconsistent;
   }
   if (!started_ && std::abs(command.elbow[0] - last_.elbow.q3) > kElbowTolerance) {
-    return MotionFlag::kStartElbow;
+    return RobotError::kCartesianMotionGeneratorStartElbowInvalid;
   }
   return {};
 }
@@ -66,12 +68,12 @@ MotionFault CartesianMotion::checkElbow(const ElbowCommand& command, double sign
 MotionFault CartesianMotion::takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
                                       const MotionLimits& limits) noexcept {
   if (!isTransform(pose)) {
-    return MotionFlag::kInvalidFrame;
+    return RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag;
   }
   const double q3 = elbow.valid ? elbow.elbow[0] : last_.elbow.q3;
   CartesianSample step = stepToPose(last_, tidied(pose), q3);
   if (!started_ && !isNear(step)) {
-    return MotionFlag::kCartesianStartPose;
+    return RobotError::kCartesianPositionMotionGeneratorStartPoseInvalid;
   }
   if (const MotionFault fault = checkElbow(elbow, sign)) {
     return fault;
@@ -96,7 +98,7 @@ MotionFault CartesianMotion::takeTwist(const std::array<double, 6>& twist,
                                        const ElbowCommand& elbow, double sign,
                                        const MotionLimits& limits) noexcept {
   if (!franka_core::allFinite(twist)) {
-    return MotionFlag::kCartesianVelocity;
+    return RobotError::kCartesianMotionGeneratorVelocityLimitsViolation;
   }
   if (const MotionFault fault = checkElbow(elbow, sign)) {
     return fault;

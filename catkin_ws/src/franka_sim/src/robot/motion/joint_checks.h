@@ -11,7 +11,7 @@ namespace franka_sim {
 
 /// Which flag speaks for which stage, and how far the jerk may go.
 struct JointFlags {
-  MotionFlag position, velocity, acceleration, jerk;
+  franka_core::RobotError position, velocity, acceleration, jerk;
   double jerk_factor;
 };
 

@@ -11,6 +11,8 @@
 
 namespace franka_sim {
 
+using franka_core::RobotError;
+
 namespace {
 
 constexpr double kStartTolerance = 1e-3;  // [rad] (decision 13)
@@ -20,13 +22,16 @@ constexpr double kStartTolerance = 1e-3;  // [rad] (decision 13)
 constexpr double kSolvedJerkFactor = 3.5;
 
 JointFlags commanded(const MotionLimits& limits) noexcept {
-  return {limits.positionFlag(false), MotionFlag::kJointVelocity, MotionFlag::kJointAcceleration,
-          MotionFlag::kJointJerk, 1.0};
+  return {limits.positionFlag(false), RobotError::kJointMotionGeneratorVelocityLimitsViolation,
+          RobotError::kJointMotionGeneratorVelocityDiscontinuity,
+          RobotError::kJointMotionGeneratorAccelerationDiscontinuity, 1.0};
 }
 
 JointFlags solved(const MotionLimits& limits) noexcept {
-  return {limits.positionFlag(true), MotionFlag::kSolvedJointVelocity,
-          MotionFlag::kSolvedJointAcceleration, MotionFlag::kSolvedJointJerk, kSolvedJerkFactor};
+  return {limits.positionFlag(true),
+          RobotError::kCartesianMotionGeneratorJointVelocityLimitsViolation,
+          RobotError::kCartesianMotionGeneratorJointVelocityDiscontinuity,
+          RobotError::kCartesianMotionGeneratorJointAccelerationDiscontinuity, kSolvedJerkFactor};
 }
 
 using Step = JointSample (*)(const JointSample&, const std::array<double, 7>&);
@@ -54,13 +59,13 @@ void JointMotion::start(const std::array<double, 7>& q) noexcept {
 MotionFault JointMotion::takePositions(const std::array<double, 7>& q_c,
                                        const MotionLimits& limits) noexcept {
   if (!franka_core::allFinite(q_c)) {
-    return MotionFlag::kJointVelocity;  // no velocity leads there
+    return RobotError::kJointMotionGeneratorVelocityLimitsViolation;  // no velocity leads there
   }
   JointSample step = stepToPositions(last_, q_c);
   if (!started_) {
     for (std::size_t i = 0; i < 7; i++) {
       if (std::abs(q_c[i] - last_.q[i]) > kStartTolerance) {
-        return MotionFlag::kJointStartPose;
+        return RobotError::kJointPositionMotionGeneratorStartPoseInvalid;
       }
     }
     step = JointSample{};
@@ -78,7 +83,7 @@ MotionFault JointMotion::takePositions(const std::array<double, 7>& q_c,
 MotionFault JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
                                         const MotionLimits& limits) noexcept {
   if (!franka_core::allFinite(dq_c)) {
-    return MotionFlag::kJointVelocity;
+    return RobotError::kJointMotionGeneratorVelocityLimitsViolation;
   }
   const MotionFault fault = judgeBoth(stepByVelocities, dq_c, last_, limits);
   if (!fault) {

@@ -13,6 +13,8 @@
 
 namespace franka_sim {
 
+using franka_core::RobotError;
+
 namespace {
 
 using franka_core::ArmFrame;
@@ -26,14 +28,6 @@ constexpr double kEcho = 1e-6;  // [rad] that a position may lose on its way to 
 
 bool allPositive(const Joints& values) noexcept {
   return std::all_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
-}
-
-Twist twistOf(const std::array<double, 42>& jacobian, const Joints& dq) noexcept {
-  Twist twist;
-  Eigen::Map<Eigen::Matrix<double, 6, 1>>(twist.data()) =
-      Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data())
-          .lazyProduct(Eigen::Map<const Eigen::Matrix<double, 7, 1>>(dq.data()));
-  return twist;
 }
 
 double norm(const Twist& twist, std::size_t first) noexcept {
@@ -113,7 +107,7 @@ MotionStep MotionGenerator::step(const franka_core::RobotCommand* command,
 MotionFault MotionGenerator::advanceAsync(const franka_core::RobotCommand* command) noexcept {
   if (command != nullptr) {
     if (!franka_core::allFinite(command->q_c)) {
-      return MotionFlag::kJointVelocity;  // no velocity leads there
+      return RobotError::kJointMotionGeneratorVelocityLimitsViolation;  // no velocity leads there
     }
     Joints target;
     for (std::size_t i = 0; i < 7; i++) {
@@ -179,7 +173,7 @@ void MotionGenerator::showJoints(const ArmModel& model) noexcept {
   desired_.O_T_EE_c = model.pose(ArmFrame::kEndEffector, sample.q, start_.F_T_EE);
   desired_.O_T_EE_d = desired_.O_T_EE_c;
   desired_.O_dP_EE_c =
-      twistOf(model.zeroJacobian(ArmFrame::kEndEffector, sample.q, start_.F_T_EE), sample.dq);
+      twist(model.zeroJacobian(ArmFrame::kEndEffector, sample.q, start_.F_T_EE), sample.dq);
   desired_.O_dP_EE_d = desired_.O_dP_EE_c;
   for (std::size_t i = 0; i < 6; i++) {
     desired_.O_ddP_EE_c[i] = (desired_.O_dP_EE_c[i] - before[i]) / kTick;
@@ -201,7 +195,7 @@ void MotionGenerator::showCartesian(const InverseKinematics::Solution& solution)
   desired_.O_dP_EE_c = commanded.twist;
   desired_.O_ddP_EE_c = commanded.acceleration;
   desired_.O_T_EE_d = solution.O_T_EE;
-  desired_.O_dP_EE_d = twistOf(solution.jacobian, sample.dq);
+  desired_.O_dP_EE_d = twist(solution.jacobian, sample.dq);
   desired_.elbow_d = elbowOf(sample.q);
   desired_.elbow_c = {{commanded.elbow.q3, elbowSign(sample.q)}};
   desired_.delbow_c = {{commanded.elbow.dq3, 0.0}};

@@ -6,6 +6,8 @@
 
 namespace franka_sim {
 
+using franka_core::RobotError;
+
 namespace {
 constexpr unsigned kFirstFr3 = 6;
 constexpr unsigned kFirstOf572 = 9;  // system 5.7.2: flags 12 and 27 are gone
@@ -42,11 +44,12 @@ franka_core::DerivativeLimits MotionLimits::elbow() const noexcept {
   return limits;
 }
 
-MotionFlag MotionLimits::positionFlag(bool solved) const noexcept {
+RobotError MotionLimits::positionFlag(bool solved) const noexcept {
   if (!own_position_flags) {
-    return MotionFlag::kJointPositionLimits;
+    return RobotError::kJointPositionLimitsViolation;
   }
-  return solved ? MotionFlag::kSolvedJointPosition : MotionFlag::kCommandedJointPosition;
+  return solved ? RobotError::kCartesianMotionGeneratorJointPositionLimitsViolation
+                : RobotError::kJointMotionGeneratorPositionLimitsViolation;
 }
 
 MotionLimits motionLimitsOfProtocol(unsigned version) noexcept {

@@ -16,6 +16,8 @@
 
 namespace franka_sim::test {
 
+using franka_core::RobotError;
+
 namespace {
 
 enum class Part { kTranslation, kRotation, kElbow };
@@ -159,13 +161,14 @@ void reachVelocity(CartesianDrive& drive, double share) {
 }
 
 struct Stage {
-  MotionFlag flag;
+  RobotError flag;
   std::function<void(CartesianDrive&, double)> reach;
 };
 
-const std::vector<Stage> kStages{{MotionFlag::kCartesianJerk, reachJerk},
-                                 {MotionFlag::kCartesianAcceleration, reachAcceleration},
-                                 {MotionFlag::kCartesianVelocity, reachVelocity}};
+const std::vector<Stage> kStages{
+    {RobotError::kCartesianMotionGeneratorAccelerationDiscontinuity, reachJerk},
+    {RobotError::kCartesianMotionGeneratorVelocityDiscontinuity, reachAcceleration},
+    {RobotError::kCartesianMotionGeneratorVelocityLimitsViolation, reachVelocity}};
 
 void passesInsideAndFailsOutside(CartesianClient client, unsigned protocol) {
   for (const Part part : {Part::kTranslation, Part::kRotation, Part::kElbow}) {
@@ -178,7 +181,9 @@ void passesInsideAndFailsOutside(CartesianClient client, unsigned protocol) {
       CartesianDrive beyond(protocol, client, part);
       stage.reach(beyond, 1.01);
       ASSERT_TRUE(beyond.fault());
-      EXPECT_EQ(part == Part::kElbow ? MotionFlag::kElbowLimit : stage.flag, *beyond.fault());
+      EXPECT_EQ(part == Part::kElbow ? RobotError::kCartesianMotionGeneratorElbowLimitViolation
+                                     : stage.flag,
+                *beyond.fault());
     }
   }
 }

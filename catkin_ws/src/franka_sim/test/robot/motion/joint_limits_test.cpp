@@ -12,6 +12,8 @@
 
 namespace franka_sim::test {
 
+using franka_core::RobotError;
+
 namespace {
 
 /// What a client sends and how it keeps its own history.
@@ -112,13 +114,14 @@ void reachVelocity(JointDrive& drive, double share, std::size_t joint) {
 }
 
 struct Stage {
-  MotionFlag flag;
+  RobotError flag;
   std::function<void(JointDrive&, double, std::size_t)> reach;
 };
 
-const std::vector<Stage> kStages{{MotionFlag::kJointJerk, reachJerk},
-                                 {MotionFlag::kJointAcceleration, reachAcceleration},
-                                 {MotionFlag::kJointVelocity, reachVelocity}};
+const std::vector<Stage> kStages{
+    {RobotError::kJointMotionGeneratorAccelerationDiscontinuity, reachJerk},
+    {RobotError::kJointMotionGeneratorVelocityDiscontinuity, reachAcceleration},
+    {RobotError::kJointMotionGeneratorVelocityLimitsViolation, reachVelocity}};
 
 /// Where there is room to reach the highest velocity upwards.
 Joints lowPose(const MotionLimits& limits) {
@@ -164,10 +167,11 @@ TEST(JointLimits, ClientsThatReadFloatsPassInsideAndFailOutside) {
 }
 
 TEST(JointLimits, PositionsEndAtTheRangeAndTheFlagDependsOnTheSystem) {
-  for (const auto& [protocol, flag] : {std::pair{5U, MotionFlag::kCommandedJointPosition},
-                                       std::pair{8U, MotionFlag::kCommandedJointPosition},
-                                       std::pair{9U, MotionFlag::kJointPositionLimits},
-                                       std::pair{10U, MotionFlag::kJointPositionLimits}}) {
+  for (const auto& [protocol, flag] :
+       {std::pair{5U, RobotError::kJointMotionGeneratorPositionLimitsViolation},
+        std::pair{8U, RobotError::kJointMotionGeneratorPositionLimitsViolation},
+        std::pair{9U, RobotError::kJointPositionLimitsViolation},
+        std::pair{10U, RobotError::kJointPositionLimitsViolation}}) {
     const MotionLimits limits = motionLimitsOfProtocol(protocol);
     for (std::size_t joint = 0; joint < 7; joint++) {
       SCOPED_TRACE(::testing::Message() << "protocol " << protocol << ", joint " << joint + 1);
@@ -196,7 +200,7 @@ TEST(JointLimits, VelocitiesEndAtTheRangeToo) {
     dq[0] = std::min(dq[0] + 1e-3, 0.1);
     fault = motion.step(jointVelocities(dq)).fault;
   }
-  EXPECT_EQ(MotionFlag::kCommandedJointPosition, fault);
+  EXPECT_EQ(RobotError::kJointMotionGeneratorPositionLimitsViolation, fault);
   EXPECT_NEAR(2.8973, motion.desired().q_d[0], 2e-4);
 }
 
@@ -231,7 +235,7 @@ TEST(JointLimits, TheSpeedOfAnFr3ShrinksTowardsTheEndsOfItsJoints) {
         dq[joint] += 4e-3;  // jerk-limited steps in turn: 4 rad/s^2
         fault = motion.step(jointVelocities(dq)).fault;
       }
-      EXPECT_EQ(MotionFlag::kJointVelocity, fault);
+      EXPECT_EQ(RobotError::kJointMotionGeneratorVelocityLimitsViolation, fault);
       EXPECT_GT(dq[joint], limits.highestVelocity(joint, motion.desired().q_d[joint]));
       EXPECT_LT(dq[joint],
                 limits.highestVelocity(joint, motion.desired().q_d[joint]) + 4e-3 + shrunk);
@@ -244,12 +248,15 @@ TEST(JointLimits, WhatIsNotFiniteIsRefused) {
     Joints q = kReady;
     q[4] = bad;
     Motion positions(5, MotionGeneratorMode::kJointPosition);
-    EXPECT_EQ(MotionFlag::kJointVelocity, positions.step(jointPositions(q)).fault);
+    EXPECT_EQ(RobotError::kJointMotionGeneratorVelocityLimitsViolation,
+              positions.step(jointPositions(q)).fault);
     EXPECT_FALSE(positions.step(jointPositions(kReady)).fault);
-    EXPECT_EQ(MotionFlag::kJointVelocity, positions.step(jointPositions(q)).fault);
+    EXPECT_EQ(RobotError::kJointMotionGeneratorVelocityLimitsViolation,
+              positions.step(jointPositions(q)).fault);
     EXPECT_EQ(kReady, positions.desired().q_d);
     Motion velocities(5, MotionGeneratorMode::kJointVelocity);
-    EXPECT_EQ(MotionFlag::kJointVelocity, velocities.step(jointVelocities(q)).fault);
+    EXPECT_EQ(RobotError::kJointMotionGeneratorVelocityLimitsViolation,
+              velocities.step(jointVelocities(q)).fault);
   }
 }
 

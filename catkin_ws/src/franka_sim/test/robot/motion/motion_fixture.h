@@ -13,11 +13,15 @@
 
 #include "../panda_arm.h"
 
-namespace franka_sim {
+namespace franka_core {
 
-inline std::ostream& operator<<(std::ostream& out, MotionFlag flag) { return out << indexOf(flag); }
+inline std::ostream& operator<<(std::ostream& out, RobotError error) {
+  return out << indexOf(error);
+}
 
-namespace test {
+}  // namespace franka_core
+
+namespace franka_sim::test {
 
 using franka_core::MotionGeneratorMode;
 using franka_core::RobotCommand;
@@ -92,5 +96,4 @@ struct Motion {
   MotionGenerator generator;
 };
 
-}  // namespace test
-}  // namespace franka_sim
+}  // namespace franka_sim::test

@@ -13,6 +13,8 @@
 
 namespace franka_sim::test {
 
+using franka_core::RobotError;
+
 namespace {
 
 using franka_core::ArmFrame;
@@ -183,8 +185,8 @@ TEST_P(EachGenerator, NothingMovesBeforeTheFirstCommand) {
 }
 
 TEST_P(EachGenerator, RefusesAFinishInFullMotion) {
-  const MotionFlag flag =
-      cartesian() ? MotionFlag::kCartesianAcceleration : MotionFlag::kJointAcceleration;
+  const RobotError flag = cartesian() ? RobotError::kCartesianMotionGeneratorVelocityDiscontinuity
+                                      : RobotError::kJointMotionGeneratorVelocityDiscontinuity;
   Motion motion(5, GetParam());
   for (int tick = 0; tick < 500; tick++) {
     const RobotCommand command = commandAt(GetParam(), tick * kTick);

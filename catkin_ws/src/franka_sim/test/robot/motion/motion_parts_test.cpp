@@ -13,6 +13,8 @@
 
 namespace franka_sim::test {
 
+using franka_core::RobotError;
+
 namespace {
 
 Transform startPose() {
@@ -67,10 +69,12 @@ TEST(MotionStart, TheFirstCommandMustBeWhereTheArmIsWanted) {
     Joints q = kReady;
     q[5] += offset;
     Motion joints(5, MotionGeneratorMode::kJointPosition);
-    EXPECT_EQ(far ? MotionFault(MotionFlag::kJointStartPose) : MotionFault(),
+    EXPECT_EQ(far ? MotionFault(RobotError::kJointPositionMotionGeneratorStartPoseInvalid)
+                  : MotionFault(),
               joints.step(jointPositions(q)).fault);
     Motion cartesian(5, MotionGeneratorMode::kCartesianPosition);
-    EXPECT_EQ(far ? MotionFault(MotionFlag::kCartesianStartPose) : MotionFault(),
+    EXPECT_EQ(far ? MotionFault(RobotError::kCartesianPositionMotionGeneratorStartPoseInvalid)
+                  : MotionFault(),
               cartesian.step(pose(shifted(offset))).fault);
     if (!far) {  // history starts there, at rest
       EXPECT_EQ(q, joints.desired().q_d);
@@ -80,11 +84,13 @@ TEST(MotionStart, TheFirstCommandMustBeWhereTheArmIsWanted) {
       EXPECT_FALSE(cartesian.step(pose(shifted(offset))).fault);
     }
     Motion elbow(5, MotionGeneratorMode::kCartesianPosition);
-    EXPECT_EQ(far ? MotionFault(MotionFlag::kStartElbow) : MotionFault(),
-              elbow.step(withElbow(pose(startPose()), kReady[2] + offset)).fault);
+    EXPECT_EQ(
+        far ? MotionFault(RobotError::kCartesianMotionGeneratorStartElbowInvalid) : MotionFault(),
+        elbow.step(withElbow(pose(startPose()), kReady[2] + offset)).fault);
     Motion twisting(5, MotionGeneratorMode::kCartesianVelocity);
-    EXPECT_EQ(far ? MotionFault(MotionFlag::kStartElbow) : MotionFault(),
-              twisting.step(withElbow(twist({}), kReady[2] + offset)).fault);
+    EXPECT_EQ(
+        far ? MotionFault(RobotError::kCartesianMotionGeneratorStartElbowInvalid) : MotionFault(),
+        twisting.step(withElbow(twist({}), kReady[2] + offset)).fault);
   }
 }
 
@@ -109,13 +115,15 @@ TEST(Frames, WhatIsNoRigidMotionIsRefused) {
       Transform broken = good;
       broken[i] = bad;
       const bool position = i >= 12 && i < 15 && std::isfinite(bad);
-      EXPECT_EQ(position ? MotionFlag::kCartesianStartPose : MotionFlag::kInvalidFrame,
+      EXPECT_EQ(position ? RobotError::kCartesianPositionMotionGeneratorStartPoseInvalid
+                         : RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag,
                 motion.step(pose(broken)).fault)
           << i;
     }
   }
   Motion motion(5, MotionGeneratorMode::kCartesianVelocity);
-  EXPECT_EQ(MotionFlag::kCartesianVelocity, motion.step(twist({{0, 0, 0, NAN, 0, 0}})).fault);
+  EXPECT_EQ(RobotError::kCartesianMotionGeneratorVelocityLimitsViolation,
+            motion.step(twist({{0, 0, 0, NAN, 0, 0}})).fault);
 }
 
 TEST(Elbow, MovesTheArmAboutAHandThatStays) {
@@ -138,11 +146,12 @@ TEST(Elbow, MovesTheArmAboutAHandThatStays) {
 TEST(Elbow, MustBeOnItsSideAndFinite) {
   for (const double sign : {1.0, 0.0, 0.5, static_cast<double>(NAN)}) {
     Motion motion(5, MotionGeneratorMode::kCartesianPosition);
-    EXPECT_EQ(MotionFlag::kElbowSign,
+    EXPECT_EQ(RobotError::kCartesianMotionGeneratorElbowSignInconsistent,
               motion.step(withElbow(pose(startPose()), kReady[2], sign)).fault);
   }
   Motion motion(5, MotionGeneratorMode::kCartesianPosition);
-  EXPECT_EQ(MotionFlag::kElbowLimit, motion.step(withElbow(pose(startPose()), NAN)).fault);
+  EXPECT_EQ(RobotError::kCartesianMotionGeneratorElbowLimitViolation,
+            motion.step(withElbow(pose(startPose()), NAN)).fault);
 }
 
 TEST(SolvedJoints, RaiseFlagsOfTheirOwn) {
@@ -164,18 +173,23 @@ TEST(SolvedJoints, RaiseFlagsOfTheirOwn) {
     }
     return fault;
   };
-  EXPECT_EQ(MotionFlag::kSolvedJointVelocity, flagOf(5, kReady, {{0, 1, 0, 0, 0, 0}}, 1.0));
-  EXPECT_EQ(MotionFlag::kSolvedJointAcceleration, flagOf(5, kReady, {{1, 0, 0, 0, 0, 0}}, 3.0));
+  EXPECT_EQ(RobotError::kCartesianMotionGeneratorJointVelocityLimitsViolation,
+            flagOf(5, kReady, {{0, 1, 0, 0, 0, 0}}, 1.0));
+  EXPECT_EQ(RobotError::kCartesianMotionGeneratorJointVelocityDiscontinuity,
+            flagOf(5, kReady, {{1, 0, 0, 0, 0, 0}}, 3.0));
   Joints close_to_end = kReady;
   close_to_end[6] = 2.85;
   const Twist turn{{0, 0, 0, 0, 0, -1}};
-  EXPECT_EQ(MotionFlag::kSolvedJointPosition, flagOf(5, close_to_end, turn, 0.1));
+  EXPECT_EQ(RobotError::kCartesianMotionGeneratorJointPositionLimitsViolation,
+            flagOf(5, close_to_end, turn, 0.1));
 }
 
 TEST(SolvedJoints, MayJerkThreeAndAHalfTimesAsHardAsCommandedOnes) {
   for (const auto& [acceleration, fault] :
        {std::pair{12.5, MotionFault()},
-        std::pair{14.0, MotionFault(MotionFlag::kSolvedJointJerk)}}) {
+        std::pair{
+            14.0,
+            MotionFault(RobotError::kCartesianMotionGeneratorJointAccelerationDiscontinuity)}}) {
     // From -a to +a in one tick: 25 000 and 28 000 rad/s^3, of 3.5 * 7500.
     const MotionLimits limits = motionLimitsOfProtocol(5);
     JointMotion motion;
@@ -215,8 +229,8 @@ TEST(ResumeTrap, AClientThatGoesOnFromItsOwnLastCommandIsRefusedAfterALoss) {
       const MotionFault fault = motion.step(jointPositions(q)).fault;
       // Alone it stands 0.3 mrad a lost tick behind: 300 rad/s^2 and more. One lost command asks
       // for no speed beyond the limit, ten do (3 rad/s backwards).
-      const MotionFlag flag =
-          lost >= 9 ? MotionFlag::kJointVelocity : MotionFlag::kJointAcceleration;
+      const RobotError flag = lost >= 9 ? RobotError::kJointMotionGeneratorVelocityLimitsViolation
+                                        : RobotError::kJointMotionGeneratorVelocityDiscontinuity;
       EXPECT_EQ(from_the_state ? MotionFault() : MotionFault(flag), fault) << lost;
     }
   }
@@ -362,7 +376,7 @@ TEST(AsyncJointGenerator, ReachesTheLastTargetItAcceptsAndRefusesTheNext) {
     Joints target = kReady;
     target[end.joint] = end.dead;
     RobotCommand command = jointPositions(target);
-    EXPECT_EQ(MotionFlag::kJointPositionLimits, motion.step(&command).fault) << end.joint;
+    EXPECT_EQ(RobotError::kJointPositionLimitsViolation, motion.step(&command).fault) << end.joint;
     Async allowed(10, 2.0);
     target[end.joint] = end.last;
     command = jointPositions(target);
@@ -428,8 +442,9 @@ TEST(AsyncJointGenerator, AFinishBrakesAndEndsWhateverTheTarget) {
 }
 
 TEST(AsyncJointGenerator, RefusesTargetsItMustNotReach) {
-  for (const auto& [protocol, flag] : {std::pair{8U, MotionFlag::kCommandedJointPosition},
-                                       std::pair{10U, MotionFlag::kJointPositionLimits}}) {
+  for (const auto& [protocol, flag] :
+       {std::pair{8U, RobotError::kJointMotionGeneratorPositionLimitsViolation},
+        std::pair{10U, RobotError::kJointPositionLimitsViolation}}) {
     Async motion(protocol);
     Joints target = kReady;
     target[3] = 0.0;
@@ -437,7 +452,8 @@ TEST(AsyncJointGenerator, RefusesTargetsItMustNotReach) {
     EXPECT_EQ(flag, motion.step(&command).fault);
     target[3] = NAN;
     command = jointPositions(target);
-    EXPECT_EQ(MotionFlag::kJointVelocity, motion.step(&command).fault);
+    EXPECT_EQ(RobotError::kJointMotionGeneratorVelocityLimitsViolation,
+              motion.step(&command).fault);
   }
 }
 

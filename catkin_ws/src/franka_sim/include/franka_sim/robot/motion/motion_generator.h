@@ -3,13 +3,13 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_core/robot_error.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/motion/async_joint_generator.h>
 #include <franka_sim/robot/motion/brake_trajectory.h>
 #include <franka_sim/robot/motion/cartesian_motion.h>
 #include <franka_sim/robot/motion/inverse_kinematics.h>
 #include <franka_sim/robot/motion/joint_motion.h>
-#include <franka_sim/robot/motion/motion_flag.h>
 #include <franka_sim/robot/motion/motion_limits.h>
 #include <franka_sim/robot/transforms.h>
 

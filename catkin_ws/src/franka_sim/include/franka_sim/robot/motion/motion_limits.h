@@ -3,12 +3,17 @@
 #pragma once
 
 #include <franka_core/limits.h>
-#include <franka_sim/robot/motion/motion_flag.h>
+#include <franka_core/robot_error.h>
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 namespace franka_sim {
+
+/// Nothing, or the one error of a command: only the first failing stage raises one (decision 14).
+/// Whether real robots raise several is open (decision 47).
+using MotionFault = std::optional<franka_core::RobotError>;
 
 /// What a robot holds commanded motions to, and how it tells.
 struct MotionLimits {
@@ -26,7 +31,7 @@ struct MotionLimits {
   /// Bounds of the elbow's motion; of its two velocities the larger one.
   franka_core::DerivativeLimits elbow() const noexcept;
   /// The flag of a joint position out of range, of a joint command or after inverse kinematics.
-  MotionFlag positionFlag(bool solved) const noexcept;
+  franka_core::RobotError positionFlag(bool solved) const noexcept;
 };
 
 /// The limits of a robot that speaks this protocol (decisions 8, 25) (protocol 5.5).

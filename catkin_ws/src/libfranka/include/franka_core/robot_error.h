@@ -5,11 +5,61 @@
 #include <franka_core/robot_state.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace franka_core {
 
-/// The names of the robot's errors in the order of the wire (protocol 4.3), as the robot's logs and
-/// franka::Errors spell them. Protocol versions up to 4 have the first 37.
+/// The robot's errors in the order of the wire (protocol 4.3): indices into
+/// RobotState::errors and reflex_reason. Versions 3 and 4 have the first 37.
+enum class RobotError : std::uint8_t {
+  kJointPositionLimitsViolation,
+  kCartesianPositionLimitsViolation,
+  kSelfCollisionAvoidanceViolation,
+  kJointVelocityViolation,
+  kCartesianVelocityViolation,
+  kForceControlSafetyViolation,
+  kJointReflex,
+  kCartesianReflex,
+  kMaxGoalPoseDeviationViolation,
+  kMaxPathPoseDeviationViolation,
+  kCartesianVelocityProfileSafetyViolation,
+  kJointPositionMotionGeneratorStartPoseInvalid,
+  kJointMotionGeneratorPositionLimitsViolation,
+  kJointMotionGeneratorVelocityLimitsViolation,
+  kJointMotionGeneratorVelocityDiscontinuity,
+  kJointMotionGeneratorAccelerationDiscontinuity,
+  kCartesianPositionMotionGeneratorStartPoseInvalid,
+  kCartesianMotionGeneratorElbowLimitViolation,
+  kCartesianMotionGeneratorVelocityLimitsViolation,
+  kCartesianMotionGeneratorVelocityDiscontinuity,
+  kCartesianMotionGeneratorAccelerationDiscontinuity,
+  kCartesianMotionGeneratorElbowSignInconsistent,
+  kCartesianMotionGeneratorStartElbowInvalid,
+  kForceControllerDesiredForceToleranceViolation,
+  kStartElbowSignInconsistent,
+  kCommunicationConstraintsViolation,
+  kPowerLimitViolation,
+  kCartesianMotionGeneratorJointPositionLimitsViolation,
+  kCartesianMotionGeneratorJointVelocityLimitsViolation,
+  kCartesianMotionGeneratorJointVelocityDiscontinuity,
+  kCartesianMotionGeneratorJointAccelerationDiscontinuity,
+  kCartesianPositionMotionGeneratorInvalidFrameFlag,
+  kControllerTorqueDiscontinuity,
+  kJointP2pInsufficientTorqueForPlanning,
+  kTauJRangeViolation,
+  kInstabilityDetected,
+  kJointMoveInWrongDirection,
+  kCartesianSplineMotionGeneratorViolation,
+  kJointViaMotionGeneratorPlanningJointLimitViolation,
+  kBaseAccelerationInitializationTimeout,
+  kBaseAccelerationInvalidReading,
+};
+
+constexpr std::size_t indexOf(RobotError error) noexcept { return static_cast<std::size_t>(error); }
+
+/// The names of the errors in the order of RobotError, as the robot's logs and franka::Errors spell
+/// them.
 constexpr std::array<const char*, kErrorCount> kErrorNames{{
     "joint_position_limits_violation",
     "cartesian_position_limits_violation",

@@ -1,0 +1,74 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+#include <franka_core/robot_state.h>
+#include <franka_sim/robot/configuration.h>
+#include <franka_sim/robot/torque_blend.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// How the torque of one tick continues that of the tick before.
+enum class LawSwitch {
+  kNone,
+  kBlend,     ///< the law changes, the torque without a step
+  kFromZero,  ///< the next law begins with nothing: what it gives acts at once
+};
+
+/// What holds a guided arm along the axes that are not free.
+struct GuidingTask {
+  std::array<bool, 6> free{{true, true, true, true, true, true}};  ///< x, y, z, R, P, Y of K
+  bool elbow_free{true};
+  std::array<double, 16> O_T_EE{};  ///< where guiding began
+  std::array<double, 7> q{};
+};
+
+/// What the control laws have to do in a tick.
+struct ControlTask {
+  franka_core::RobotMode mode{franka_core::RobotMode::kIdle};
+  franka_core::ControllerMode controller{franka_core::ControllerMode::kOther};  ///< in Move
+  std::array<double, 7> tau{};  ///< of an external controller [Nm]
+  GuidingTask guiding;
+  LawSwitch law_switch{LawSwitch::kNone};
+};
+
+/// From command to torque: external torque, joint impedance, Cartesian impedance, hold, guiding;
+/// saturation, gravity and friction compensation.
+///
+///     tau_motor = blend(saturate(law)) + saturate(gravity + friction)
+///
+/// Gravity is that of the configured load too. One thread. Real-time safe.
+class ControlLaws {
+ public:
+  /// @param configuration outlives the laws.
+  explicit ControlLaws(const Configuration& configuration) noexcept
+      : configuration_(configuration) {}
+
+  /// The motor torques of the coming tick [Nm]. @param dynamics at the measured state, frame EE
+  const std::array<double, 7>& torques(const ControlTask& task,
+                                       const franka_core::RobotState& state,
+                                       const franka_core::ArmDynamics& dynamics) noexcept;
+  /// No torque acts: the brakes are closed, or nothing has been measured yet.
+  const std::array<double, 7>& rest() noexcept;
+  void restart() noexcept { blend_.restart(); }
+
+  /// Of the last tick [Nm]: what the law gave, saturated, without gravity; and the motor torques.
+  const std::array<double, 7>& law() const noexcept { return law_; }
+  const std::array<double, 7>& motorTorques() const noexcept { return motor_torques_; }
+
+ private:
+  std::array<double, 7> law(const ControlTask& task, const franka_core::RobotState& state,
+                            const franka_core::ArmDynamics& dynamics) const noexcept;
+  std::array<double, 7> compensation(const franka_core::RobotState& state,
+                                     const franka_core::ArmDynamics& dynamics) const noexcept;
+
+  const Configuration& configuration_;
+  TorqueBlend blend_;
+  std::array<double, 7> law_{};
+  std::array<double, 7> motor_torques_{};
+};
+
+}  // namespace franka_sim

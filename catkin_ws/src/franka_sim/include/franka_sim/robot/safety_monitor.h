@@ -1,0 +1,64 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/robot_state.h>
+#include <franka_sim/robot/collision.h>
+#include <franka_sim/robot/configuration.h>
+#include <franka_sim/robot/force_watch.h>
+#include <franka_sim/robot/motion/motion_limits.h>
+#include <franka_sim/robot/self_collision.h>
+#include <franka_sim/robot/state_estimator.h>
+#include <franka_sim/robot/virtual_walls.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// Judges each measured state: limits, collisions, self-collision, virtual walls, deviation from
+/// the desired pose. Raises error flags in the state. One thread. Real-time safe.
+class SafetyMonitor {
+ public:
+  /// @param configuration, estimator, state outlive the monitor.
+  SafetyMonitor(const Configuration& configuration, const StateEstimator& estimator,
+                franka_core::RobotState& state) noexcept
+      : configuration_(configuration),
+        estimator_(estimator),
+        state_(state),
+        self_collision_(configuration.parameters().has_hand) {}
+
+  /// A motion begins at the measured pose: it may leave a self-collision or a wall it is in.
+  void motionBegins() noexcept;
+  /// Another control law acts from now on.
+  void lawChanges() noexcept { force_watch_.restart(); }
+
+  /// What is judged in every mode: measured limits and collisions.
+  void check(const MotionLimits& limits, const CollisionThresholds& thresholds) noexcept;
+  /// What is judged in a motion. @param motor_torques of the tick that led to this state [Nm]
+  void checkMotion(const franka_core::fci::MoveRequest& motion, const MotionLimits& limits,
+                   const std::array<double, 7>& motor_torques) noexcept;
+
+  void clearCollisions() noexcept { joint_collision_ = cartesian_collision_ = Collision(); }
+  const Collision& jointCollision() const noexcept { return joint_collision_; }
+  const Collision& cartesianCollision() const noexcept { return cartesian_collision_; }
+  const SelfCollision::Pair& selfCollision() const noexcept { return self_collision_.culprit(); }
+  VirtualWalls& walls() noexcept { return walls_; }
+  const VirtualWalls& walls() const noexcept { return walls_; }
+
+ private:
+  void raise(franka_core::RobotError error) noexcept {
+    state_.errors[franka_core::indexOf(error)] = true;
+  }
+  bool movesAgainstProfile(const franka_core::fci::MoveRequest& motion,
+                           const MotionLimits& limits) const noexcept;
+
+  const Configuration& configuration_;
+  const StateEstimator& estimator_;
+  franka_core::RobotState& state_;
+  Collision joint_collision_, cartesian_collision_;
+  ForceWatch force_watch_;
+  SelfCollision self_collision_;
+  VirtualWalls walls_;
+};
+
+}  // namespace franka_sim

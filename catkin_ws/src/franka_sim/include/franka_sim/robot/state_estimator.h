@@ -1,0 +1,72 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+#include <franka_core/robot_state.h>
+#include <franka_sim/robot/configuration.h>
+#include <franka_sim/robot/contact_monitor.h>
+#include <franka_sim/robot/external_torque.h>
+#include <franka_sim/robot/external_wrench.h>
+#include <franka_sim/robot/low_pass.h>
+#include <franka_sim/robot/plant.h>
+
+#include <array>
+
+namespace franka_sim {
+
+/// What is estimated from the measurements and not part of the state.
+struct Estimate {
+  bool first{true};      ///< of the first sample since the start or a restart
+  bool measured{false};  ///< the sample continues a good one: rates and torques are valid
+  franka_core::ArmDynamics dynamics{};  ///< of frame EE
+  std::array<double, 7> tau_ext{};      ///< unfiltered [Nm]
+  std::array<double, 6> wrench{};       ///< unfiltered, in the axes of the thresholds [N, Nm]
+  std::array<double, 6> O_dP_EE{};      ///< measured twist of EE in O [m/s, rad/s]
+};
+
+/// From measurement to state: poses, torques, external torques and wrenches, contacts,
+/// accelerations. Writes the measured fields of the robot's state.
+///
+/// One thread. But for the constructor: Real-time safe.
+class StateEstimator {
+ public:
+  /// @param configuration, state outlive the estimator.
+  StateEstimator(const Configuration& configuration, franka_core::RobotState& state) noexcept
+      : configuration_(configuration),
+        state_(state),
+        external_torque_(configuration.parameters().substeps) {}
+
+  /// One tick. The first sample after the start or a restart has no tick of motor torques behind
+  /// it: tau_J then shows gravity, as the sensor of a resting arm does, and the external torque is
+  /// 0. A sample that is not finite is replaced by the last good pose at rest.
+  /// @param thresholds that hold in this tick
+  void update(const ArmMeasurement& measurement, const CollisionThresholds& thresholds) noexcept;
+
+  const Estimate& estimate() const noexcept { return estimate_; }
+  /// Whether there was a measurement since the start or a restart.
+  bool started() const noexcept { return started_; }
+
+  /// Forgets latched collisions.
+  void clearContacts() noexcept;
+  /// The arm was put elsewhere: forgets velocities, filters and collisions.
+  void restart() noexcept;
+
+ private:
+  void updateTorques(const ArmMeasurement& measurement) noexcept;
+  void updateContacts(const CollisionThresholds& thresholds) noexcept;
+  void updateAccelerometers(const std::array<double, 7>& dq_before) noexcept;
+
+  const Configuration& configuration_;
+  franka_core::RobotState& state_;
+  Estimate estimate_;
+  bool started_{false};
+  bool continuous_{false};  // the last sample was good and of the same motion
+  ExternalTorque external_torque_;
+  ExternalWrench external_wrench_;
+  LowPass<7> tau_ext_filter_, dtau_J_filter_;
+  ContactMonitor<7> joint_contacts_;
+  ContactMonitor<6> cartesian_contacts_;
+};
+
+}  // namespace franka_sim

@@ -1,0 +1,83 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/fci/commands.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+
+#include <cstdint>
+#include <variant>
+
+/// @file
+/// What can be requested of a control unit: the requests of the FCI, and those that the operator or
+/// the server makes. ControlUnit::request says how each one is answered.
+
+namespace franka_sim {
+
+using Status = franka_core::fci::Status;
+
+/// The external activation device: pressed stops any motion and closes the brakes, released gives
+/// Idle, or Reflex if there were errors.
+struct UserStop {
+  bool pressed;
+};
+/// The user takes the arm by its guiding buttons, or lets go.
+struct Guiding {
+  bool active;
+};
+/// Closed brakes: mode Other.
+struct Brakes {
+  bool closed;
+};
+/// Inactive: no motion can be requested, and a running one is aborted.
+struct FciActivation {
+  bool active;
+};
+struct SetVirtualWall {
+  std::int32_t id;
+  franka_core::fci::CartesianLimit wall;
+};
+/// The version, 3 to 10, whose limits hold from the next motion on.
+struct SetProtocolVersion {
+  unsigned version;
+};
+/// The motion that runs gets no more commands. A motion of the asynchronous generator, in which a
+/// client may be silent for any time, then ends as others do: after 20 lost commands in a row.
+struct ClientLost {};
+
+using UnitRequest = std::variant<
+    franka_core::fci::MoveRequest, franka_core::fci::StopMoveRequest,
+    franka_core::fci::AutomaticErrorRecoveryRequest, franka_core::fci::SetCollisionBehaviorRequest,
+    franka_core::fci::SetJointImpedanceRequest, franka_core::fci::SetCartesianImpedanceRequest,
+    franka_core::fci::SetGuidingModeRequest, franka_core::fci::SetEEToKRequest,
+    franka_core::fci::SetNEToEERequest, franka_core::fci::SetLoadRequest,
+    franka_core::fci::SetFiltersRequest, UserStop, Guiding, Brakes, FciActivation, SetVirtualWall,
+    SetProtocolVersion, ClientLost>;
+
+/// The requests that are answered later than they are made.
+enum class PendingAnswer {
+  kMotion,    ///< how a motion ended
+  kStop,      ///< that the arm rests after StopMove
+  kRecovery,  ///< how an error recovery ended
+};
+
+inline franka_core::fci::SetLoadRequest loadRequest(const franka_core::Payload& load) noexcept {
+  return {load.mass, load.com, load.inertia};
+}
+
+inline franka_core::fci::SetCollisionBehaviorRequest collisionRequest(
+    const CollisionThresholds& acceleration, const CollisionThresholds& nominal) noexcept {
+  return {acceleration.lower_torque, acceleration.upper_torque, nominal.lower_torque,
+          nominal.upper_torque,      acceleration.lower_force,  acceleration.upper_force,
+          nominal.lower_force,       nominal.upper_force};
+}
+
+/// A Move request for torques from outside without a motion generator.
+inline franka_core::fci::MoveRequest torqueControl() noexcept {
+  franka_core::fci::MoveRequest request;
+  request.controller_mode = franka_core::ControllerMode::kExternalController;
+  request.motion_generator_mode = franka_core::MotionGeneratorMode::kNone;
+  return request;
+}
+
+}  // namespace franka_sim

@@ -1,0 +1,28 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/collision.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/self_collision.h>
+
+namespace franka_sim {
+
+/// What a control unit knows beside franka_core::RobotState.
+struct UnitStatus {
+  bool brakes_closed{false};  ///< the joints are locked (UserStopped, Other)
+  bool user_stop_pressed{false};
+  bool fci_active{true};
+  /// Time must go on though no client answers: the arm brakes or recovers.
+  bool settling{false};
+  /// The end of a motion or of a stop is answered only once the arm has come to rest.
+  bool answers_at_rest{false};
+  /// The thresholds of contact and collision that hold in this tick.
+  CollisionThresholds thresholds;
+  /// What raised joint_reflex and cartesian_reflex, until they are recovered from.
+  Collision joint_collision, cartesian_collision;
+  /// The links that came too close, after self_collision_avoidance_violation.
+  SelfCollision::Pair self_collision;
+};
+
+}  // namespace franka_sim

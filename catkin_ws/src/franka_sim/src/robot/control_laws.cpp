@@ -1,0 +1,125 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/cartesian_impedance.h>
+#include <franka_sim/robot/control_laws.h>
+#include <franka_sim/robot/friction.h>
+#include <franka_sim/robot/joint_impedance.h>
+#include <franka_sim/robot/torque_command.h>
+
+#include <cstddef>
+
+namespace franka_sim {
+
+using franka_core::ControllerMode;
+using franka_core::RobotMode;
+
+namespace {
+
+// Holds the axes and the elbow that a guided arm is not free along. Chosen here, as stiff as
+// Cartesian impedance control starts with: the hold of a real robot is not published.
+constexpr double kGuidingTranslation = 3000.0;  // [N/m]
+constexpr double kGuidingRotation = 300.0;      // [Nm/rad]
+constexpr double kGuidingNullspace = 200.0;     // [Nm/rad]
+constexpr double kNullspace = 10.0;             // [Nm/rad], chosen here (decision 11)
+
+/// Fills what does not depend on the task.
+CartesianImpedanceInput measuredInput(const ControlUnitParameters& parameters,
+                                      const franka_core::RobotState& state,
+                                      const franka_core::ArmDynamics& dynamics) noexcept {
+  CartesianImpedanceInput in;
+  in.O_T_EE = state.O_T_EE;
+  in.EE_T_K = state.EE_T_K;
+  in.O_J_EE = dynamics.zero_jacobian;
+  in.mass = dynamics.mass;
+  in.q = state.q;
+  in.dq = state.dq;
+  in.coriolis = dynamics.coriolis;
+  in.rotor_inertia = parameters.rotor_inertia;
+  return in;
+}
+
+std::array<double, 7> guide(CartesianImpedanceInput in, const GuidingTask& guiding) noexcept {
+  in.O_T_EE_d = guiding.O_T_EE;
+  in.O_dP_EE_d.fill(0.0);
+  in.q_d = guiding.q;
+  for (std::size_t i = 0; i < 6; i++) {
+    in.K[i] = guiding.free[i] ? 0.0 : (i < 3 ? kGuidingTranslation : kGuidingRotation);
+  }
+  in.nullspace_stiffness = guiding.elbow_free ? 0.0 : kGuidingNullspace;
+  return cartesianImpedance(in);
+}
+
+std::array<double, 7> follow(CartesianImpedanceInput in, const franka_core::RobotState& state,
+                             const std::array<double, 6>& stiffness) noexcept {
+  in.O_T_EE_d = state.O_T_EE_d;
+  in.O_dP_EE_d = state.O_dP_EE_d;
+  in.q_d = state.q_d;
+  in.K = stiffness;
+  in.nullspace_stiffness = kNullspace;
+  return cartesianImpedance(in);
+}
+
+}  // namespace
+
+const std::array<double, 7>& ControlLaws::torques(
+    const ControlTask& task, const franka_core::RobotState& state,
+    const franka_core::ArmDynamics& dynamics) noexcept {
+  if (task.law_switch == LawSwitch::kBlend) {
+    blend_.lawChanges();
+  } else if (task.law_switch == LawSwitch::kFromZero) {
+    blend_.lawStartsFromZero();
+  }
+  law_ = saturate(law(task, state, dynamics), configuration_.parameters().max_torque);
+  motor_torques_ = blend_.apply(law_);
+  const std::array<double, 7> compensated = compensation(state, dynamics);
+  for (std::size_t i = 0; i < 7; i++) {
+    motor_torques_[i] += compensated[i];
+  }
+  return motor_torques_;
+}
+
+const std::array<double, 7>& ControlLaws::rest() noexcept {
+  blend_.restart();
+  motor_torques_.fill(0.0);
+  return motor_torques_;
+}
+
+std::array<double, 7> ControlLaws::law(const ControlTask& task,
+                                       const franka_core::RobotState& state,
+                                       const franka_core::ArmDynamics& dynamics) const noexcept {
+  const ControlUnitParameters& parameters = configuration_.parameters();
+  const auto joint_impedance = [&](const std::array<double, 7>& stiffness) {
+    return JointImpedance(stiffness, parameters.rotor_inertia)
+        .torque(state.q_d, state.dq_d, state.q, state.dq, dynamics.mass, dynamics.coriolis);
+  };
+  if (task.mode == RobotMode::kGuiding) {
+    return guide(measuredInput(parameters, state, dynamics), task.guiding);
+  }
+  if (task.mode != RobotMode::kMove) {
+    // Holds a pose that was latched when the mode began (decision 6).
+    return joint_impedance(parameters.joint_stiffness);
+  }
+  switch (task.controller) {
+    case ControllerMode::kExternalController:
+      return task.tau;
+    case ControllerMode::kCartesianImpedance:
+      return follow(measuredInput(parameters, state, dynamics), state,
+                    parameters.cartesian_stiffness);
+    default:
+      return joint_impedance(configuration_.jointStiffness());
+  }
+}
+
+std::array<double, 7> ControlLaws::compensation(
+    const franka_core::RobotState& state, const franka_core::ArmDynamics& dynamics) const noexcept {
+  const ControlUnitParameters& parameters = configuration_.parameters();
+  std::array<double, 7> sum =
+      frictionCompensation(parameters.coulomb_friction, parameters.viscous_friction, state.dq);
+  for (std::size_t i = 0; i < 7; i++) {
+    sum[i] = dynamics.gravity[i] + sum[i];
+  }
+  // What is configured may be heavier than what a motor can hold.
+  return saturate(sum, parameters.max_torque);
+}
+
+}  // namespace franka_sim

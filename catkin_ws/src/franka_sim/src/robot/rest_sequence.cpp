@@ -1,0 +1,45 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/rest_sequence.h>
+
+namespace franka_sim {
+
+namespace {
+
+constexpr int kYieldTicks = 200;   // after a reflex the arm yields so long (decision 16)
+constexpr int kReflexTicks = 200;  // then braking restarts (decision 16)
+
+}  // namespace
+
+void RestSequence::brake(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
+                         const std::array<double, 7>& ddq) noexcept {
+  brake_.start(q_d, dq_d, ddq);
+  phase_ = Phase::kBraking;
+  ticks_ = 0;
+}
+
+RestSequence::Step RestSequence::step(bool reflex, const std::array<double, 7>& q,
+                                      const std::array<double, 7>& dq,
+                                      const std::array<double, 7>& ddq) noexcept {
+  if (phase_ == Phase::kReached) {
+    return Step::kNone;
+  }
+  ticks_++;
+  if (phase_ == Phase::kYielding) {
+    phase_ = ticks_ < kYieldTicks ? Phase::kYielding : Phase::kReached;
+    return Step::kYields;
+  }
+  brake_.step();
+  if (reflex && ticks_ == kReflexTicks && !brake_.atRest()) {
+    // From here on the arm does not press on what it has met (decision 16).
+    brake_.start(q, dq, ddq);
+  }
+  if (!brake_.atRest()) {
+    return Step::kBrakes;
+  }
+  phase_ = reflex ? Phase::kYielding : Phase::kReached;
+  ticks_ = 0;
+  return Step::kStops;
+}
+
+}  // namespace franka_sim
