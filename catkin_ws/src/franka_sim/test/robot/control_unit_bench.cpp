@@ -34,7 +34,7 @@ void tick(benchmark::State& state, bool motion) {
   ControlUnit unit(parameters());
   unit.observe(measurement(0));
   if (motion) {
-    unit.request(torqueControl());
+    unit.request(franka_sim::torqueControl());
   }
   const franka_core::RobotCommand command;
   int i = 0;
