@@ -36,7 +36,7 @@ def parts(robot):
 
 
 @pytest.mark.parametrize("name", ["panda", "fr3"])
-def test_is_what_the_description_gives(name, monkeypatch):
+def test_kept_urdf_matches_the_description(name, monkeypatch):
     packages = load("conftest").resolver()
     monkeypatch.setitem(sys.modules, "ament_index_python", types.ModuleType("ament_index_python"))
     monkeypatch.setitem(sys.modules, "ament_index_python.packages", packages)

@@ -39,7 +39,7 @@ def rows_of_the_page():
             yield robot, limit.split(":")[0], numbers(start), numbers(axis), float(share), int(draws)
 
 
-def test_the_page_shows_the_ways_of_the_tests():
+def test_the_page_shows_the_rows_of_the_tests():
     expected = list(rows_of_the_tests())
     assert len(expected) == 8
     assert list(rows_of_the_page()) == expected

@@ -87,7 +87,7 @@ def described(robot):
 
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_the_table_is_that_of_the_description(robot):
+def test_the_table_matches_the_description(robot):
     ours = table()
     theirs = described(robot)
     assert len(ours) == len(theirs) == 12

@@ -104,11 +104,11 @@ class DevicesTest(unittest.TestCase):
             f"The lift's motion to {height} m",
         )
 
-    def test_all_joints_are_shown(self):
+    def test_all_joints_are_published(self):
         state = self.robot.when(lambda _: True, "A state")[-1]
         self.assertEqual({*ARM, *FINGERS, "lift", "head", "tilt", "fan"}, set(state))
 
-    def test_the_lift_lifts_the_arm_no_faster_than_it_may(self):
+    def test_the_lift_raises_the_arm_within_its_speed_limit(self):
         self.lift_to(0.0)
         # The arm controller of another test may only just have been stopped.
         self.robot.when(
@@ -132,7 +132,7 @@ class DevicesTest(unittest.TestCase):
             lambda _: np.abs(np.array(self.arm[-1].q) - before.q).max() < 1e-3, "The arm to stand again"
         )
 
-    def test_the_lift_carries_the_weight_of_all_above(self):
+    def test_the_lift_effort_is_the_weight_above_it(self):
         self.lift_to(0.3)
         weight = 9.81 * sum(masses())
         states = self.robot.when(
@@ -143,7 +143,7 @@ class DevicesTest(unittest.TestCase):
         )
         self.assertAlmostEqual(states[-1]["lift"][2], weight, delta=0.5)
 
-    def test_an_arm_controller_runs_beside(self):
+    def test_an_arm_controller_runs_beside_the_lift(self):
         self.assertTrue(self.robot.switch(start=["joint_position_example_controller"]))
         begin = len(self.arm)
         self.lift_to(0.1)
@@ -168,7 +168,7 @@ class DevicesTest(unittest.TestCase):
         self.robot.when(lambda state: abs(state["head"][0] - at[-1]["head"][0]) < 1e-4, "Standing there")
         self.assertTrue(self.robot.switch(start=["head_velocity"]))
 
-    def test_one_joint_takes_either_interface(self):
+    def test_one_joint_accepts_either_interface(self):
         self.lift_to(0.1)
         self.assertFalse(self.robot.switch(start=["lift_velocity"]), "it is claimed")
         self.assertTrue(self.robot.switch(start=["lift_velocity"], stop=["lift_position"]))
@@ -178,7 +178,7 @@ class DevicesTest(unittest.TestCase):
         self.assertTrue(self.robot.switch(start=["lift_position"], stop=["lift_velocity"]))
         self.lift_to(0.2)
 
-    def test_gains_make_a_drive_that_yields(self):
+    def test_gains_make_a_compliant_drive(self):
         self.robot.command("tilt_position", 0.2)
         # A proportional drive of 20 Nm/rad; the camera's centre of mass is on the axis.
         self.robot.when(lambda state: abs(state["tilt"][0] - 0.2) < 1e-3, "A tilt of 0.2 rad")

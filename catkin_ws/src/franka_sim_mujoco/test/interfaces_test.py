@@ -239,7 +239,7 @@ class InterfacesTest(unittest.TestCase):
         self.assertTrue(self.arm.switch(start=["force_example_controller"]))  # torques beside a motion
         self.assertEqual(self.arm.state().robot_mode, MOVE)
 
-    def test_controllers_follow_each_other_while_the_arm_moves(self):
+    def test_controllers_are_switched_while_the_arm_moves(self):
         chain = [
             "joint_velocity_example_controller",
             "cartesian_impedance_example_controller",
@@ -282,7 +282,7 @@ class InterfacesTest(unittest.TestCase):
         self.assertLess(abs(state.tau_J[0]), 0.1)
         self.assertGreater(abs(state.tau_J[3]), 5)
 
-    def test_pushes_show_as_forces_contacts_and_collisions(self):
+    def test_pushes_are_reported_as_forces_contacts_and_collisions(self):
         self.arm.service(
             "set_force_torque_collision_behavior",
             SetForceTorqueCollisionBehavior,
@@ -364,7 +364,7 @@ class InterfacesTest(unittest.TestCase):
                 total += matrix(inertia, 3) + mass * (d @ d * np.eye(3) - np.outer(d, d))
             np.testing.assert_allclose(matrix(state.I_total, 3), total, atol=1e-12)
 
-    def test_the_end_effector_does_not_jump_under_a_motion(self):
+    def test_the_end_effector_frame_is_fixed_during_a_motion(self):
         self.arm.switch(start=["joint_position_example_controller"])
         answer = self.arm.service("set_EE_frame", SetEEFrame, IDENTITY)
         self.assertFalse(answer.success)
@@ -449,7 +449,7 @@ class InterfacesTest(unittest.TestCase):
         self.arm.when(lambda state: state.robot_mode == MOVE)
         self.assertEqual(self.arm.controllers()["joint_position_example_controller"], "running")
 
-    def test_reflexes_end_motions_where_they_are_asked_for(self):
+    def test_reflexes_end_motions_if_configured(self):
         self.strict.when(lambda state: state.robot_mode == MOVE)
         x, y, z = matrix(self.strict.state().O_T_EE, 4)[:3, 3]
         push = call(

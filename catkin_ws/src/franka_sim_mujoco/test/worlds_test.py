@@ -157,7 +157,7 @@ class WorldsTest(unittest.TestCase):
         self.assertAlmostEqual(base.position.x, 0.9, delta=1e-9)
         self.assertAlmostEqual(abs(base.orientation.z), 1, delta=1e-9)
 
-    def test_2_objects_come_fall_and_go(self):
+    def test_2_objects_are_spawned_fall_and_are_removed(self):
         call("spawn_object", SpawnObject, "ball", BALL.format("ball"), at(2, 2, 3))
         before = call("get_body_state", GetBodyState, "ball").pose.position.z
         self.assertAlmostEqual(before, 3)
@@ -192,7 +192,7 @@ class WorldsTest(unittest.TestCase):
         self.assertIn("numbers", call("set_gravity", SetGravity, Vector3(0, math.nan, 0), fails=True).error)
         call("delete_object", DeleteObject, "moon_ball")
 
-    def test_4_joints_are_read_and_put_elsewhere(self):
+    def test_4_joints_are_read_and_set(self):
         names = [f"panda_2_joint{i}" for i in range(1, 8)]
         before = call("get_joint_states", GetJointStates, names).state
         self.assertEqual(list(before.name), names)
@@ -216,7 +216,7 @@ class WorldsTest(unittest.TestCase):
         every = call("get_joint_states", GetJointStates, []).state
         self.assertEqual(len(every.name), 18)
 
-    def test_5_a_snapshot_puts_everything_back(self):
+    def test_5_a_snapshot_restores_everything(self):
         call("spawn_object", SpawnObject, "die", BALL.format("die"), at(1.5, 1.5, 0.5))
         call("step", Step, 100)
         first = call("take_snapshot", TakeSnapshot, "here").state_hash
@@ -238,7 +238,7 @@ class WorldsTest(unittest.TestCase):
         self.assertEqual((after.time - before.time).to_nsec(), 10 * 10**6)
         self.assertIn("cartesian_impedance_example_controller", running("panda_1"))
 
-    def test_7_contacts_tell_the_weight_of_what_rests(self):
+    def test_7_contact_forces_equal_the_weight_of_a_resting_object(self):
         call("reset", Trigger)
         call("step", Step, 800)
 
@@ -288,7 +288,7 @@ class WorldsTest(unittest.TestCase):
         self.assertAlmostEqual(1 - 2 * (q.x**2 + q.y**2), -1, delta=1e-6)  # the optical axis points down
         call("delete_object", DeleteObject, "eye")
 
-    def test_9_spawn_model_takes_sdf_mjcf_and_nonsense(self):
+    def test_9_spawn_model_accepts_sdf_and_mjcf_and_refuses_others(self):
         def spawn(text, *options):
             command = ["rosrun", "gazebo_ros", "spawn_model", "-stdin", *options]
             return subprocess.run(command, input=text, text=True, capture_output=True, timeout=60)
@@ -305,7 +305,7 @@ class WorldsTest(unittest.TestCase):
         self.assertEqual(failed.returncode, 1)
         self.assertIn("<html>", failed.stdout + failed.stderr)
 
-    def test_divergence_pauses_is_told_and_ends_with_a_reset(self):
+    def test_divergence_pauses_is_reported_and_ends_with_a_reset(self):
         call("spawn_object", SpawnObject, "feather", FEATHER, at(3, 3, 3))
         for size, push in ((1e12, (1e12, 0, 0)), (-10001, (0, 0, -10001))):
             order = ("feather", Vector3(*push), NONE, False, Point(), 5)
@@ -339,7 +339,7 @@ class WorldsTest(unittest.TestCase):
             self.assertEqual(call("get_world", GetWorld).paused, not runs)
         call("delete_object", DeleteObject, "feather")
 
-    def test_an_object_within_a_robot_is_told(self):
+    def test_an_object_inside_a_robot_is_reported(self):
         hand = call("get_body_state", GetBodyState, "panda_1_hand").pose.position
         ball = BALL.format("inside")
         answer = call("spawn_object", SpawnObject, "inside", ball, at(hand.x, hand.y, hand.z))
@@ -350,7 +350,7 @@ class WorldsTest(unittest.TestCase):
         for axis, value in zip("xyz", (x, y, z)):
             self.assertAlmostEqual(getattr(point, axis), value, delta=1e-6)
 
-    def test_gazebo_services_read_what_is_there(self):
+    def test_gazebo_services_read_models_and_links(self):
         names = set(call("get_world_properties", GetWorldProperties).model_names)
         scenery = {"stone", "table", "pick_tray", "place_tray", "ground_plane"}
         self.assertEqual(names, scenery | {"panda_1", "panda_2"})
@@ -387,7 +387,7 @@ class WorldsTest(unittest.TestCase):
         ):
             self.assertIn("'moon'", call(name, kind, *arguments, fails=True).status_message)
 
-    def test_gazebo_services_and_topics_place_things(self):
+    def test_gazebo_services_and_topics_set_states(self):
         spun = Twist(Vector3(0, 0, 1), Vector3(0, 0, 2))
         unset = at(2, 2, 1, (0, 0, 0, 0))  # what a message begins with
         call("set_model_state", SetModelState, ModelState("stone", unset, spun, ""))
@@ -422,7 +422,7 @@ class WorldsTest(unittest.TestCase):
         self.near(links.pose[links.name.index("panda_1::panda_1_hand")].position, hand.x, hand.y, hand.z)
         self.assertEqual(len(links.name), len(links.twist))
 
-    def test_gazebo_models_come_are_configured_and_go(self):
+    def test_gazebo_models_are_spawned_configured_and_deleted(self):
         ball = BALL.format("marble")
         spawned = call(
             "spawn_sdf_model", SpawnModel, "marble", ball, "", at(0, 0, 1, (0, 0, 0, 0)), "panda_2_link0"
@@ -443,7 +443,7 @@ class WorldsTest(unittest.TestCase):
         answer = call("set_model_configuration", SetModelConfiguration, *configure, [9.0], fails=True)
         self.assertIn("panda_2_joint1", answer.status_message)
 
-    def test_states_are_those_of_both_robots(self):
+    def test_states_come_from_both_robots(self):
         call("unpause_physics", Empty)
         for arm in ("panda_1", "panda_2"):
             state = rospy.wait_for_message(f"/{arm}/franka_state_controller/franka_states", FrankaState, WAIT)

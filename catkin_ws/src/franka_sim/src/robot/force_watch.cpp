@@ -9,7 +9,7 @@ namespace franka_sim {
 
 namespace {
 
-// Chosen here: see ForceWatch. No rule is published.
+// Chosen here (see ForceWatch): no rule is published.
 constexpr double kTolerance = 10.0;  // [Nm]
 constexpr int kPatience = 100;       // [ticks]
 

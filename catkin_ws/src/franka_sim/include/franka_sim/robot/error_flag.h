@@ -7,7 +7,7 @@
 
 namespace franka_sim {
 
-/// The errors that the control unit finds by itself: indices into the robot's error flags,
+/// The errors that the control unit itself detects: indices into the robot's error flags,
 /// franka_core::kErrorNames (protocol 4.3). Those of commanded motions are MotionFlag.
 enum class ErrorFlag : std::uint8_t {
   kJointPositionLimits = 0,

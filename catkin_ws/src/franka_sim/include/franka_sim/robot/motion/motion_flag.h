@@ -31,8 +31,8 @@ enum class MotionFlag : std::uint8_t {
   kInvalidFrame = 31,
 };
 
-/// Nothing, or the one error of a command: only the first failing stage raises one (decision 14).
-/// Whether real robots raise several is open (decision 47).
+/// Empty, or the error of a command: only the first failing stage raises one (decision 14). Whether
+/// real robots raise several is open (decision 47).
 using MotionFault = std::optional<MotionFlag>;
 
 constexpr std::size_t indexOf(MotionFlag flag) noexcept { return static_cast<std::size_t>(flag); }
