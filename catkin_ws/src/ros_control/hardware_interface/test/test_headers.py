@@ -166,18 +166,18 @@ def verdicts(tmp_path_factory) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("header", HEADERS)
-def test_header_is_complete_in_itself(header, verdicts):
+def test_header_compiles_alone(header, verdicts):
     package = header.split("/", maxsplit=1)[0]
     assert (ROS_CONTROL / package / "include" / header).is_file(), f"{header} is missing"
     assert verdicts[header] == ""
 
 
 @pytest.mark.parametrize("package", sorted(INVENTORY))
-def test_every_class_and_signature_is_there(package, verdicts):
+def test_every_class_and_signature_exists(package, verdicts):
     assert verdicts[f"{package}.cpp"] == ""
 
 
-def test_the_compiler_would_complain(tmp_path):
+def test_missing_headers_and_wrong_types_are_detected(tmp_path):
     assert "no_such_header" in complaints("#include <hardware_interface/no_such_header.h>\n", tmp_path)
     wrong = '#include "signature.h"\nEXPECT_TYPE(int, 1.0);\n'
     assert "static assertion failed" in complaints(wrong, tmp_path)
