@@ -79,7 +79,7 @@ class InteractiveMarkerTest(unittest.TestCase):
         message.pose.orientation.w = 1.0
         self.feedback.publish(message)
 
-    def test_follows_the_arm_then_the_user(self):
+    def test_marker_follows_the_arm_and_then_the_user(self):
         self.assertTrue(wait_for(lambda: self.states.get_num_connections() > 0))
         self.assertEqual([], self.poses)
 
@@ -136,7 +136,7 @@ class InteractiveMarkerTest(unittest.TestCase):
 
 
 class DualArmMarkerTest(unittest.TestCase):
-    def test_speaks_on_the_topics_of_the_controller(self):
+    def test_uses_the_topics_of_the_controller(self):
         controller = "/dual_arm_cartesian_impedance_example_controller/"
         clock = rospy.Publisher("/clock", Clock, queue_size=10)
         frames = rospy.Publisher(controller + "centering_frame", PoseStamped, queue_size=1, latch=True)
@@ -162,7 +162,7 @@ class DualArmMarkerTest(unittest.TestCase):
 
 
 class QuaternionTest(unittest.TestCase):
-    def test_all_four_ways_to_compute_it(self):
+    def test_all_four_branches_of_the_quaternion(self):
         import interactive_marker
 
         half = math.sqrt(0.5)

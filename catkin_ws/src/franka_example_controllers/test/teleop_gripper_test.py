@@ -145,7 +145,7 @@ class TeleopGripperTest(unittest.TestCase):
         self.assertEqual("follower/grasp", self.hands.names()[-1])
         self.assertEqual(12.0, self.hands.orders[-1][1].force)
 
-    def test_homed_hands_are_not_homed_again_and_a_grasp_without_end_is_stopped(self):
+    def test_homed_hands_are_not_homed_again_and_an_endless_grasp_is_stopped(self):
         self.hands.grasp_lasts = 60.0
         self.start("_gripper_homed:=true")
         # The largest width is taken for 0.07: grasps below 0.035.
@@ -156,14 +156,14 @@ class TeleopGripperTest(unittest.TestCase):
         self.follow(0.043, 3, "The opening")
         self.assertAlmostEqual(0.07, self.hands.orders[-1][1].width, places=9)
 
-    def test_ends_with_a_sentence_when_homing_fails(self):
+    def test_reports_failed_homing_and_exits(self):
         self.hands.homing_error = "a finger is blocked"
         self.start()
         self.assertEqual(1, self.node.wait(DEADLINE))
         said = self.node.stdout.read()
         self.assertIn("homing failed: a finger is blocked. Clear the fingers", said)
 
-    def test_ends_with_a_sentence_without_hands(self):
+    def test_reports_missing_hands_and_exits(self):
         self.start("leader/homing:=nobody/homing", "_server_timeout:=0.5")
         self.assertEqual(1, self.node.wait(DEADLINE))
         self.assertIn("no action /nobody/homing after 0.5 s", self.node.stdout.read())
