@@ -37,12 +37,12 @@ def test_bit_exact(name):
 
 
 @pytest.mark.parametrize("name", ["panda", "fr3"])
-def test_none_without_gazebo(name):
+def test_no_inertias_without_gazebo(name):
     assert expand(f"{name}/{name}", hand="true").xml.find(".//inertial") is None
 
 
 @pytest.mark.parametrize("link", ROWS)
-def test_inertias_are_those_of_bodies(link):
+def test_inertias_are_physically_possible(link):
     xx, yy, zz = ROWS[link][2]
     xy, xz, yz = ROWS[link][3]
     low, middle, high = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])

@@ -17,7 +17,7 @@ def transmissions(robot):
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("hand", ["false", "true"])
-def test_none_on_the_real_robot(name, hand):
+def test_no_transmissions_on_the_real_robot(name, hand):
     robot = expand(f"{name}/{name}", hand=hand)
     assert transmissions(robot) == []
     assert robot.xml.find("gazebo") is None

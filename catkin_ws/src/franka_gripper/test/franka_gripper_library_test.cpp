@@ -127,7 +127,7 @@ TEST(GripperLibrary, ReadsTheState) {
   EXPECT_EQ(0.08, state.max_width);
 }
 
-TEST(GripperLibrary, CarriesOutGoals) {
+TEST(GripperLibrary, ExecutesGoals) {
   FakeHand hand;
   const franka::Gripper gripper(hand.address());
   auto move = boost::make_shared<franka_gripper::MoveGoal>();
@@ -157,7 +157,7 @@ TEST(GripperLibrary, CarriesOutGoals) {
   EXPECT_EQ(4, hand.last[0]);
 }
 
-TEST(GripperLibrary, TellsFailureFromRefusal) {
+TEST(GripperLibrary, DistinguishesFailureAndRefusal) {
   FakeHand hand;
   const franka::Gripper gripper(hand.address());
   hand.status = 2;
@@ -167,7 +167,7 @@ TEST(GripperLibrary, TellsFailureFromRefusal) {
                franka::CommandException);
 }
 
-TEST(GripperLibrary, SaysWhetherTheStateCanBeRead) {
+TEST(GripperLibrary, ReportsWhetherTheStateCanBeRead) {
   auto hand = std::make_unique<FakeHand>();
   const franka::Gripper gripper(hand->address());
   hand.reset();

@@ -125,21 +125,21 @@ def report(tmp_path_factory):
                 process.wait()
 
 
-def test_each_action_does_what_it_is_for(report):
+def test_each_action_moves_the_hand(report):
     plain = report["plain"]
     assert plain["homing"] == [SUCCEEDED, True, ""]
     assert plain["names"] == ["panda_finger_joint1", "panda_finger_joint2"]
     assert plain["move"] == [SUCCEEDED, True, "", True]
 
 
-def test_a_grasp_of_nothing_says_so(report):
+def test_a_grasp_without_object_is_reported(report):
     state, success, text, width = report["plain"]["empty grasp"]
     assert (state, success) == (SUCCEEDED, False)
     assert "there is no object between them" in text
     assert width < 0.002
 
 
-def test_gripper_command_counts_one_finger_and_answers_the_whole_width(report):
+def test_gripper_command_takes_one_finger_and_returns_the_whole_width(report):
     plain = report["plain"]
     assert plain["command moves"][:2] == [SUCCEEDED, True]
     assert plain["command moves"][3] == pytest.approx(0.02, abs=1e-3)
@@ -149,7 +149,7 @@ def test_gripper_command_counts_one_finger_and_answers_the_whole_width(report):
     assert report["with_stone"]["command grasps"][:2] == [SUCCEEDED, True]
 
 
-def test_the_width_decides_whether_an_object_is_the_one_expected(report):
+def test_the_width_decides_whether_the_expected_object_is_grasped(report):
     stone = report["with_stone"]
     assert stone["fits"][:3] == [SUCCEEDED, True, ""]
     assert stone["fits"][3] == pytest.approx(0.03, abs=1e-3)
@@ -159,7 +159,7 @@ def test_the_width_decides_whether_an_object_is_the_one_expected(report):
         assert "another one than expected" in text
 
 
-def test_a_move_that_meets_an_obstacle_ends_at_once_and_says_where(report):
+def test_a_blocked_move_ends_at_once_and_reports_the_width(report):
     state, success, text, seconds, width = report["with_stone"]["obstacle"]
     assert (state, success) == (SUCCEEDED, False)
     assert "something is in their way" in text and "instead of 0.0 mm" in text
@@ -168,13 +168,13 @@ def test_a_move_that_meets_an_obstacle_ends_at_once_and_says_where(report):
     assert width == pytest.approx(0.03, abs=2e-3)
 
 
-def test_what_slips_out_of_the_fingers_shows_in_their_width(report):
+def test_a_lost_object_shows_in_the_width(report):
     assert report["with_stone"]["hold"][:2] == [SUCCEEDED, True]
     assert report["with_stone"]["slipped"]
 
 
 @pytest.mark.parametrize("first, second", PAIRS)
-def test_whatever_comes_next_ends_what_runs(report, first, second):
+def test_a_new_goal_or_stop_ends_the_running_action(report, first, second):
     state, success, text, seconds, moving, new = report["interrupted"][f"{first},{second}"]
     assert moving
     assert state == (ABORTED if second == "stop" else PREEMPTED), text
@@ -199,7 +199,7 @@ def test_a_stopped_grasp_stays_where_it_is(report):
     assert stopped["end"] == pytest.approx(stopped["begin"], abs=5e-4)
 
 
-def test_a_stream_of_goals_is_carried_out_to_the_last(report):
+def test_the_last_goal_of_a_stream_is_carried_out(report):
     stream = report["stream"]
     assert set(stream["states"][:-1]) <= {PREEMPTED, RECALLED, SUCCEEDED}
     assert stream["states"].count(SUCCEEDED) < len(stream["states"]) // 2
@@ -207,7 +207,7 @@ def test_a_stream_of_goals_is_carried_out_to_the_last(report):
     assert stream["reached"]
 
 
-def test_joint_states_come_at_the_set_rate_meanwhile(report):
+def test_joint_states_keep_their_rate_during_actions(report):
     gaps = report["stream"]["gaps"]
     # Typically, and never a long time: another process may be at work on both cores.
     assert statistics.median(gaps) == pytest.approx(1 / 30, rel=0.05)
@@ -237,7 +237,7 @@ def test_impossible_widths_are_refused(report, goal):
         ("command effort", "max_effort must be"),
     ],
 )
-def test_other_nonsense_is_refused(report, goal, sentence):
+def test_other_invalid_goals_are_refused(report, goal, sentence):
     state, success, text = report["nonsense"][goal]
     assert (state, success) == (ABORTED, False)
     assert sentence in text
@@ -247,7 +247,7 @@ def test_refused_goals_move_nothing(report):
     assert report["nonsense"]["width"] == pytest.approx(0.08, abs=2e-3)
 
 
-def test_a_hand_that_goes_and_comes_back(report):
+def test_a_lost_hand_is_reported_and_reconnected(report):
     death = report["death"]
     assert death["running"][0] == ABORTED and "libfranka" in death["running"][2]
     assert death["meanwhile"][0] == ABORTED and death["meanwhile"][2]
@@ -267,7 +267,7 @@ def test_a_hand_that_goes_and_comes_back(report):
         ("nobody there", "no gripper at 127.0.31.9"),
     ],
 )
-def test_a_node_that_cannot_work_says_why_and_ends(report, case, sentence):
+def test_a_node_that_cannot_start_reports_why_and_exits(report, case, sentence):
     status, text = report["complaints"][case]
     assert status == 255
     assert sentence in text

@@ -73,7 +73,7 @@ def joint_states(session) -> dict:
 
 
 @pytest.mark.parametrize("name", ["panda", "fr3"] if os.environ.get("FRANKA_TEST_LONG") else ["panda"])
-def test_arm_and_hand_are_shown_together(screen, tmp_path, name):
+def test_joint_states_hold_arm_and_hand(screen, tmp_path, name):
     rviz = name == "panda"
     robot = simulated(name, ADDRESS, "realtime")
     with robot, launch(tmp_path / "launch.log", name, f"rviz:={str(rviz).lower()}") as session:
@@ -100,7 +100,7 @@ def test_arm_and_hand_are_shown_together(screen, tmp_path, name):
     "address, sentence",
     [("no.such.host.invalid", "no.such.host.invalid"), ("127.0.33.9", "Please install FCI feature")],
 )
-def test_without_a_robot_the_launch_ends_with_a_sentence(tmp_path, address, sentence):
+def test_without_a_robot_the_launch_file_reports_an_error_and_exits(tmp_path, address, sentence):
     log = tmp_path / "launch.log"
     arguments = [f"robot_ip:={address}", "rviz:=false"]
     with Session("franka_visualization", "franka_visualization.launch", *arguments, log=log) as session:

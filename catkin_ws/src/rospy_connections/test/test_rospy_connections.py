@@ -49,7 +49,7 @@ def mended(monkeypatch):
     rospy_connections.init_node("any")
 
 
-def test_rospy_itself_loses_a_publisher_whose_news_overtook_the_masters_answer():
+def test_plain_rospy_loses_a_publisher_announced_before_the_masters_answer():
     """When this fails, Debian has mended rospy, and this package has done its duty."""
     assert connections([PUBLISHER], [], expected=0) == set()
 
@@ -69,7 +69,7 @@ def test_no_publisher_is_lost(mended, updates, expected):
     assert connections(*updates, expected=len(expected)) == expected
 
 
-def test_init_node_hands_on_its_arguments(monkeypatch):
+def test_init_node_passes_its_arguments_on(monkeypatch):
     monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
     calls = []
     monkeypatch.setattr(rospy, "init_node", lambda *arguments, **options: calls.append((arguments, options)))
