@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The arguments of the robot files: what each does, and how wrong ones end."""
+"""The arguments of the robot files: the effect of each, and errors of wrong ones."""
 
 import re
 

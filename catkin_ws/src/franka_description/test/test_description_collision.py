@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Self-collision capsules, fine volumes, fingers, looks, and the primitives in place of meshes."""
+"""Self-collision capsules, fine volumes, fingers, visuals, and primitives that replace meshes."""
 
 import math
 import struct

@@ -48,7 +48,7 @@ def test_inertias_are_physically_possible(link):
     low, middle, high = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     assert low > 0
     assert low + middle > high
-    if link == "link2":  # so near the edge that rounding the table would cross it
+    if link == "link2":  # so close to the bound that rounded values would violate it
         assert low + middle - high == pytest.approx(1.7e-6, abs=0.05e-6)
 
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What gazebo:=true adds for controllers and the simulation, and gazebo:=false leaves out."""
+"""Elements for controllers and the simulation that only gazebo:=true adds."""
 
 from xml.etree import ElementTree
 
@@ -117,7 +117,7 @@ def test_plugin(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_gazebo_changes_nothing_else(name):
-    """Kinematics, limits and looks are those of the real robot's description."""
+    """Kinematics, limits and visuals match the real robot's description."""
     real = expand(f"{name}/{name}", hand="true")
     simulated = expand(f"{name}/{name}", hand="true", gazebo="true")
     assert set(simulated.joints) - set(real.joints) == {"world_joint"}

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""install_meshes with small wheels made here: what it leaves behind."""
+"""Files that install_meshes installs from small wheels made here."""
 
 import hashlib
 import re
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(shutil.which("assimp") is None, reason="assimp i
 
 
 class Place:
-    """A meshes folder and the wheels it is filled from."""
+    """A meshes folder and the wheels for it."""
 
     def __init__(self, folder):
         self.meshes = folder / "meshes"
@@ -157,7 +157,7 @@ def test_an_unconvertible_mesh_is_still_shown_in_rviz(place, monkeypatch, capsys
 
 
 def test_interruption_while_publishing_keeps_the_old_files(place, monkeypatch):
-    """Whatever moment a run dies at, xacro finds either nothing or a whole set."""
+    """Whenever a run is interrupted, xacro finds either nothing or a complete set."""
     place.run(monkeypatch=monkeypatch)
     rename = place.script.pathlib.Path.rename
 
@@ -198,7 +198,7 @@ def test_unwritable_folder_is_reported(place, tmp_path, monkeypatch):
 
 
 def test_committed_checksums():
-    """The checksums of the design, not those of the wheels made here."""
+    """Checksums of the real wheels, not of those made here."""
     assert {s.wheel: s.sha256 for s in description_install.load().SOURCES} == {
         "example_robot_data-4.4.0-1-py3-none-any.whl": "b170191e76f7a13139eb12a873a157b5"
         "a00df45a49c66d7f2b8f95e07437e64e",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The Python examples move a simulated FR3 as they say; a script that fails stops nobody else."""
+"""The Python examples move a simulated FR3; a failing script stops only its controller."""
 
 import math
 import tempfile

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""teleop_gripper_node between two hands that the test plays."""
+"""teleop_gripper_node between two hands simulated by the test."""
 
 import os
 import subprocess
@@ -98,7 +98,7 @@ class TeleopGripperTest(unittest.TestCase):
         )
 
     def wait_to_follow(self):
-        """Until the node says that it has seen how wide the leader's hand is and follows it."""
+        """Waits until the node reports that it follows the leader's width."""
         said = ""
         for line in self.node.stdout:
             said += line
@@ -138,7 +138,7 @@ class TeleopGripperTest(unittest.TestCase):
         self.assertEqual("follower/move", name)
         self.assertAlmostEqual(WIDEST, move.width, places=9)
         self.assertEqual(0.1, move.speed)
-        # Between the two nothing is to happen: the next order must be the one after.
+        # Between the two widths no order is sent: the next order must belong to the next width.
         type(self).width = 0.041
         time.sleep(0.3)
         self.follow(0.0, 5, "The second grasp")

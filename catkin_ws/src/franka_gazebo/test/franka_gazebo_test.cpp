@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// The original's headers, as programs that were written for them use them.
+/// Uses the original's headers as programs for the original do.
 
 #include <franka_gazebo/controller_verifier.h>
 #include <franka_gazebo/franka_gripper_sim.h>

@@ -1,8 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The library as a program with a franka::Gripper of its own uses it, against a gripper that
-// answers as it is told: the real wire, without a simulated hand.
+// Uses the library with a real connection to a fake gripper whose answers the test sets.
 #include <arpa/inet.h>
 #include <franka_gripper/franka_gripper.h>
 #include <gtest/gtest.h>
@@ -173,7 +172,7 @@ TEST(GripperLibrary, ReportsWhetherTheStateCanBeRead) {
   hand.reset();
   franka::GripperState state;
   bool read = true;
-  for (int i = 0; i < 200 && read; i++) {  // states that were under way come first
+  for (int i = 0; i < 200 && read; i++) {  // states already sent arrive first
     read = franka_gripper::updateGripperState(gripper, &state);
   }
   EXPECT_FALSE(read);

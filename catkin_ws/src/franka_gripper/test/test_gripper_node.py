@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_gripper_node against a simulated hand with a stone; gripper_client.py does what is judged here."""
+"""franka_gripper_node with a simulated hand and a stone; checks the report of gripper_client.py."""
 
 import json
 import os
@@ -20,7 +20,7 @@ PREEMPTED, SUCCEEDED, ABORTED = 2, 3, 4
 RECALLED = 8
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 
-# Which action is ended by which; in the long form each by each.
+# Pairs of a running action and the one that ends it; the long form has all pairs.
 ACTIONS = ("homing", "move", "grasp", "gripper_action")
 PAIRS = [
     *(("homing", "move"), ("move", "move"), ("grasp", "gripper_action"), ("gripper_action", "grasp")),
@@ -46,7 +46,7 @@ def start_hand(world) -> subprocess.Popen:
 
 
 def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
-    """Follows the client, and ends and starts the hand when it asks for that."""
+    """Reads the client's output, and ends and starts the hand on request."""
     lines = Lines(client.stdout)
     deadline = time.monotonic() + 600
     while time.monotonic() < deadline:
@@ -66,7 +66,7 @@ def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
 
 
 def complaints(session) -> dict:
-    """How nodes with something wrong end: [status, what they say]."""
+    """Exit of nodes with errors: [status, output]."""
     names = "_joint_names:=[a, b]"
     cases = {
         "no address": [names],
@@ -163,7 +163,7 @@ def test_a_blocked_move_ends_at_once_and_reports_the_width(report):
     state, success, text, seconds, width = report["with_stone"]["obstacle"]
     assert (state, success) == (SUCCEEDED, False)
     assert "something is in their way" in text and "instead of 0.0 mm" in text
-    # 50 mm at 50 mm/s, and what it takes to notice.
+    # 50 mm at 50 mm/s, and the time to detect the end.
     assert 0.9 < seconds < 2.5
     assert width == pytest.approx(0.03, abs=2e-3)
 
@@ -187,7 +187,7 @@ def test_a_new_goal_or_stop_ends_the_running_action(report, first, second):
 def test_interruptions_take_less_than_100_ms(report):
     latencies = [outcome[3] for outcome in report["interrupted"].values()]
     assert len(latencies) == len(PAIRS)
-    # The typical one: another process may be at work on both cores.
+    # The median: other processes may use both cores.
     assert statistics.median(latencies) < 0.1
 
 
@@ -209,7 +209,7 @@ def test_the_last_goal_of_a_stream_is_carried_out(report):
 
 def test_joint_states_keep_their_rate_during_actions(report):
     gaps = report["stream"]["gaps"]
-    # Typically, and never a long time: another process may be at work on both cores.
+    # The median, and an upper bound: other processes may use both cores.
     assert statistics.median(gaps) == pytest.approx(1 / 30, rel=0.05)
     assert max(gaps) < 0.5
 
@@ -252,7 +252,7 @@ def test_a_lost_hand_is_reported_and_reconnected(report):
     assert death["running"][0] == ABORTED and "libfranka" in death["running"][2]
     assert death["meanwhile"][0] == ABORTED and death["meanwhile"][2]
     assert death["again"]
-    assert death["silent"]  # no old widths under new times
+    assert death["silent"]  # no old widths with new time stamps
     assert death["move"] == [SUCCEEDED, True, "", True]
 
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_sim as the user meets it: its command line, and the control interface of one line a command."""
+"""franka_sim as a user calls it: its command line, and the control interface."""
 
 import socket
 import struct
@@ -193,11 +193,11 @@ def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
 
         before = joints(say)
         assert say("place stone 0.5 -0.3 0.2") == "ok"
-        # So long that it is seen: time runs flat out.
+        # Long enough to be seen: time runs as fast as possible.
         assert say("push panda_hand 0 8 0 6000") == "ok"
         until(lambda: displacement() > 1e-4)
         until(lambda: displacement() < 1e-4)
-        # It was let go in the air and lies on the ground.
+        # It was released in the air and lies on the ground.
         until(lambda: float(say("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
 
 
@@ -212,11 +212,11 @@ def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
             heads[name] = [float(word) for word in say(f"where {name}_link0").split()[1:]]
         assert heads["panda_2"] == pytest.approx([0.5, 1, 0])
         assert heads["fr3"] == pytest.approx([0, -1, 0])
-        # The second one looks along y.
+        # The second one faces along y.
         hand = [float(word) for word in say("where panda_2_link7").split()[1:]]
         first = [float(word) for word in say("where panda_link7").split()[1:]]
         assert hand == pytest.approx([0.5 - first[1], 1 + first[0], first[2]], abs=2e-3)
-        # A switch is one robot's, the world is everyone's.
+        # A switch concerns one robot, the world all.
         assert answer("127.0.22.8", "user_stop on") == "ok"
         assert answer("127.0.22.8", "state").startswith("ok User stopped")
         assert say("state").startswith("ok Idle")
@@ -250,7 +250,7 @@ def test_every_option_also_takes_its_value_after_an_equals_sign():
     assert process.returncode == 0
 
 
-# What no robot meets, at each line that takes a size: words, and the unit that must be named.
+# Unreasonable values for each line that takes a size: words, and the unit that the error must name.
 TOO_LARGE = [
     ("place stone 1e11 0 0", " m"),
     ("place stone 0 0 -1001", " m"),
@@ -322,7 +322,7 @@ def test_a_robot_that_starts_inside_a_body_is_reported():
 def test_the_hash_command_waits_for_a_world_at_rest():
     with simulated("127.0.22.16", "--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0") as (say, _):
         before = joints(say)
-        # For 3 s of its time the hand is pushed, then it comes back.
+        # The hand is pushed for 3 s of simulated time, then it returns.
         assert say("push panda_hand 0 8 0 3000") == "ok"
         assert say("hash") == "ok cbf29ce484222325", "of no commands"
         settled = say("state")
@@ -402,7 +402,7 @@ def test_franka_info_ignores_lateness_of_a_robot_with_another_pace(pace):
         result = subprocess.run([str(info), "127.0.22.22", "0.5"], capture_output=True, text=True, timeout=60)
     assert "of the clock's: a simulated robot" in result.stdout
     assert "states come late" not in result.stdout
-    lost = "states are lost" in result.stdout  # as happens to a client that a busy machine holds up
+    lost = "states are lost" in result.stdout  # as happens to a client on a busy machine
     assert ("Verdict         ready to be controlled" in result.stdout) == (not lost)
     assert result.returncode == lost
 
@@ -415,7 +415,7 @@ def test_quit_ends_the_simulation():
 
 @pytest.fixture
 def lingering():
-    """Starts a robot with a client, tells it to end, and returns both."""
+    """Starts a robot with a client, signals it to exit, and returns both."""
     processes = []
 
     def begin(seconds):

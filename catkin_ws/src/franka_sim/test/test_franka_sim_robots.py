@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The robots that come with franka_sim are those of franka_description."""
+"""The URDFs in franka_sim match franka_description."""
 
 import importlib.util
 import sys
@@ -22,7 +22,7 @@ def load(name):
 
 
 def canonical(element):
-    """An element without the white space and the order of attributes that do not matter."""
+    """An element without irrelevant white space and order of attributes."""
     attributes = tuple(sorted((key, " ".join(value.split())) for key, value in element.attrib.items()))
     return element.tag, attributes, (element.text or "").strip(), tuple(canonical(child) for child in element)
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/limits.md shows the ways that the tests of the limits go."""
+"""docs/limits.md lists the motions of the limit tests."""
 
 import re
 from pathlib import Path

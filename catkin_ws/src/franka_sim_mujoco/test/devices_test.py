@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints that are no Franka arm's: driven beside the arm as Gazebo's default hardware would drive them."""
+"""Joints of other devices, driven beside the arm as by Gazebo's default hardware."""
 
 import time
 import unittest
@@ -29,7 +29,7 @@ def call(name, kind, *arguments, **fields):
 
 
 class Joints:
-    """The joint states of one robot, all of them."""
+    """All joint states of one robot."""
 
     def __init__(self, namespace):
         self.namespace, self.seen = namespace, []
@@ -81,7 +81,7 @@ class Joints:
 
 
 def masses():
-    """Of all that the lift carries, and its own [kg]."""
+    """Mass of the lift and of everything above it [kg]."""
     links = ElementTree.fromstring(rospy.get_param("robot_description")).iter("mass")
     return [float(mass.get("value")) for mass in links]
 
@@ -121,8 +121,8 @@ class DevicesTest(unittest.TestCase):
         self.assertAlmostEqual(max(speeds), 0.2, delta=1e-3)  # the URDF's limit
         base = call("/gazebo/get_body_pose", GetBodyPose, body="panda_link0").pose
         self.assertAlmostEqual(base.position.z, 0.2 + 0.3, delta=2e-4)
-        # The lift starts and stops with a jerk, for which the joints, held by springs, give way: by no more
-        # than takes up the energy of the whole load at that speed. Then they stand where they stood.
+        # When the lift starts and stops, the joints, held by springs, yield: at most until the springs hold
+        # the kinetic energy of the whole load at that speed. Then they return to their positions.
         weakest = 2000.0  # [Nm/rad], of the joints' default stiffness
         gives = np.sqrt(sum(masses()) * max(speeds) ** 2 / weakest)
         for state in self.arm[self.arm.index(before) :]:
@@ -152,10 +152,10 @@ class DevicesTest(unittest.TestCase):
         self.assertTrue(self.robot.switch(stop=["joint_position_example_controller"]))
         self.assertGreater(len(states), 10)
         for state in states:
-            # The lift's start and stop are accelerations that no control unit knows of.
+            # The control unit does not know the lift's accelerations at start and stop.
             self.assertLess(np.abs(np.array(state.q) - state.q_d).max(), 5e-3)
         self.assertGreater(np.ptp([state.q_d[0] for state in states]), 0.01)
-        # To the arm they are a push, of which states show at least the end; at rest they show 1e-6 N.
+        # It reports them as external forces, at least at the end; at rest it reports 1e-6 N.
         self.assertGreater(max(abs(state.O_F_ext_hat_K[2]) for state in states), 1e-3)
 
     def test_velocities(self):
@@ -185,7 +185,7 @@ class DevicesTest(unittest.TestCase):
 
     def test_efforts(self):
         self.robot.command("fan_effort", 0.7)
-        speed = (0.7 - 0.2) / 0.5  # where friction and damping of the URDF take it all
+        speed = (0.7 - 0.2) / 0.5  # at which friction and damping of the URDF use the whole effort
         self.robot.when(lambda state: abs(state["fan"][1] - speed) < 1e-3, f"A speed of {speed} rad/s")
         self.robot.command("fan_effort", 100.0)
         speed = (1.2 - 0.2) / 0.5  # the URDF's limit of the effort

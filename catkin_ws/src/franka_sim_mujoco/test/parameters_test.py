@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every parameter of a simulated robot, right and wrong, and the spawner's own errors."""
+"""Valid and invalid values of every parameter of a simulated robot, and the spawner's own errors."""
 
 import subprocess
 import sys
@@ -27,7 +27,7 @@ from std_srvs.srv import Empty
 
 WAIT = 30
 WRONG = [
-    # parameter, value, what the sentence must name
+    # parameter, value, text that the error must contain
     ("arm_id", "left", "left_joint1"),
     ("arm_id", 3, "arm_id"),
     ("tau_ext_lowpass_filter", 1.5, "tau_ext_lowpass_filter"),
@@ -167,7 +167,7 @@ class ParametersTest(unittest.TestCase):
         twice = self.spawn("panda", "/right")
         self.assertFalse(twice.success)
         self.assertIn("panda", twice.error)
-        # A second robot of another kind, name and namespace beside it.
+        # A second robot with another type, name and namespace.
         rospy.set_param("/second/arm_id", "right")
         answer = self.spawn("right", "/second", rospy.get_param("/fr3_description"))
         self.assertTrue(answer.success, answer.error)
@@ -175,7 +175,7 @@ class ParametersTest(unittest.TestCase):
         self.assertTrue(self.delete("right").success)
 
     def spawn_bent(self, urdf, namespace):
-        """With joint 6 where an FR3 may go, but no Panda."""
+        """Spawns it with joint 6 in the range of an FR3, outside that of a Panda."""
         rospy.set_param(namespace + "/arm_id", "right")
         bent = [("right_joint2", -0.8), ("right_joint4", -2.4), ("right_joint6", 4.3)]
         return self.spawn("machine", namespace, urdf, bent)

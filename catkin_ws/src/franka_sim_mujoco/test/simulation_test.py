@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A Panda with hand in the stone world, met through topics, services and actions only."""
+"""A Panda with hand in the stone world, used through topics, services and actions only."""
 
 import math
 import sys
@@ -56,7 +56,7 @@ def state():
 
 
 def state_when(condition, wait=WAIT):
-    """The first state that meets a condition; fails loudly when none does in time."""
+    """The first state that meets a condition; fails if none does in time."""
     end = time.monotonic() + wait
     while time.monotonic() < end:
         now = state()
@@ -66,7 +66,7 @@ def state_when(condition, wait=WAIT):
 
 
 def action(name, kind):
-    # Not the simple client: it loses goals that end before its send_goal() returns, as they do flat out.
+    # Not the simple client: it loses goals that end before its send_goal() returns, as they do here.
     client = actionlib.ActionClient(name, kind)
     client.wait_for_server()  # bounded by the time limit of the test
     return client
@@ -77,7 +77,7 @@ def finish(client, goal):
 
 
 def result(handle):
-    """Waits by the wall clock: ROS time runs many times faster here."""
+    """Waits in wall time: ROS time is many times faster here."""
     end = time.monotonic() + WAIT
     while handle.get_comm_state() != actionlib.CommState.DONE and time.monotonic() < end:
         time.sleep(0.01)
@@ -187,7 +187,7 @@ class SimulationTest(unittest.TestCase):
         self.assertFalse(bad.success)
         self.assertIn("negative", bad.error)
         self.assertFalse(push("no_such_body", Vector3(), Vector3(), False, Point(), 1).success)
-        # The push lasts 100 s of simulated time, which a busy machine takes a while for.
+        # The push lasts 100 s of simulated time, which may take long on a busy machine.
         state_when(lambda s: abs(s.O_F_ext_hat_K[0]) < 0.5, wait=3 * WAIT)
 
     def test_user_stop_disconnects_until_recovery(self):

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The order of news that loses a publisher in rospy, and does not after init_node()."""
+"""The order of updates that loses a publisher in rospy, but not after init_node()."""
 
 import threading
 
@@ -13,7 +13,7 @@ TOPIC, PUBLISHER, OTHER = "/grasp/result", "http://hand:1", "http://hand:2"
 
 
 class Handler:
-    """In the place of the node: remembers what it is told to connect to, and ends after `connections`."""
+    """Replaces the node: records connections, and ends after `connections`."""
 
     def __init__(self):
         self.connected = []
@@ -28,7 +28,7 @@ class Handler:
 
 
 def connections(*updates: list[str], expected: int) -> set:
-    """What a node connects to which hears of all these publishers before it can look."""
+    """Connections of a node that gets updates about all these publishers before it reads one."""
     handler = Handler()
     manager = RegManager(handler)
     for uris in updates:
@@ -50,7 +50,7 @@ def mended(monkeypatch):
 
 
 def test_plain_rospy_loses_a_publisher_announced_before_the_masters_answer():
-    """When this fails, Debian has mended rospy, and this package has done its duty."""
+    """If this fails, Debian has fixed rospy, and this package is no longer needed."""
     assert connections([PUBLISHER], [], expected=0) == set()
 
 

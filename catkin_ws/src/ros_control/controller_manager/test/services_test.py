@@ -80,7 +80,7 @@ class ServicesTest(unittest.TestCase):
             target=lambda: answers.append(self.manager.switch(start_controllers=["a"], strictness=STRICT))
         )
         switch.start()
-        # Long enough for the switch to be waiting at the latest when this is over.
+        # Long enough that the switch waits afterwards.
         for _ in range(20):
             self.assertTrue(self.manager.load("c").ok)
             self.assertTrue(self.manager.unload("c").ok)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The spawner, from its arguments to its end."""
+"""The spawner, from its arguments to its exit."""
 
 import contextlib
 import os
@@ -23,7 +23,7 @@ from std_msgs.msg import Bool
 
 STRICT = 2
 
-# A controller manager that ends when it shall stop something, as one in the same launch file does.
+# A controller manager that exits when it must stop a controller, as one in the same launch file does.
 MORTAL_MANAGER = """
 import os
 import rospy
@@ -142,7 +142,7 @@ class SpawnerTest(unittest.TestCase):
         publisher = rospy.Publisher("late", Bool, queue_size=1, latch=True)
         with Running("spawner", "--timeout", "0.5", "--wait-for", "late", "a") as running:
             wait_until(lambda: publisher.get_num_connections() > 0, "nobody listens")
-            time.sleep(1.0)  # twice its timeout, which is for the controller manager
+            time.sleep(1.0)  # twice its timeout for the controller manager
             self.assertTrue(running.is_running())
             publisher.publish(True)
             self.expect({"a": "running"})
@@ -153,13 +153,13 @@ class SpawnerTest(unittest.TestCase):
         publisher = rospy.Publisher("reported", Bool, queue_size=1, latch=True)
         reports = []
 
-        class Impatient:  # in place of Ending
+        class Impatient:  # replaces Ending
             def sleep(self, duration):
                 rospy.rostime.wallsleep(0.01)
 
         def take(text, *values):
             reports.append(text % values)
-            # The next thing to be told of; in the end what is waited for.
+            # Times of the reports, and then the awaited topic.
             publisher.publish("only said false" in reports[-1])
 
         impatient = mock.patch.multiple(spawner, FIRST_REPORT=0.0, REPORT_PERIOD=0.5)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The xacro executable works wherever launch files and people look for it."""
+"""The xacro executable works on all paths that launch files and users call."""
 
 import os
 import shutil
