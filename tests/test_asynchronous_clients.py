@@ -63,7 +63,7 @@ def sim(request):
 
 
 @pytest.mark.parametrize("way", ["stream", "once"])
-def test_targets_are_reached_however_rarely_they_come(sim, way):
+def test_targets_are_reached_at_any_update_rate(sim, way):
     done = subprocess.run(command(sim.address, way, 2), capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     *ways, end = [json.loads(line) for line in done.stdout.splitlines()]
@@ -75,7 +75,7 @@ def test_targets_are_reached_however_rarely_they_come(sim, way):
     assert "errors none" in sim.ask("state")
 
 
-def test_such_a_motion_ends_with_its_client(sim):
+def test_an_asynchronous_motion_ends_with_its_client(sim):
     client = subprocess.Popen(command(sim.address, "once", 1000000), stdout=subprocess.PIPE, text=True)
     try:
         assert json.loads(client.stdout.readline())["status"] == "kTargetReached"

@@ -122,7 +122,7 @@ def test_citations_have_one_form():
     assert not wrong, "\n".join(wrong)
 
 
-def test_several_decisions_are_called_so():
+def test_several_decisions_use_the_plural():
     wrong = [
         f"{name}:{number}"
         for name, number, line in LINES

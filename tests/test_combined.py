@@ -107,14 +107,14 @@ def test_one_controller_moves_all_arms(report):
     assert report["error"] < 0.01
 
 
-def test_a_recovery_too_early_disturbs_nothing(report):
+def test_an_early_recovery_changes_nothing(report):
     assert report["early"] == [SUCCEEDED, SUCCEEDED]
     assert report["goes_on"]
     # Nor does it clear the error that came after it.
     assert report["hit"]["reflex"]
 
 
-def test_one_arm_recovers_and_the_others_keep_their_state(report):
+def test_one_arm_recovers_and_the_others_stay_unchanged(report):
     assert report["hit"]["reflex"]
     # One controller moves all: they wait.
     assert all(other == [IDLE, True] for other in report["hit"]["others"])
@@ -132,5 +132,5 @@ def test_all_recover_at_once(report):
     assert report["error_at_last"] < 0.01
 
 
-def test_they_stop(report):
+def test_controllers_stop(report):
     assert report["stopped"] and report["idle"]

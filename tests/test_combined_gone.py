@@ -59,7 +59,7 @@ def report(robot, tmp_path_factory):
             process.wait()
 
 
-def test_the_diagnostics_tell_of_each_arm(robot, report):
+def test_the_diagnostics_report_each_arm(robot, report):
     for name in (f"{robot}_1", f"{robot}_2"):
         level, hardware, values = report["diagnosis"][name]
         assert (level, hardware, values["Mode"]) == (OK, name, "Move")
@@ -70,7 +70,7 @@ def test_the_diagnostics_tell_of_each_arm(robot, report):
     assert int(report["diagnosis"]["Control loop"][2]["Cycles since the last report"]) > 0
 
 
-def test_the_arm_that_is_lost_is_named(robot, report):
+def test_the_lost_arm_is_named(robot, report):
     lost = report["lost"]
     assert lost["noticed"]
     assert f"{robot}_1: the robot is lost. libfranka: " in report["log"]
@@ -89,7 +89,7 @@ def test_the_other_one_keeps_its_state_and_answers(robot, report):
     assert lost["diagnosis of the other"][2]["Mode"] == "Idle"
 
 
-def test_connect_says_what_came_of_each_arm(robot, report):
+def test_connect_reports_the_result_for_each_arm(robot, report):
     success, message = report["lost"]["connect"]
     assert not success
     assert f"'{robot}_1': libfranka" in message and "refused" in message
@@ -98,7 +98,7 @@ def test_connect_says_what_came_of_each_arm(robot, report):
     assert status == ABORTED and f"{robot}_1: " in text and "connect" in text
 
 
-def test_the_other_one_goes_on_alone(robot, report):
+def test_the_other_arm_moves_alone(robot, report):
     alone = report["alone"]
     success, message = alone["refused"]
     assert not success and f"A controller commands '{robot}_1'" in message
@@ -109,7 +109,7 @@ def test_the_other_one_goes_on_alone(robot, report):
     assert f"no controller can command '{robot}_1'" in report["log"]
 
 
-def test_it_is_taken_again_while_the_other_one_moves(report):
+def test_the_lost_arm_reconnects_while_the_other_one_moves(report):
     again = report["again"]
     assert again["connect"] == [True, ""]
     assert again["undisturbed"]
@@ -117,7 +117,7 @@ def test_it_is_taken_again_while_the_other_one_moves(report):
     assert again["error"] < 0.01
 
 
-def test_one_that_connects_by_itself_moves_when_told_to(robot, report):
+def test_an_arm_that_reconnects_automatically_moves_on_command(robot, report):
     own = report["by_itself"]
     assert own["noticed"] and own["back"]
     assert f"{robot}_2: the robot is lost." in report["log"]

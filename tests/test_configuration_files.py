@@ -217,7 +217,7 @@ def says(loaded, expected, path: str = "") -> list[str]:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_it_loads_as_it_stands(name):
+def test_file_loads_without_changes(name):
     arguments, expected = FILES[name]
     ((loaded, _),) = rosparam.load_file(str(CONFIG[name]))
     if not arguments:
@@ -227,14 +227,14 @@ def test_it_loads_as_it_stands(name):
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_with_the_originals_arguments_it_says_what_the_originals_does(name):
+def test_file_matches_the_original_with_the_originals_arguments(name):
     arguments, expected = FILES[name]
     text = resolve_args(CONFIG[name].read_text(), context={"arg": arguments})
     ((loaded, _),) = rosparam.load_str(text, name)
     assert says(loaded, expected) == []
 
 
-def test_files_of_one_name_are_one_file():
+def test_files_with_the_same_name_are_identical():
     """So that the table above has looked at all of them."""
     found = {}
     for path in SOURCE.glob("franka_*/config/*.yaml"):

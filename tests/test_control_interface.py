@@ -99,7 +99,7 @@ def set_load(client):
     assert client.reply()[1][0] == 0
 
 
-def test_loss_shows_in_the_success_rate_and_repeats_with_its_seed(sim, client):
+def test_loss_lowers_the_success_rate_and_repeats_with_its_seed(sim, client):
     """Each cycle's rate is the share of the last 100 commands that came: rates differ by single commands."""
     runs = []
     for seed in (3, 3, 4):
@@ -121,7 +121,7 @@ def test_loss_shows_in_the_success_rate_and_repeats_with_its_seed(sim, client):
 
 
 @pytest.mark.parametrize("count", [19, 20])
-def test_losses_in_a_row_lower_the_rate_one_by_one_until_it_is_too_much(sim, client, count):
+def test_consecutive_losses_lower_the_rate_until_the_motion_ends(sim, client, count):
     state, first = begin(client)
     state = drive(client, state, hold(first), 150)[-1]
     sim.ask(f"lose {count}")
@@ -150,7 +150,7 @@ def ramp(first):
     return positions
 
 
-def test_a_delay_shifts_what_the_arm_is_told_by_whole_cycles(sim, client):
+def test_a_delay_shifts_commands_by_whole_cycles(sim, client):
     told = {}
     for ticks in (0, 1, 2):
         sim.ask("reset")
@@ -166,7 +166,7 @@ def test_a_delay_shifts_what_the_arm_is_told_by_whole_cycles(sim, client):
         assert max(abs(a - b) for a, b in zip(told[ticks], told[0])) > 1e-4 * ticks
 
 
-def test_what_the_robot_wrongly_believes_to_carry_is_a_force_upwards(sim, client):
+def test_a_wrong_load_appears_as_an_upward_force(sim, client):
     """The arm carries nothing; the robot that believes in 0.8 kg feels them being held."""
     sim.ask("load 0.8 0 0 0.05")
     state, first = begin(client)
@@ -181,7 +181,7 @@ def test_what_the_robot_wrongly_believes_to_carry_is_a_force_upwards(sim, client
 
 
 @pytest.mark.parametrize("axis, newtons", [(0, 8.0), (1, -8.0), (2, 8.0)])
-def test_a_push_is_felt_as_strong_as_it_is(sim, client, axis, newtons):
+def test_a_push_is_estimated_with_its_true_force(sim, client, axis, newtons):
     state, first = begin(client)
     state = drive(client, state, hold(first), 50)[-1]
     push = [0.0, 0.0, 0.0]
@@ -198,7 +198,7 @@ def test_a_push_is_felt_as_strong_as_it_is(sim, client, axis, newtons):
     finish(client, free, first)
 
 
-def test_a_push_beyond_the_threshold_is_a_reflex(sim, client):
+def test_a_push_above_the_threshold_triggers_a_reflex(sim, client):
     state, first = begin(client)
     state = drive(client, state, hold(first), 50)[-1]
     sim.ask(f"push {sim.robot}_hand 0 60 0 100")
@@ -241,7 +241,7 @@ def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
     client.state_until(lambda s: s.mode == IDLE)
 
 
-def test_guiding_keeps_nobody_waiting(sim, client):
+def test_guiding_does_not_delay_setters(sim, client):
     """No joint is braked then: the pushed arm coasts, and comes to rest when it likes."""
     sim.ask("guiding on")
     sim.ask(f"push {sim.robot}_link5 0 8 0 100")
@@ -255,7 +255,7 @@ GENUINE = {
 }
 
 
-def test_the_interface_that_is_switched_off_drops_its_client_and_refuses_others(sim, client):
+def test_a_deactivated_interface_drops_its_client_and_refuses_others(sim, client):
     state, first = begin(client)
     drive(client, state, hold(first), 50)
     sim.ask("fci off")

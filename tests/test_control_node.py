@@ -55,14 +55,14 @@ def report(robot, tmp_path_factory):
         return json.loads(result.stdout.strip().splitlines()[-1])
 
 
-def test_setters_set(report):
+def test_setters_take_effect(report):
     idle = report["idle"]
     for name, (success, error, seen) in idle["good"].items():
         assert success and not error and seen, (name, error)
     assert idle["m_total"] == pytest.approx(0.0, abs=1e-6)
 
 
-def test_impossible_values_are_refused_with_a_sentence(report):
+def test_impossible_values_are_refused(report):
     assert len(report["idle"]["bad"]) == 22
     for name, what, success, error, seconds in report["idle"]["bad"]:
         assert not success, (name, what)
@@ -93,11 +93,11 @@ def test_topics_of_a_moving_robot_agree(robot, report):
     check_topics(robot, report["soft_joints"]["topics"])
 
 
-def test_states_are_the_robots_own(report):
+def test_published_states_match_the_robots_states(report):
     assert report["idle"]["second_source"] < 1e-5  # what the robot itself says, beside its client
 
 
-def test_frames_lead_from_the_base_to_the_end_effector(report):
+def test_transforms_connect_the_base_with_the_end_effector(report):
     assert report["idle"]["tree"] < 1e-5
 
 
@@ -140,7 +140,7 @@ def test_a_moving_robot_refuses_each_setter_at_once(report):
     assert report["soft_joints"]["goes_on"] == MOVE and report["soft_joints"]["stopped"]
 
 
-def test_a_reflex_is_told_and_written_down(report):
+def test_a_reflex_is_published_and_logged(report):
     reflex = report["reflex"]
     assert reflex["started"] and reflex["reflex"] and reflex["flagged"] and reflex["has_error"]
     assert "cartesian_reflex" in reflex["abort"].splitlines()[0]
@@ -153,7 +153,7 @@ def test_a_reflex_is_told_and_written_down(report):
     assert reflex["recovered"] == [SUCCEEDED, ""] and reflex["error_gone"]
 
 
-def test_diagnostics_tell_how_it_is(robot, report):
+def test_diagnostics_report_the_state(robot, report):
     for phase, mode in (("idle", "Idle"), ("soft_joints", "Move")):
         level, hardware, values = report[phase]["diagnosis"]
         assert (level, hardware, values["Mode"]) == (OK, robot, mode)
@@ -173,7 +173,7 @@ def test_diagnostics_tell_how_it_is(robot, report):
     assert 0.0 < float(values["Mean time of the controllers [ms]"]) <= longest <= 1.0
 
 
-def test_what_needs_a_robot_goes_and_comes_with_the_connection(report):
+def test_robot_services_exist_only_while_connected(report):
     connection = report["connection"]
     assert connection["offered"] == connection["offered_again"] == 8
     assert connection["disconnect"][:2] == [True, ""]

@@ -112,14 +112,14 @@ def test_the_end_effector_follows_the_formula(recorded, controller):
     assert np.abs(states.O_T_EE - says)[:, :3, :3].max() < JOINT_ERROR
 
 
-def test_the_elbow_swings_beside_a_resting_end_effector(recorded):
+def test_the_elbow_moves_while_the_end_effector_rests(recorded):
     states = recorded("elbow")
     says = states.led_by(formulas.elbow, "elbow_d")
     assert np.abs(states.q[:, 2] - says).max() < JOINT_ERROR
     assert distances(states.O_T_EE, states.O_T_EE[0]).max() < POSE_ERROR
 
 
-def test_joint_impedance_pulls_the_arm_along_a_circle(recorded):
+def test_joint_impedance_moves_the_arm_along_a_circle(recorded):
     """The robot's own motion is the circle. How far the arm stays behind follows from its springs and
     dampers, whose torques accelerate the links and rotors: gravity and Coriolis torques are compensated."""
     states = recorded("joint_impedance")
@@ -138,7 +138,7 @@ def test_joint_impedance_pulls_the_arm_along_a_circle(recorded):
 
 
 @pytest.mark.parametrize("number", [0, 1], ids=["first", "again"])
-def test_model_prints_what_the_textbook_says(run, number):
+def test_model_prints_the_textbook_values(run, number):
     seen, bodies = run.report["model"][number], Run(run.recording, "joint_position", 0).bodies
     printed, q, links = seen["printed"], seen["q"], rigid_arm.poses(seen["q"])
     same = partial(np.testing.assert_allclose, rtol=1e-5, atol=1e-5)  # six digits are printed
@@ -153,7 +153,7 @@ def test_model_prints_what_the_textbook_says(run, number):
     same(printed["coriolis"], 0)
 
 
-def test_cartesian_impedance_comes_to_its_equilibrium_and_gives_way_as_a_spring(run):
+def test_cartesian_impedance_reaches_its_equilibrium_and_yields_like_a_spring(run):
     wanted, reached, pushed = (np.array(run.report["led"][name]) for name in ("wanted", "reached", "pushed"))
     assert distances(reached, wanted) < POSE_ERROR
     np.testing.assert_allclose(reached[:3, :3], wanted[:3, :3], atol=JOINT_ERROR)
@@ -161,7 +161,7 @@ def test_cartesian_impedance_comes_to_its_equilibrium_and_gives_way_as_a_spring(
     np.testing.assert_allclose(STIFFNESS[0] * gave_way, PUSH, atol=FORCE_ERROR * np.linalg.norm(PUSH))
 
 
-def test_cartesian_impedance_commands_its_law(run):
+def test_cartesian_impedance_commands_match_its_control_law(run):
     """While the hand is pushed and let go; the null space rests where the controller was started."""
     states, wanted = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["wanted"])
     q_nullspace = run.report["led"]["q_nullspace"]
@@ -176,7 +176,7 @@ def test_cartesian_impedance_commands_its_law(run):
     assert max(share(states.tau_J_d[some] - says, of=says)) < FORCE_ERROR
 
 
-def test_cartesian_impedance_started_again_holds_where_it_is(run):
+def test_restarted_cartesian_impedance_holds_its_position(run):
     states = Run(run.recording, "cartesian_impedance", 1)
     assert states.moving.sum() > RECORDS_A_SECOND // 2
     assert distances(states.O_T_EE, states.O_T_EE[0]).max() < POSE_ERROR
@@ -184,7 +184,7 @@ def test_cartesian_impedance_started_again_holds_where_it_is(run):
 
 
 @pytest.mark.parametrize("number", [0, 1], ids=["first", "again"])
-def test_force_presses_with_the_wanted_weight(run, number):
+def test_force_presses_with_the_desired_force(run, number):
     pressed, states = run.report["pressed"][number], Run(run.recording, "force", number)
     weight = GRAVITY * pressed["desired_mass"]
     assert pressed["forces"] == pytest.approx([weight] * len(pressed["forces"]), rel=FORCE_ERROR)
@@ -194,7 +194,7 @@ def test_force_presses_with_the_wanted_weight(run, number):
     )
 
 
-def test_claims_that_cannot_be_met_are_refused_and_disturb_nobody(run):
+def test_impossible_claims_are_refused_and_change_nothing(run):
     started = run.report["refused"]["started"]
     assert {name for name, success in started.items() if success} == MAY_JOIN
     states = run.report["refused"]["states"]

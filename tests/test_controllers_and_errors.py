@@ -88,7 +88,7 @@ WORDS = {"starting": "I do not want to start", "update": "I have had enough"}
 
 
 @pytest.mark.parametrize("where", WORDS)
-def test_the_node_stays_and_says_what_was_thrown(report, where):
+def test_the_node_survives_and_reports_the_exception(report, where):
     outcome = report[where]
     assert outcome["has_error"], outcome
     assert outcome["states_go_on"], outcome
@@ -96,7 +96,7 @@ def test_the_node_stays_and_says_what_was_thrown(report, where):
 
 
 @pytest.mark.parametrize("where", WORDS)
-def test_after_it_was_stopped_the_robot_is_recovered_and_moved_by_another(report, where):
+def test_another_controller_moves_the_recovered_robot(report, where):
     outcome = report[where]
     assert outcome["stopped"], outcome
     assert outcome["recovered"] == SUCCEEDED, outcome
@@ -105,12 +105,12 @@ def test_after_it_was_stopped_the_robot_is_recovered_and_moved_by_another(report
 
 
 @pytest.mark.parametrize("where", WORDS)
-def test_the_simulation_goes_on_with_the_robot_at_rest(simulated, where):
+def test_the_simulation_continues_with_the_robot_at_rest(simulated, where):
     assert all(simulated[where].values()), simulated[where]
     assert WORDS[where] in simulated["log"]
 
 
-def test_controllers_that_shall_not_start_again_are_stopped_before_a_recovery(without_restart):
+def test_controllers_that_must_not_restart_are_stopped_before_a_recovery(without_restart):
     assert without_restart["moves"] and without_restart["hit"]
     assert without_restart["recovered"] == SUCCEEDED
     outcome = without_restart["after_reflex"]

@@ -36,7 +36,7 @@ def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int
 
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_every_seed_is_placed(robot, tmp_path, long_run):
+def test_every_seed_places_the_stone(robot, tmp_path, long_run):
     seeds = list(SEEDS if long_run else SEEDS_IN_SHORT)
     options = [text for seed in seeds for text in ("--seed", str(seed))]
     code, results, _ = pick_and_place(tmp_path, "--robot", robot, "--speed", "0", "--no-pictures", *options)
@@ -46,7 +46,7 @@ def test_every_seed_is_placed(robot, tmp_path, long_run):
 
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_carried_stone_stays_between_the_fingers(robot, tmp_path):
+def test_the_carried_stone_stays_between_the_fingers(robot, tmp_path):
     code, results, _ = pick_and_place(
         tmp_path, f"robot:={robot}", "--speed", "8", "--no-pictures", "--hold", "60"
     )

@@ -171,7 +171,7 @@ def test_the_wall_clock_gives_the_same_trajectory(robot, within):
 
 
 @pytest.mark.parametrize("robot, within", [("panda", 1e-9), ("fr3", 1e-6)])
-def test_a_patient_robot_keeps_to_the_clock_and_waits_for_a_late_client(robot, within):
+def test_a_patient_robot_keeps_real_time_and_waits_for_a_late_client(robot, within):
     stepped, _, _ = trajectory(robot, "127.0.26.6", "lockstep")
 
     def dawdle(k):

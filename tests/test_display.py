@@ -35,7 +35,7 @@ def test_headless_opens_no_window(screen, tmp_path):
         assert colours(tmp_path / "screen.png") < 20
 
 
-def test_without_a_display_the_simulation_says_so_and_runs(monkeypatch, tmp_path):
+def test_without_a_display_the_simulation_warns_and_runs(monkeypatch, tmp_path):
     monkeypatch.delenv("DISPLAY", raising=False)
     with simulation(tmp_path / "launch.log") as session:
         session.wait_for_master()

@@ -56,7 +56,7 @@ def test_packages_depend_on_the_release(release):
 
 
 @pytest.mark.parametrize("system", ["ID=ubuntu\nVERSION_CODENAME=noble\nPRETTY_NAME='Ubuntu 24.04'\n", None])
-def test_another_system_is_refused_with_a_sentence(tmp_path, system):
+def test_another_system_is_refused(tmp_path, system):
     file = tmp_path / "os-release"
     if system:
         file.write_text(system)
@@ -105,7 +105,7 @@ def test_each_command_explains_itself_without_doing_anything(command):
         ["bench", "fci", "jitter"],
     ],
 )
-def test_what_a_command_does_not_take_is_refused_before_anything_is_built(arguments):
+def test_unknown_arguments_are_refused_before_a_build(arguments):
     result = franka(*arguments)
     assert result.returncode == 2
     assert result.stdout == ""
@@ -113,7 +113,7 @@ def test_what_a_command_does_not_take_is_refused_before_anything_is_built(argume
     assert f"\n  {arguments[0]} " in result.stderr
 
 
-def test_an_option_without_its_value_is_refused_before_anything_is_built():
+def test_an_option_without_a_value_is_refused_before_a_build():
     result = franka("demo", "--speed")
     assert result.returncode == 1 and result.stdout == ""
     assert "--speed needs a value" in result.stderr
@@ -128,7 +128,7 @@ def test_an_option_without_its_value_is_refused_before_anything_is_built():
         "bench fci tick",
     ],
 )
-def test_what_a_command_takes_passes(arguments):
+def test_known_arguments_are_accepted(arguments):
     assert in_script(f"check_arguments {arguments} && echo taken") == "taken\n"
 
 
@@ -138,7 +138,7 @@ def test_no_command_shows_usage_and_fails():
     assert "usage:" in result.stderr
 
 
-def test_unknown_package_is_refused_with_those_there_are():
+def test_an_unknown_package_is_refused_with_a_list_of_packages():
     result = subprocess.run(
         [os.sys.executable, str(TOP / "tests" / "run.py"), "franka_hv"],
         text=True,
@@ -149,7 +149,7 @@ def test_unknown_package_is_refused_with_those_there_are():
     assert "franka_hv" in result.stderr and "franka_hw" in result.stderr
 
 
-def test_wanted_packages_are_names_only():
+def test_requested_packages_are_names_only():
     names = in_script("wanted_packages").split()
     assert "libmujoco-dev" in names
     assert all(name.isascii() and "#" not in name for name in names)
@@ -165,7 +165,7 @@ def test_wanted_packages_are_names_only():
         ["rosrun", "franka_sim_mujoco", "pick_and_place", "--help"],
     ],
 )
-def test_shell_works_whatever_python_stands_first(command, foreign_python):
+def test_shell_works_with_any_python_first_in_path(command, foreign_python):
     result = franka("shell", *command, PATH=foreign_python)
     assert result.returncode == 0, result.stdout + result.stderr
     assert "wrong python3" not in result.stderr
@@ -214,7 +214,7 @@ def test_a_shell_has_roscd_and_completion(tmp_path):
         ("./franka demo robot:=f", {"fr3"}),  # bash begins a word behind := anew
     ],
 )
-def test_its_own_words_are_completed(line, expected):
+def test_its_own_commands_are_completed(line, expected):
     code = f"""
         source <(./franka completion)
         COMP_LINE='{line}' COMP_POINT={len(line)}
@@ -229,7 +229,7 @@ def test_shell_keeps_the_status_of_its_command():
     assert franka("shell", "bash", "-c", "exit 7").returncode == 7
 
 
-def test_originals_make_the_group_step_aside(tmp_path):
+def test_originals_replace_the_whole_group(tmp_path):
     package = tmp_path / "share" / "hardware_interface"
     package.mkdir(parents=True)
     (package / "package.xml").write_text("<package/>")
@@ -238,14 +238,14 @@ def test_originals_make_the_group_step_aside(tmp_path):
     assert "realtime_tools" not in left_out
 
 
-def test_a_single_original_steps_aside_alone(tmp_path):
+def test_a_single_original_replaces_one_package(tmp_path):
     package = tmp_path / "share" / "control_msgs"
     package.mkdir(parents=True)
     (package / "package.xml").write_text("<package/>")
     assert in_script("stand_ins_to_leave_out", CMAKE_PREFIX_PATH=str(tmp_path)).split() == ["control_msgs"]
 
 
-def test_our_own_devel_space_is_no_original():
+def test_our_own_devel_space_does_not_count_as_an_original():
     assert (
         in_script("stand_ins_to_leave_out", CMAKE_PREFIX_PATH=str(TOP / "catkin_ws" / "devel")).split() == []
     )
@@ -272,17 +272,17 @@ def build_that_ends_with(message: str, tmp_path: Path) -> str:
     )
 
 
-def test_a_compiler_that_crashes_is_run_once_more(tmp_path):
+def test_a_crashed_compiler_is_run_again_once(tmp_path):
     said = build_that_ends_with("a.h:919:5: internal compiler error: Segmentation fault", tmp_path)
     assert "going on with 2 at a time" in said and said.endswith("\n2\n")
 
 
-def test_a_compiler_that_was_killed_is_given_all_memory(tmp_path):
+def test_after_a_killed_compiler_one_job_runs_at_a_time(tmp_path):
     said = build_that_ends_with("g++: fatal error: Killed signal terminated program cc1plus", tmp_path)
     assert "going on with 1 at a time" in said and said.endswith("\n1\n")
 
 
-def test_an_error_of_the_sources_is_not_tried_again(tmp_path):
+def test_a_source_error_is_not_retried(tmp_path):
     said = build_that_ends_with("a.cpp:3: error: expected a sentence", tmp_path)
     assert said.endswith("given up\n") and "expected a sentence" in said
 
@@ -292,7 +292,7 @@ BUILD = """
     for i in 3 9 10 57 100 2 99; do echo "[ $i%] Building $i.o"; done"""
 
 
-def test_a_build_says_how_far_it_is(tmp_path):
+def test_a_build_prints_its_progress(tmp_path):
     (tmp_path / "out").mkdir()
     said = in_script(f"top={tmp_path}; once() {{ {BUILD}; }}; quietly build once")
     assert said.split("\n") == [f"   {percent} %" for percent in (3, 10, 57, 100, 2, 99)] + [""]

@@ -50,7 +50,7 @@ def report(request, tmp_path_factory):
 
 
 @pytest.mark.parametrize("name", CONTROLLERS)
-def test_runs_and_stops_without_a_complaint(report, name):
+def test_runs_and_stops_without_warnings(report, name):
     outcome = report[name]
     assert outcome["loaded"] and outcome["started"] and outcome["stopped"], outcome
     assert outcome["aborts"] == []
@@ -62,7 +62,7 @@ def test_runs_and_stops_without_a_complaint(report, name):
         assert outcome["moved"] > CONTROLLERS[name]
 
 
-def test_a_python_example_moves_the_robot_by_its_launch_file(tmp_path):
+def test_the_launch_file_of_a_python_example_moves_the_robot(tmp_path):
     launch = ["franka_example_controllers", "python_cartesian_circle_example_controller.launch", "sim:=true"]
     launch += ["robot_ip:=127.0.7.3", "rviz:=false", "max_update_time:=1.0", "max_starting_time:=10.0"]
     with Session(*launch, log=tmp_path / "launch.log") as session:

@@ -45,7 +45,7 @@ def running(session: Session) -> set[str]:
 
 @pytest.mark.parametrize("robot", ROBOTS)
 @pytest.mark.parametrize("name", sorted(set(LAUNCH_FILES) - TWO_ARMS))
-def test_an_example_runs_that_was_launched(name, robot, tmp_path, long_run):
+def test_a_launched_example_runs(name, robot, tmp_path, long_run):
     if robot != ROBOTS[LAUNCH_FILES.index(name) % 2] and not long_run:
         pytest.skip("Launched for the other robot; for both in the long form.")
     expected = {name.removesuffix(".launch"), "franka_state_controller"}
@@ -61,7 +61,7 @@ def test_an_example_runs_that_was_launched(name, robot, tmp_path, long_run):
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
-def test_the_arm_moves_to_its_start(robot, tmp_path):
+def test_the_arm_moves_to_its_start_pose(robot, tmp_path):
     with launch("move_to_start.launch", robot, tmp_path) as session:
         begin = time.monotonic()
         while session.running():

@@ -39,13 +39,13 @@ def known():
 
 
 @pytest.mark.parametrize("line", lines(), ids=lambda line: line[2:34])
-def test_each_line_is_held_by_tests_that_exist(line, known):
+def test_each_line_cites_existing_tests(line, known):
     named = TEST.findall(line)
     assert named, "No test holds it."
     assert [name for name in named if name not in known] == []
 
 
-def test_rows_say_what_they_are():
+def test_rows_have_a_known_kind():
     for line in lines():
         cells = [cell.strip() for cell in line.strip("|").split(" | ")]
         if len(cells) == 4:

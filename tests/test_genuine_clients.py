@@ -143,7 +143,7 @@ def test_panda_reflex_and_recovery(panda):
     assert panda["second client"] != "ok"
 
 
-def test_panda_meets_a_block(panda):
+def test_panda_hits_a_block(panda):
     check_block(panda, "kReflex")
 
 
@@ -191,7 +191,7 @@ def test_fr3_reflex_and_recovery(fr3):
     assert fr3["second client"] != "ok"
 
 
-def test_fr3_meets_a_block(fr3):
+def test_fr3_hits_a_block(fr3):
     check_block(fr3, "Reflex")
 
 
@@ -206,7 +206,7 @@ def test_fr3_gripper(fr3):
     }
 
 
-def test_versions_are_told_apart():
+def test_versions_are_distinguished():
     with running("--robot", "panda", "--ip", "127.0.21.5"):
         result = subprocess.run(
             [client_python("pylibfranka"), CLIENTS / "pylibfranka_client.py", "127.0.21.5"],
@@ -255,7 +255,7 @@ except Exception as error:
     assert 'not possible in the current mode ("User stopped")' in output
 
 
-def test_a_virtual_wall_keeps_the_hand_out():
+def test_a_virtual_wall_stops_the_hand():
     """As the user draws it in Desk: the hand goes down to its top, and through when it is gone."""
     script = """
 import math, sys
@@ -307,7 +307,7 @@ print(before, robot.read_once().O_T_EE[14])
             assert refusal.startswith("error: ") and sentence in refusal
 
 
-def test_a_fresh_arm_moves_to_where_it_almost_is():
+def test_a_new_arm_makes_a_very_small_motion():
     """Clients may divide by the way that is left; a real arm never stands on its target to the last bit."""
     script = """
 import sys
@@ -357,7 +357,7 @@ robot.set_load(0.0, [0.0] * 3, [0.0] * 9)
     assert len(set(hashes)) == 1, hashes
 
 
-def test_silence_ends_a_motion_and_a_dead_client_makes_room():
+def test_silence_ends_a_motion_and_a_dead_client_frees_the_robot():
     script = """
 import sys, os
 from panda_py import libfranka

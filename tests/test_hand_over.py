@@ -41,11 +41,11 @@ def test_the_bar_is_handed_over(report):
         assert forces["one after"] == 0.0, go
 
 
-def test_it_never_falls(report):
+def test_the_bar_never_falls(report):
     assert all(go["lowest"] > LIFT - 0.02 for go in report["goes"]), report["goes"]
 
 
-def test_it_stands_on_the_second_stand(report):
+def test_the_bar_stands_on_the_second_stand(report):
     for go in report["goes"]:
         assert go["away"] < 0.015 and go["turned"] < 0.05, go
         assert abs(go["height"]) < 1e-3, go
@@ -55,5 +55,5 @@ def test_no_reflex_and_no_error(report):
     assert report["modes"] == [MOVE] and report["errors"] == []
 
 
-def test_the_picture_of_it_shows_something(report):
+def test_the_picture_is_not_empty(report):
     assert report["colours"] > 200

@@ -41,12 +41,12 @@ def report(request, tmp_path_factory):
         return json.loads(client.stdout.strip().splitlines()[-1])
 
 
-def test_the_robot_is_there(report):
+def test_the_robot_is_connected(report):
     assert report["state_controller"]
     assert report["mode_idle"] == IDLE
 
 
-def test_setters_answer_with_what_the_robot_says(report):
+def test_setters_return_the_robots_answer(report):
     assert report["set_load"] == [True, ""]
     assert report["m_load"] == 0.5
     assert report["bad_load"][0] is False
@@ -63,7 +63,7 @@ def test_trajectories_are_followed(report, controller):
 
 
 @pytest.mark.parametrize("controller", CONTROLLERS)
-def test_a_moving_robot_says_why_it_cannot_be_configured(report, controller):
+def test_a_moving_robot_refuses_setters_with_a_reason(report, controller):
     success, error = report[controller]["setter"]
     assert not success
     assert "Stop that controller" in error
@@ -75,14 +75,14 @@ def test_recovery_without_error_succeeds(report):
     assert report["recovery"][0] == SUCCEEDED
 
 
-def test_the_hand_moves_and_refuses(report):
+def test_the_hand_moves_and_refuses_invalid_goals(report):
     assert report["gripper_move"][0] == SUCCEEDED, report["gripper_move"]
     assert sum(report["fingers"]) == pytest.approx(0.05, abs=0.002)
     assert report["gripper_bad"][0] == ABORTED
     assert "must lie between" in report["gripper_bad"][1]
 
 
-def test_the_connection_can_be_given_up_and_taken_again(report):
+def test_the_robot_can_be_disconnected_and_connected_again(report):
     assert report["disconnect"] and report["connect"]
     assert report["twice"] == "Already connected to robot. Cannot connect twice."
     assert report["after"] == IDLE

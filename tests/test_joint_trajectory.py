@@ -43,14 +43,14 @@ def test_goal_of_hundred_points_is_reached(report):
 
 
 @pytest.mark.parametrize("interface", ["position", "velocity"])
-def test_so_it_is_by_other_interfaces(report, interface):
+def test_goal_is_reached_with_other_interfaces(report, interface):
     assert report[interface]["started"], report
     assert report[interface]["status"] == "SUCCEEDED", report[interface]
     assert report[interface]["code"] == 0
     assert report[interface]["error"] < 0.05
 
 
-def test_violated_path_tolerance_is_told(report):
+def test_violated_path_tolerance_is_reported(report):
     assert report["strict"]["status"] == "ABORTED", report
     assert report["strict"]["code"] == -4
     assert " path error " in report["strict"]["text"]

@@ -138,7 +138,7 @@ def check_names(config: ROSLaunchConfig) -> None:
 
 @pytest.mark.parametrize("call", CALLS)
 @pytest.mark.parametrize("name", sorted(FILES))
-def test_it_is_read_as_for_a_real_robot(name, call):
+def test_launch_file_is_valid_for_a_real_robot(name, call):
     path = FILES[name]
     arguments = declared(path)
     given = [*needed(path), "rviz:=true", "interactive_marker:=true"]
@@ -154,7 +154,7 @@ def test_it_is_read_as_for_a_real_robot(name, call):
 
 
 @pytest.mark.parametrize("name", sorted(FILES))
-def test_it_is_read_with_every_switch_turned(name):
+def test_launch_file_is_valid_with_every_switch_inverted(name):
     path = FILES[name]
     switches = {argument: str(default).lower() for argument, default in declared(path).items()}
     turned = {"true": "false", "false": "true"}
@@ -164,7 +164,7 @@ def test_it_is_read_with_every_switch_turned(name):
 
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_the_simulation_is_told_which_robot_an_arm_is(robot):
+def test_the_robot_type_is_passed_to_the_simulation(robot):
     given = [f"robot:={robot}", "arm_id:=other"]
     config = read(FILES["franka_gazebo/robot.launch"], given, Reader(with_descriptions=False))
     assert config.params["/robot_type"].value == robot
@@ -178,5 +178,5 @@ def test_reflexes_are_an_argument_of_the_simulation(name, reflexes):
     assert config.params["/reflexes"].value is reflexes
 
 
-def test_all_launch_files_are_known_here():
+def test_all_launch_files_are_tested():
     assert len(FILES) >= 27 and "franka_control/franka_control.launch" in FILES

@@ -30,7 +30,7 @@ def generated(package: str) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_types_are_the_originals(package):
+def test_types_match_the_originals(package):
     found = generated(package)
     expected = {name.split("/")[1]: md5 for name, md5 in TABLE.items() if name.startswith(f"{package}/")}
     assert {name: found.get(name) for name in expected} == expected
@@ -40,5 +40,5 @@ def test_types_are_the_originals(package):
     "package",
     ["control_msgs", "controller_manager_msgs", "franka_gripper", "franka_msgs", "gazebo_msgs"],
 )
-def test_the_table_is_whole(package):
+def test_the_table_is_complete(package):
     assert {name for name in generated(package) if f"{package}/{name}" not in TABLE} == set()

@@ -116,7 +116,7 @@ def test_bursts_below_the_limit_are_survived(slow, longest):
 
 
 @pytest.mark.parametrize("count", [19, 20, 21] if LONG else [19, 20])
-def test_twenty_commands_in_a_row_are_too_many(slow, count):
+def test_twenty_consecutive_lost_commands_end_the_motion(slow, count):
     if count < 20:
         survive(slow, commands=lambda: losing_from(200, count))
         assert all(min(fixture.proxy.rates[101:]) <= 0.81 + 1e-6 for fixture in slow)
@@ -158,7 +158,7 @@ def test_delays_within_the_cycle_are_survived(slow, kind):
     survive(slow, commands=DELAYS[kind], states=states, least=0.85)
 
 
-def test_a_network_that_is_always_late_ends_the_motion_at_once(slow):
+def test_a_constantly_late_network_ends_the_motion_at_once(slow):
     late = delaying(1.5 * TICK)
 
     def rule(number, data, chance):
@@ -210,7 +210,7 @@ def all_noise(number, data, chance):
 
 
 @pytest.mark.parametrize("kind", ["all", *NOISE] if LONG else ["all"])
-def test_what_is_no_answer_is_ignored(stepped, kind):
+def test_invalid_answers_are_ignored(stepped, kind):
     rule = all_noise if kind == "all" else NOISE[kind]
     results = run(stepped, commands=lambda: rule)
     for fixture, result in zip(stepped, results):
@@ -219,7 +219,7 @@ def test_what_is_no_answer_is_ignored(stepped, kind):
         assert result["cycles"] <= 603
 
 
-def test_states_that_come_twice_or_late_are_seen_once(stepped):
+def test_duplicate_and_late_states_are_delivered_once(stepped):
     repeated = {"sent": None}
 
     def old_again(number, data, chance):
@@ -234,7 +234,7 @@ def test_states_that_come_twice_or_late_are_seen_once(stepped):
         assert min(fixture.proxy.rates[101:]) == 1.0
 
 
-def test_our_client_says_what_is_wrong_with_a_state(stepped):
+def test_our_client_reports_invalid_states(stepped):
     """A state of the wrong size is no state; the robot then misses its answers and stops."""
     own = [stepped[2]]
     (result,) = run(own, states=lambda: lambda number, data, chance: [(0.0, data[:-1])])
@@ -343,7 +343,7 @@ def test_a_starved_client_of_a_patient_robot_loses_nothing(patient):
         assert min(fixture.proxy.rates[101:]) == 1.0
 
 
-def test_a_starved_client_goes_on_or_is_told_why_not(slow):
+def test_a_starved_client_continues_or_gets_the_reason(slow):
     """Twenty states in a row are too many; fewer may already be a leap from where the robot went alone."""
     with starved(slow):
         results = run(slow)
@@ -362,11 +362,11 @@ def test_lock_step_waits_for_a_frozen_client(stepped):
         assert min(fixture.proxy.rates[101:]) == 1.0
 
 
-def test_lock_step_gives_up_a_client_that_stays_frozen(stepped):
+def test_lock_step_drops_a_frozen_client(stepped):
     check_lost(stepped, freeze(stepped, 0.9, ENDLESS), 10.0)
 
 
-def test_a_killed_client_ends_its_motion_and_makes_room(stepped):
+def test_a_killed_client_ends_its_motion_and_frees_the_robot(stepped):
     """Last: the clients are gone afterwards."""
     for fixture in stepped:
         fixture.proxy.set()

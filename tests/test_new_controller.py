@@ -29,7 +29,7 @@ def test_package_builds_and_its_test_passes(name, tmp_path):
     assert result.returncode == 0, result.stdout[-4000:] + result.stderr[-2000:]
 
 
-def test_the_command_that_it_names_is_green_and_red_as_the_test_is(tmp_path):
+def test_the_printed_command_succeeds_and_fails_with_the_test(tmp_path):
     sources = tmp_path / "src"
     sources.mkdir()
     overlay = Overlay(DEVEL, sources / "my_script", tmp_path)
@@ -55,7 +55,7 @@ def test_the_command_that_it_names_is_green_and_red_as_the_test_is(tmp_path):
         ("fine MyController --interfaces hover", "hover"),
     ],
 )
-def test_what_cannot_be_is_refused(arguments, why, tmp_path):
+def test_invalid_arguments_are_refused(arguments, why, tmp_path):
     overlay = Overlay(DEVEL, tmp_path / "none", tmp_path)
     result = overlay.shell(f"{NEW} {arguments} --folder {tmp_path}", DEVEL, 60)
     assert result.returncode != 0

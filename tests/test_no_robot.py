@@ -48,7 +48,7 @@ def results():
 
 
 @pytest.mark.parametrize("name", LAUNCHES)
-def test_it_says_what_to_start_and_fails(results, name):
+def test_missing_robot_is_reported_with_the_command_to_start(results, name):
     status, output = results[name]
     assert status == 1, output
     assert NOBODY in output

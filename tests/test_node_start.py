@@ -150,7 +150,7 @@ def put(master, name, value):
 
 
 @pytest.mark.parametrize("name, value, sentence", WRONG)
-def test_a_node_says_what_is_wrong_and_ends(master, name, value, sentence):
+def test_a_node_reports_errors_and_exits(master, name, value, sentence):
     put(master, name, value)
     with one(master) as node:
         assert node.ends() == 1, node.output
@@ -167,7 +167,7 @@ def test_a_robot_of_no_known_version_is_refused(master):
 
 
 @pytest.mark.parametrize("version", [3, 4])
-def test_an_older_robot_is_taken(master, version):
+def test_an_older_robot_is_accepted(master, version):
     master.set(ONE + "/robot_ip", OTHER)
     with simulated("panda", OTHER, "realtime", "--no-hand", "--protocol", str(version)), one(master) as node:
         assert node.says("is ready", 20), node.output
@@ -191,7 +191,7 @@ def set_controllers(master, arm_id):
 
 
 @pytest.mark.parametrize("there, told", [("fr3", "panda"), ("panda", "fr3")])
-def test_a_robot_of_the_other_kind_is_told_and_not_commanded(master, there, told):
+def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, told):
     set_controllers(master, "panda")
     master.set("/robot_description", ros_nodes.robot_description(told, arm_id="panda"))
     master.set(ONE + "/robot_ip", OTHER)
@@ -224,7 +224,7 @@ def test_a_robot_of_the_other_kind_is_told_and_not_commanded(master, there, told
         ),
     ],
 )
-def test_an_arm_of_another_name_is_told_and_not_commanded(master, robot, urdf, name, value, sentence):
+def test_an_arm_with_another_name_is_reported_and_not_commanded(master, robot, urdf, name, value, sentence):
     set_controllers(master, "panda")
     if name == "arm_id":
         master.set(f"{ONE}/arm_id", value)
@@ -238,7 +238,7 @@ def test_an_arm_of_another_name_is_told_and_not_commanded(master, robot, urdf, n
         assert node.output.count(sentence) == (2 if name == "arm_id" else 1), node.output
 
 
-def test_one_arm_of_several_that_is_another_kind_is_told(master, robot, urdf):
+def test_one_arm_of_several_with_another_type_is_reported(master, robot, urdf):
     master.set(ALL + "/panda_2/robot_ip", NOBODY)
     master.set(ALL + "/robot_description", urdf.replace("panda_", "panda_2_"))
     with simulated("fr3", NOBODY, "realtime", "--no-hand"), combined(master) as node:
@@ -247,7 +247,7 @@ def test_one_arm_of_several_that_is_another_kind_is_told(master, robot, urdf):
         assert node.says("'/combined_panda/panda_2/ignore_robot_mismatch' is not true"), node.output
 
 
-def test_nodes_that_only_look_warn_of_another_robot(bare, master):
+def test_read_only_nodes_warn_about_another_robot(bare, master):
     joints = [f"panda_joint{i}" for i in range(1, 8)]
     fingers = [f"left_finger_joint{i}" for i in (1, 2)]
     looks = {"robot_ip": OTHER, "publish_rate": 30.0}
@@ -268,7 +268,7 @@ def test_nodes_that_only_look_warn_of_another_robot(bare, master):
                 )
 
 
-def test_joints_that_the_description_does_not_hold_are_named(master, robot, urdf):
+def test_joints_missing_in_the_description_are_named(master, robot, urdf):
     master.set("/robot_description", urdf.replace("panda_", "somebody_"))
     with one(master) as node:
         assert node.says("is ready"), node.output
@@ -287,7 +287,7 @@ WRONG_FOR_ALL = [
 
 
 @pytest.mark.parametrize("name, value, sentence", WRONG_FOR_ALL)
-def test_a_node_of_several_arms_says_what_is_wrong_and_ends(master, robot, name, value, sentence):
+def test_a_node_with_several_arms_reports_errors_and_exits(master, robot, name, value, sentence):
     put(master, name, value)
     if name == ALL + "/robot_description":
         master.delete("/robot_description")  # which would do in the place of its own
@@ -300,7 +300,7 @@ def test_a_node_of_several_arms_says_what_is_wrong_and_ends(master, robot, name,
 # --- the end --------------------------------------------------------------------------------------------
 
 
-def test_a_resting_node_ends_when_interrupted(master, robot):
+def test_an_idle_node_exits_on_interrupt(master, robot):
     with one(master) as node:
         assert node.says("is ready"), node.output
         assert node.interrupt() < IN_TIME
@@ -308,7 +308,7 @@ def test_a_resting_node_ends_when_interrupted(master, robot):
 
 
 @pytest.mark.parametrize("patience", [0.0, 60.0], ids=["at_once", "patiently"])
-def test_a_node_that_connects_to_silence_ends_when_interrupted(master, patience):
+def test_a_node_connecting_to_a_silent_robot_exits_on_interrupt(master, patience):
     master.set(ONE + "/robot_ip", SILENT)
     master.set(ONE + "/connect_timeout", patience)
     with listening(SILENT), one(master) as node:
@@ -316,7 +316,7 @@ def test_a_node_that_connects_to_silence_ends_when_interrupted(master, patience)
         assert node.interrupt() < IN_TIME
 
 
-def test_a_node_that_waits_for_a_robot_ends_when_interrupted(master):
+def test_a_node_waiting_for_a_robot_exits_on_interrupt(master):
     master.set(ONE + "/robot_ip", NOBODY)
     master.set(ONE + "/connect_timeout", 60.0)
     with one(master) as node:
@@ -324,7 +324,7 @@ def test_a_node_that_waits_for_a_robot_ends_when_interrupted(master):
         assert node.interrupt() < IN_TIME
 
 
-def test_a_node_of_several_arms_that_connects_to_silence_ends_when_interrupted(master, robot):
+def test_a_node_with_several_arms_connecting_to_a_silent_robot_exits_on_interrupt(master, robot):
     master.set(ALL + "/panda_2/robot_ip", SILENT)
     with listening(SILENT), combined(master) as node:
         assert node.says(f"at {SILENT}"), node.output
@@ -332,7 +332,7 @@ def test_a_node_of_several_arms_that_connects_to_silence_ends_when_interrupted(m
 
 
 @pytest.mark.parametrize("reconnect", [True, False], ids=["reconnecting", "lost"])
-def test_a_node_whose_robot_is_gone_ends_when_interrupted(master, reconnect):
+def test_a_node_that_lost_its_robot_exits_on_interrupt(master, reconnect):
     master.set(ONE + "/robot_ip", OTHER)
     master.set(ONE + "/reconnect", reconnect)
     with one_with_robot(master) as (node, robot), woken_at_last(robot):
@@ -341,7 +341,7 @@ def test_a_node_whose_robot_is_gone_ends_when_interrupted(master, reconnect):
         assert node.interrupt() < IN_TIME
 
 
-def test_a_node_whose_controller_runs_ends_when_interrupted(master):
+def test_a_node_with_a_running_controller_exits_on_interrupt(master):
     with moving(master) as (node, robot):
         assert node.interrupt() < IN_TIME
         assert node.process.returncode == 0
@@ -354,12 +354,12 @@ if os.geteuid() == 0:
     UNPRIVILEGED += ("setpriv", "--inh-caps=-sys_nice,-ipc_lock", "--bounding-set=-sys_nice,-ipc_lock")
 
 
-def test_a_node_without_privileges_moves_where_it_need_not_enforce_real_time(master):
+def test_a_node_without_privileges_moves_if_real_time_is_not_enforced(master):
     with moving(master, UNPRIVILEGED) as (node, robot):
         assert robot.ask("state").startswith("Move"), node.output
 
 
-def test_a_controller_that_could_not_move_the_robot_is_not_started(master):
+def test_a_controller_without_real_time_privileges_is_not_started(master):
     set_controllers(master, "panda")
     master.set(ONE + "/realtime_config", "enforce")
     master.set(ONE + "/robot_ip", OTHER)
@@ -391,7 +391,7 @@ def test_a_simulated_robot_needs_no_real_time_kernel(master):
         assert said == (0 if HAS_REALTIME else 1), node.output
 
 
-def test_a_node_of_several_simulated_arms_needs_no_real_time_kernel(master, robot):
+def test_a_node_with_several_simulated_arms_needs_no_real_time_kernel(master, robot):
     master.set(ALL + "/realtime_config", "enforce")
     with (
         simulated("panda", OTHER, "realtime", "--no-hand"),
@@ -401,7 +401,7 @@ def test_a_node_of_several_simulated_arms_needs_no_real_time_kernel(master, robo
         assert node.interrupt() < IN_TIME
 
 
-def test_a_motion_outlives_the_master(tmp_path, urdf):
+def test_a_motion_continues_without_the_master(tmp_path, urdf):
     with ros_nodes.master(tmp_path) as own, moving(prepared(own, urdf)) as (node, robot):
         own.stop()
         before = robot.ask("state")
@@ -412,7 +412,7 @@ def test_a_motion_outlives_the_master(tmp_path, urdf):
         assert node.interrupt() < IN_TIME
 
 
-def test_a_node_that_waits_for_a_recovery_ends_when_interrupted(master):
+def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
     with moving(master) as (node, robot):
         robot.ask("push panda_link7 0 0 -220 60")
         assert node.says("reflex"), node.output

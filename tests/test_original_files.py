@@ -44,7 +44,7 @@ FILES = {
 
 
 @pytest.mark.parametrize("package", FILES)
-def test_files_stand_at_the_originals_paths(package):
+def test_files_are_at_the_originals_paths(package):
     folder = rospkg.RosPack().get_path(package)
     assert [name for name in FILES[package] if not os.path.isfile(f"{folder}/{name}")] == []
 

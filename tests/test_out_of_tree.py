@@ -73,7 +73,7 @@ def test_package_builds_and_runs(space, tmp_path, request):
 
 
 @pytest.mark.parametrize("space", ["devel", "install"])
-def test_callbacks_may_be_bound_as_on_ros_1s_own_systems(space, tmp_path, request):
+def test_callbacks_with_boost_bind_compile(space, tmp_path, request):
     """boost::bind with _1 from the global namespace, beside std::bind: not ambiguous, and no warning."""
     underlay = TOP / "catkin_ws" / "devel" if space == "devel" else request.getfixturevalue("installed")
     overlay = Overlay(underlay, PACKAGES / "bound_callbacks", tmp_path)

@@ -55,5 +55,5 @@ def documented(section: str) -> set[str]:
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_the_page_names_what_the_sources_read(section):
+def test_the_page_lists_the_parameters_of_the_sources(section):
     assert documented(section) == read_by(SECTIONS[section]) - ELSEWHERE.get(section, set())

@@ -118,7 +118,7 @@ def sliders(tmp_path_factory):
         assert "could not be set" not in session.tail(1000)
 
 
-def test_a_slider_makes_the_arm_stiffer(sliders):
+def test_a_slider_changes_the_stiffness(sliders):
     session, panel, robot = sliders
     assert robot.parameters()["translational_stiffness"] == 200.0
     assert panel.shows(0, STIFFEST) == pytest.approx(200.0, abs=2.0)
@@ -130,7 +130,7 @@ def test_a_slider_makes_the_arm_stiffer(sliders):
     assert panel.shows(0, STIFFEST) == pytest.approx(STIFFEST, abs=2.0)
 
 
-def test_sliders_follow_what_others_set(sliders):
+def test_sliders_follow_changes_by_others(sliders):
     session, panel, robot = sliders
     robot.set(translational_stiffness=120.0, rotational_stiffness=20.04)
     wait_for(session, lambda: abs(panel.shows(0, STIFFEST) - 120.0) < 2.0, "the slider moves")
@@ -146,7 +146,7 @@ def test_a_stopped_controller_keeps_its_sliders(sliders):
     wait_for(session, lambda: abs(robot.parameters()["nullspace_stiffness"] - 50.0) < 1.0, "the new value")
 
 
-def test_sliders_go_and_come_with_their_controller(sliders):
+def test_sliders_appear_and_disappear_with_their_controller(sliders):
     session, panel, robot = sliders
     robot.controller("stop")
     robot.controller("unload")

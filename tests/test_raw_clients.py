@@ -87,7 +87,7 @@ def test_damaged_numbers_end_the_motion_with_the_generators_error(raw, kind):
         assert max(abs(a - b) for a, b in zip(resting.joints("q"), q)) < 1e-4
 
 
-def test_the_smallest_numbers_are_numbers(raw):
+def test_denormal_numbers_are_accepted(raw):
     with connected(raw) as client:
         state = client.start(EXTERNAL, 1 if raw.version < 10 else 4)
         for i in range(100):
@@ -99,7 +99,7 @@ def test_the_smallest_numbers_are_numbers(raw):
         assert client.reply()[1][0] == 0
 
 
-def test_a_command_of_another_version_is_none(raw):
+def test_commands_of_another_version_are_ignored(raw):
     other = 5 if raw.version == 10 else 10
     with connected(raw) as client:
         state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
@@ -114,14 +114,14 @@ def test_a_command_of_another_version_is_none(raw):
         assert state.mode == IDLE, state.reasons
 
 
-def test_other_versions_are_refused_with_the_robots_own(raw):
+def test_other_versions_are_refused_with_the_robots_version(raw):
     foreign = {5: (0, 1, 2, 6, 11, 65535), 10: (0, 1, 2, 4, 5, 11, 65535)}
     for version in foreign[raw.version]:
         with Client(raw.address, raw.version) as client:
             assert client.connect(version) == (1, raw.version), version
 
 
-def test_requests_may_come_byte_by_byte(raw):
+def test_requests_may_arrive_byte_by_byte(raw):
     with Client(raw.address, raw.version) as client:
         port = struct.pack("<HH", raw.version, client.udp.getsockname()[1])
         for message in (
@@ -138,7 +138,7 @@ def test_requests_may_come_byte_by_byte(raw):
         assert client.reply()[1][0] == 0
 
 
-def test_replies_carry_the_requests_number_whatever_it_is(raw):
+def test_replies_carry_the_number_of_their_request(raw):
     with connected(raw) as client:
         for identity in (7, 0, 4294967295, 7):
             client.next_id = identity
@@ -147,14 +147,14 @@ def test_replies_carry_the_requests_number_whatever_it_is(raw):
 
 
 @pytest.mark.parametrize("header", [(99, 0, 12), (1, 0, 11), (1, 0, 4294967295), (2, 0, 4000), (2, 0, 13)])
-def test_what_cannot_be_understood_ends_the_connection_not_the_robot(raw, header):
+def test_invalid_requests_end_the_connection_but_not_the_robot(raw, header):
     with connected(raw) as client:
         client.tcp.sendall(struct.pack("<III", *header) + bytes(max(0, min(header[2], 4000) - 12)))
         assert client.ended()
     connected(raw).close()
 
 
-def test_a_program_that_crashes_in_the_middle_of_a_reply_makes_room(raw):
+def test_a_crash_during_a_reply_frees_the_robot(raw):
     for _ in range(20):
         client = Client(raw.address, raw.version)
         client.request(CONNECT, struct.pack("<HH", raw.version, client.udp.getsockname()[1]))
@@ -177,7 +177,7 @@ def test_a_crash_in_a_motion_ends_it(raw):
         client.recover()
 
 
-def test_a_second_client_is_turned_away_and_disturbs_nobody(raw):
+def test_a_second_client_is_refused_without_side_effects(raw):
     with connected(raw) as client:
         state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
         q = state.joints("q_d")
@@ -193,7 +193,7 @@ def test_a_second_client_is_turned_away_and_disturbs_nobody(raw):
         assert state.mode == IDLE
 
 
-def test_who_connects_and_says_nothing_makes_room(raw):
+def test_a_silent_connection_frees_the_robot(raw):
     if raw.robot != "panda" and not LONG:
         pytest.skip("The same for every robot; both in the long form.")
     with Client(raw.address, raw.version) as silent:
@@ -223,7 +223,7 @@ def slow_raw():
         yield sim
 
 
-def test_who_is_always_one_cycle_late_is_stopped(slow_raw):
+def test_a_client_that_is_always_one_cycle_late_is_stopped(slow_raw):
     with connected(slow_raw) as client:
         before = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
         q = before.joints("q_d")

@@ -54,12 +54,12 @@ def test_a_controller_survives_reflexes(report):
         }
 
 
-def test_a_recovery_too_early_disturbs_nothing(report):
+def test_an_early_recovery_changes_nothing(report):
     assert report["early"][0] == SUCCEEDED
     assert report["goes_on"]
 
 
-def test_two_recoveries_at_once_both_get_an_answer(report):
+def test_two_simultaneous_recoveries_are_both_answered(report):
     # actionlib's simple server gives way to a later goal: by preempting one that runs, by recalling
     # one that it has not taken up yet.
     (first, _), (second, _) = report["twice"]
@@ -76,10 +76,10 @@ def test_the_user_has_to_release_the_user_stop(report):
     assert outcome["moves"] and outcome["follows"]
 
 
-def test_it_stops_as_always(report):
+def test_the_node_stops_normally(report):
     assert report["stopped"] and report["idle"]
 
 
-def test_a_robot_that_is_hit_at_rest_recovers(report):
+def test_a_robot_hit_at_rest_recovers(report):
     assert report["hit_at_rest"]
     assert report["recovered_at_rest"] == [SUCCEEDED, True]

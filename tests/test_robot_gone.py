@@ -64,7 +64,7 @@ def test_a_silent_robot_is_reported_and_comes_back(report):
     assert "the robot is lost" in report["log"]
 
 
-def test_a_robot_that_was_started_anew_is_taken_again(report):
+def test_a_restarted_robot_is_connected_again(report):
     assert report["death_noticed"] and report["alive_after_death"]
     if "refused" in report:
         success, message = report["refused"]
@@ -73,7 +73,7 @@ def test_a_robot_that_was_started_anew_is_taken_again(report):
     assert report["after_restart"]["moves"] and report["after_restart"]["follows"]
 
 
-def test_the_connection_can_still_be_given_up_and_taken(report):
+def test_disconnect_and_connect_still_work(report):
     assert report["stopped"] and report["idle"]
     assert report["disconnect"] == [True, ""] and report["connect_again"] == [True, ""]
     assert report["fresh"]

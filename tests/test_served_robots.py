@@ -42,7 +42,7 @@ def test_a_client_finds_its_robot(seen):
     assert seen["protocol"] == seen["version"]
 
 
-def test_it_moves_in_the_world_and_in_its_time(seen):
+def test_the_robot_moves_in_simulated_time(seen):
     assert (seen["move"]["status"], seen["move"]["mode"]) == (0, IDLE)
     assert seen["move"]["moved"] == pytest.approx(0.1, abs=1e-3)
     assert seen["move"]["clock"] >= 1.0
@@ -57,7 +57,7 @@ def test_the_user_stop_ends_its_motion(seen):
     assert stop["again"] == 0
 
 
-def test_twenty_lost_commands_are_too_many(seen):
+def test_twenty_lost_commands_end_the_motion(seen):
     few, many = seen["lose 10"], seen["lose 20"]
     assert (few["status"], few["mode"]) == (0, IDLE)
     assert few["rate"] == pytest.approx(1.0, abs=1e-6), "They are more than 100 cycles ago."
@@ -67,7 +67,7 @@ def test_twenty_lost_commands_are_too_many(seen):
     assert many["recovered"] == IDLE
 
 
-def test_it_is_configured_at_rest_and_reports_refusals(seen):
+def test_setters_work_at_rest_and_report_refusals(seen):
     outcome = seen["configured"]
     assert outcome["load"] == outcome["no_load"] == outcome["delay"] == OK
     assert "load was refused" in outcome["bad_load"][1]
@@ -80,22 +80,22 @@ def test_it_is_configured_at_rest_and_reports_refusals(seen):
     assert outcome["after guiding"] == outcome["after brakes"] == "Idle"
 
 
-def test_a_halted_world_halts_its_motions(seen):
+def test_a_paused_world_pauses_its_motions(seen):
     outcome = seen["halted"]
     assert (outcome["status"], outcome["mode"]) == (0, IDLE), outcome
     assert outcome["repeated"] > 20 and outcome["longest"] < 0.9, "Clients would think the robot gone."
 
 
-def test_a_reset_puts_it_back(seen):
+def test_a_reset_restores_the_start_position(seen):
     assert seen["reset"]
     assert seen["after_reset"] == pytest.approx(READY, abs=1e-3)
 
 
-def test_a_robot_without_an_address_is_driven_in_the_simulation(report):
+def test_a_robot_without_an_address_is_controlled_in_the_simulation(report):
     assert report["inside"] == 7
 
 
-def test_addresses_are_one_robots_each(report):
+def test_each_address_belongs_to_one_robot(report):
     refusals = report["refusals"]
     assert not refusals["taken"][0] and "Another simulated robot runs there" in refusals["taken"][1]
     assert refusals["spawned"] == OK and refusals["connect"] == [0, 5]

@@ -56,18 +56,18 @@ def test_every_call_is_answered_in_time(report):
         assert seen["longest"] < WITHIN, name
 
 
-def test_each_is_answered_as_it_should_be(report):
+def test_each_call_gets_the_right_answer(report):
     for name, seen in report["storm"].items():
         assert seen["wrong"] == [], name
 
 
-def test_the_motion_goes_on(report):
+def test_the_motion_continues(report):
     assert report["moves"] and report["aborts"] == [] and report["errors"] == [False]
     assert report["modes"] == [2], "The robot did not move all the time."
     assert report["robot_time"] > 0.5
 
 
-def test_who_never_reads_disturbs_nobody(report):
+def test_a_client_that_never_reads_blocks_no_other(report):
     reader = report["reader"]
     # A message that is not fetched in time makes room for the next; on a busy machine that may be one's own.
     assert reader["received"] > 0.5 * reader["published"] > 50
@@ -81,7 +81,7 @@ def test_memory_is_flat(report):
     assert end < 60.0
 
 
-def test_the_node_serves_on_and_ends(report):
+def test_the_node_keeps_serving_and_exits(report):
     assert report["stopped"] and report["set_afterwards"] == [True, ""]
     assert report["robot"].startswith("Idle")
     assert report["end"] < IN_TIME

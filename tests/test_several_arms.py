@@ -30,34 +30,34 @@ def test_all_controllers_run(report):
     assert all(set(report["running"][arm]) == usual for arm in ARMS[1:])
 
 
-def test_an_arm_brings_no_processes_but_its_spawners(report):
+def test_an_arm_adds_no_processes_but_its_spawners(report):
     spawners = ("_model_spawner", "_controller_spawner", "_gripper_spawner")
     own = [node for node in report["nodes"] if node.startswith("/arm_")]
     assert own
     assert all(node.endswith(spawners) for node in own), own
 
 
-def test_the_clock_leaves_room(report):
+def test_clock_messages_wake_few_nodes(report):
     # Spawners stay as long as their controllers: each message would wake them up for nothing.
     assert not [node for node in report["follow_clock"] if "spawner" in node]
     # Up to ten messages waited for the subscriber.
     assert report["clock_rate"] < 200 + 20
 
 
-def test_joint_states_are_those_of_arm_and_hand_in_the_order_of_the_chain(report):
+def test_joint_states_hold_arm_and_hand_in_kinematic_order(report):
     for arm, names in report["joints"].items():
         fingers = [f"{arm}_finger_joint{i}" for i in (1, 2)] if arm == "arm_0" else []
         assert names == [f"{arm}_joint{i}" for i in range(1, 8)] + fingers
 
 
-def test_joint_states_come_thirty_times_a_simulated_second(report):
+def test_joint_states_arrive_at_30_hz_of_simulated_time(report):
     periods = [later - earlier for earlier, later in zip(report["stamps"], report["stamps"][1:])]
     for period in periods:
         messages = max(1, round(period * 30 / 1e9))  # one that was still under way cost the next
         assert abs(period - messages * 1e9 / 30) <= 1e6  # the tick
 
 
-def test_transforms_show_every_arm_to_who_comes_late(report):
+def test_late_subscribers_get_the_transforms_of_every_arm(report):
     for arm, (seen, measured) in report["places"].items():
         assert seen == pytest.approx(measured, abs=0.01), arm
 

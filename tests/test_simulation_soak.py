@@ -29,7 +29,7 @@ def report(tmp_path_factory, long_run):
     return {"rounds": int(rounds), **json.loads(result.stdout.strip().splitlines()[-1])}
 
 
-def test_all_was_done(report):
+def test_all_rounds_were_completed(report):
     rounds = report["rounds"]
     assert report["goals"] == rounds and report["switches"] >= rounds
     assert report["resets"] == rounds / 5 * 2 and report["reflexes"] == rounds / 10
@@ -41,11 +41,11 @@ def test_nothing_drifts(report):
     assert report["offset"] == 0, "[ms] between the clock and the ticks."
 
 
-def test_memory_and_descriptors_stay(report):
+def test_memory_and_descriptors_stay_constant(report):
     memory, files = zip(*report["footprints"][SETTLING:])
     assert memory[-1] - memory[0] < 0.5, f"{memory[0]:.1f} MB have grown to {memory[-1]:.1f} MB."
     assert max(files) == min(files)
 
 
-def test_only_reflexes_are_complained_of(report):
+def test_only_reflexes_are_logged_as_errors(report):
     assert all("reflex" in line for line in report["log"]), report["log"]

@@ -61,7 +61,7 @@ LIBRARIES = [("pyfranka", "panda"), ("pyfranka", "fr3")]
 
 
 @pytest.mark.parametrize("library, robot", LIBRARIES)
-def test_who_is_starved_is_waited_for_and_does_the_same(library, robot):
+def test_lock_step_waits_for_a_starved_client_and_repeats(library, robot):
     address = {"panda": "127.0.41.1", "fr3": "127.0.41.2"}[robot]
     with simulated(robot, address, "lockstep") as sim, client_process(library) as client, busy():
         assert client.tell("connect", address=address)["outcome"] == "ok"
@@ -73,7 +73,7 @@ def test_who_is_starved_is_waited_for_and_does_the_same(library, robot):
         assert sim.ask("state").startswith("Idle")
 
 
-def test_a_silent_client_is_waited_for_as_long_as_one_likes_and_a_dead_one_not_at_all():
+def test_lock_step_waits_for_a_silent_client_but_not_for_a_dead_one():
     address = "127.0.41.3"
     with simulated("panda", address, "lockstep", "--patience", "0.1") as sim:
         with connected(sim) as client:

@@ -62,16 +62,16 @@ def originals(tmp_path):
     return prefix
 
 
-def test_nothing_steps_aside_without_originals(tmp_path):
+def test_no_package_steps_aside_without_originals(tmp_path):
     assert decided(str(tmp_path)) == set()
 
 
-def test_our_own_spaces_are_no_originals():
+def test_our_own_spaces_do_not_count_as_originals():
     spaces = [TOP / "catkin_ws" / "devel", TOP / "catkin_ws" / "install"]
     assert decided(":".join(map(str, spaces))) == set()
 
 
-def test_hardware_interface_takes_along_everything_that_is_linked_to_it(originals):
+def test_everything_linked_to_hardware_interface_steps_aside_with_it(originals):
     """The group as the package files tell it, found by following the dependencies."""
     ours = stand_ins()
     group = {"hardware_interface"}
@@ -85,19 +85,19 @@ def test_hardware_interface_takes_along_everything_that_is_linked_to_it(original
     assert {"controller_manager", "combined_robot_hw", "effort_controllers"} <= left_out
 
 
-def test_what_is_not_linked_to_it_stays(originals):
+def test_packages_not_linked_to_it_stay(originals):
     left_out = decided(str(originals))
     assert not {"realtime_tools", "control_toolbox", "control_msgs", "xacro"} & left_out
     assert not {package_name(path.parent) for path in SOURCES.glob("franka_*/package.xml")} & left_out
 
 
 @pytest.mark.parametrize("name", ["realtime_tools", "control_msgs", "control_toolbox", "xacro"])
-def test_the_others_step_aside_one_by_one(tmp_path, name):
+def test_other_packages_step_aside_one_by_one(tmp_path, name):
     pretend_installed(tmp_path, name)
     assert decided(str(tmp_path)) == {name}
 
 
-def test_an_empty_folder_is_no_original(tmp_path):
+def test_an_empty_folder_does_not_count_as_an_original(tmp_path):
     (tmp_path / "share" / "hardware_interface").mkdir(parents=True)
     assert decided(str(tmp_path)) == set()
 
@@ -108,7 +108,7 @@ def test_every_stand_in_can_step_aside(tmp_path):
     assert set(stand_ins()) - decided(str(prefix)) == set()
 
 
-def test_the_build_says_so_and_catkin_obeys(tmp_path, originals):
+def test_the_build_prints_it_and_catkin_skips_the_packages(tmp_path, originals):
     """`configure_and_make` in a workspace of package files only: the message, and what CMake traverses."""
     project = tmp_path / "project"
     copied = project / "catkin_ws" / "src"

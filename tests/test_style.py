@@ -94,7 +94,7 @@ def test_clang_tidy_fails_on_a_name_in_a_changed_file_only(repository, monkeypat
     assert "old_name" in capfd.readouterr().out
 
 
-def test_clang_tidy_without_a_build_fails_with_a_sentence(repository, monkeypatch, capsys):
+def test_clang_tidy_without_a_build_fails_with_a_message(repository, monkeypatch, capsys):
     repository.commit()
     repository.add("new.cpp", "class NewName {};\n")
     assert run("clang-tidy", monkeypatch=monkeypatch) == 1
@@ -102,7 +102,7 @@ def test_clang_tidy_without_a_build_fails_with_a_sentence(repository, monkeypatc
 
 
 @pytest.mark.parametrize("check, tool", [("ruff", "ruff"), ("clang-tidy", "clang-tidy-22")])
-def test_missing_tool_fails_with_a_sentence(repository, check, tool, monkeypatch, capsys):
+def test_missing_tool_fails_with_a_message(repository, check, tool, monkeypatch, capsys):
     repository.add("a.py", "")
     monkeypatch.setattr(sys, "executable", str(repository.folder / "python3"))
     monkeypatch.setattr(style, "VENV", repository.folder)
@@ -111,13 +111,13 @@ def test_missing_tool_fails_with_a_sentence(repository, check, tool, monkeypatch
     assert f"{tool} is missing: run ./franka install" in capsys.readouterr().err
 
 
-def test_folder_that_is_no_clone_fails_with_a_sentence(tmp_path, monkeypatch, capsys):
+def test_folder_that_is_not_a_clone_fails_with_a_message(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(style, "TOP", tmp_path)
     assert run("text", monkeypatch=monkeypatch) == 1
     assert "git lists no files here" in capsys.readouterr().err
 
 
-def test_unknown_check_is_refused_with_those_there_are(monkeypatch, capsys):
+def test_unknown_check_is_refused_with_a_list_of_checks(monkeypatch, capsys):
     with pytest.raises(SystemExit) as ending:
         run("pylint", monkeypatch=monkeypatch)
     assert ending.value.code == 2
@@ -125,7 +125,7 @@ def test_unknown_check_is_refused_with_those_there_are(monkeypatch, capsys):
     assert "no check pylint" in said and "clang-tidy" in said
 
 
-def test_changes_count_from_where_the_branch_left_the_main_one(repository):
+def test_changes_count_from_the_merge_base(repository):
     first = repository.commit()
     assert style.base_commit() == first  # there is no commit before
     repository.git("update-ref", "refs/remotes/origin/main", first)

@@ -40,7 +40,7 @@ def test_two_arms_hold_their_relative_pose_while_the_marker_is_dragged(robot, tm
     assert outcome["still_moving_under_control"]
 
 
-def test_the_follower_follows_a_leader_that_is_pushed(robot, tmp_path):
+def test_the_follower_follows_a_pushed_leader(robot, tmp_path):
     """The follower's stiff law bears no stalls: its torques stand still while the loop of both arms does.
 
     On slow robots a stall of the machine lasts fewer ticks.

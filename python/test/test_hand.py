@@ -38,7 +38,7 @@ def test_the_hand_and_threads_that_run_while_it_moves(robots, addresses, name):
         hand.move(0.5, 0.1)
 
 
-def test_states_of_the_hand_come_thirty_times_a_second(robots, addresses, name):
+def test_hand_states_arrive_at_30_hz(robots, addresses, name):
     hand = pyfranka.Gripper(addresses[name])
     hand.read_once()
     begin = time.monotonic()

@@ -26,12 +26,12 @@ def offline(urdf):
 Q = np.array([0.3, -0.5, 0.2, -2.0, 0.4, 1.8, 0.6])
 
 
-def test_the_flange_of_a_stretched_arm_is_where_the_drawing_says(offline):
+def test_the_flange_of_a_stretched_arm_matches_the_drawing(offline):
     pose = offline.pose(Frame.Flange, np.zeros(7), EYE, EYE)
     np.testing.assert_allclose(pose[:3, 3], [0.088, 0.0, 0.333 + 0.316 + 0.384 - 0.107], atol=1e-9)
 
 
-def test_poses_chain_and_take_either_form_of_a_matrix(offline):
+def test_poses_chain_and_accept_both_matrix_formats(offline):
     tool = np.array([[0.0, -1, 0, 0.1], [1, 0, 0, 0.2], [0, 0, 1, 0.3], [0, 0, 0, 1]])
     flange = offline.pose(Frame.Flange, Q, EYE, EYE)
     np.testing.assert_allclose(offline.pose(Frame.EndEffector, Q, tool, EYE), flange @ tool, atol=1e-12)
@@ -77,7 +77,7 @@ DQ = np.array([0.4, -0.3, 0.6, 0.2, -0.5, 0.7, -0.1])
 NO_LOAD = (np.zeros((3, 3)), 0.0, [0.0] * 3)
 
 
-def test_arguments_and_states_say_the_same(robot, name, offline):
+def test_arguments_and_states_give_the_same_results(robot, name, offline):
     """Of the robot's own model and, of the arm whose description it is, of ModelKDL."""
     robot.set_EE(TOOL)
     robot.set_K(TOOL)
@@ -120,7 +120,7 @@ def test_jacobians_are_the_derivatives_of_poses(model):
         np.testing.assert_allclose(model.body_jacobian(frame, Q, TOOL, TOOL), axes @ zero, atol=1e-12)
 
 
-def test_a_load_adds_what_its_mass_and_inertia_add(model):
+def test_a_load_adds_its_mass_and_inertia(model):
     """J^T m J, J^T I J, and J^T m g, with the Jacobian of the load's centre of mass."""
     mass, com, inertia = 1.3, np.array([0.02, -0.03, 0.1]), np.diag([0.01, 0.02, 0.03])
     centre = EYE.copy()
@@ -136,7 +136,7 @@ def test_a_load_adds_what_its_mass_and_inertia_add(model):
     np.testing.assert_array_equal(model.gravity(Q, mass, com), model.gravity(Q, mass, com, [0.0, 0.0, -9.81]))
 
 
-def test_coriolis_torques_take_what_the_changing_mass_gives(model):
+def test_coriolis_torques_balance_the_change_of_the_mass_matrix(model):
     """dq^T c = dq^T dM/dt dq / 2: gravity apart, torques alone change the kinetic energy."""
     load = (np.diag([0.01, 0.02, 0.03]), 1.3, [0.02, -0.03, 0.1])
     step = 1e-6 * DQ
@@ -160,7 +160,7 @@ def test_coriolis_torques_take_what_the_changing_mass_gives(model):
         (lambda model: model.gravity(Q, 0.0, [0.0] * 2), "F_x_Ctotal needs 3 numbers, not 2"),
     ],
 )
-def test_wrong_numbers_of_arguments_are_named(offline, call, sentence):
+def test_wrong_argument_counts_are_reported(offline, call, sentence):
     with pytest.raises(ValueError, match=sentence):
         call(offline)
 
@@ -173,7 +173,7 @@ def test_wrong_numbers_of_arguments_are_named(offline, call, sentence):
         ((None, "nowhere", "fr3_link8"), Exception),
     ],
 )
-def test_a_model_that_cannot_be_is_refused(urdf, arguments, error):
+def test_an_impossible_model_is_refused(urdf, arguments, error):
     text, root, tip = arguments
     with pytest.raises(error) as caught:
         pyfranka.ModelKDL(text or urdf, root, tip)

@@ -28,7 +28,7 @@ MATRICES = {
 }
 
 
-def test_a_state_shows_itself_as_numpy(robot):
+def test_state_members_are_numpy_arrays(robot):
     state = robot.read_once()
     arrays = {
         field
@@ -62,7 +62,7 @@ def test_arrays_outlive_their_state(robot):
     assert states[-1].time > states[0].time
 
 
-def test_reading_goes_on_until_told(robot):
+def test_read_continues_until_the_callback_returns_false(robot):
     times = []
 
     def take(state):
@@ -151,7 +151,7 @@ HIGHEST = np.array([2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508])
 MARGIN = 1e-3
 
 
-def test_the_limits_of_velocity_are_told(robots):
+def test_velocity_limits_are_returned(robots):
     q = np.array([2.6, -1.7, 0.0, -0.3, -2.8, 4.4, 0.1])
     panda, fr3 = robots["panda"], robots["fr3"]
     # Panda: what three lost packets at the limit of acceleration may add is taken off.
@@ -183,12 +183,12 @@ def test_the_limits_of_velocity_are_told(robots):
         (lambda robot: pyfranka.CartesianPose(EYE, [0.0]), "elbow needs 2 numbers, not 1"),
     ],
 )
-def test_wrong_numbers_of_numbers_are_refused_with_a_sentence(robots, call, sentence):
+def test_wrong_array_sizes_are_refused(robots, call, sentence):
     with pytest.raises(ValueError, match=sentence):
         call(robots["fr3"])
 
 
-def test_what_the_robot_refuses_is_an_error_of_its_own(robot):
+def test_refused_commands_raise_command_exceptions(robot):
     with pytest.raises(pyfranka.CommandException):
         robot.set_load(-1.0, [0.0] * 3, [0.0] * 9)
     for error in ("Command", "Control", "Network", "Protocol", "Realtime", "Model", "InvalidOperation"):
@@ -196,7 +196,7 @@ def test_what_the_robot_refuses_is_an_error_of_its_own(robot):
     assert issubclass(pyfranka.Exception, RuntimeError)
 
 
-def test_nobody_there_is_a_sentence():
+def test_unreachable_robot_is_reported():
     for kind in (pyfranka.Robot, pyfranka.Gripper, pyfranka.VacuumGripper):
         with pytest.raises(pyfranka.NetworkException, match="refused"):
             kind("127.0.32.9")
@@ -278,7 +278,7 @@ def test_callbacks_drive_the_robot(robot, kind):
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "torques"])
-def test_torques_go_along_with_a_motion(robots, kind):
+def test_torques_accompany_a_motion(robots, kind):
     robot = robots["fr3"]
     robot.automatic_error_recovery()
     drive, calls = Driver(kind), []
@@ -317,7 +317,7 @@ def test_the_order_of_callbacks_can_be_chosen(robot, options, first):
 
 
 @pytest.mark.parametrize("reference, is_exact", [("RobotState", False), ("Command", True)])
-def test_the_first_value_may_stand_for_itself(robots, reference, is_exact):
+def test_the_first_command_is_filtered_from_the_state(robots, reference, is_exact):
     """Through the filter: its first answer lies between the state and the command, or is the command."""
     robot, drive = robots["panda"], Driver("joint_positions")
     begins = []
@@ -340,7 +340,7 @@ def test_the_first_value_may_stand_for_itself(robots, reference, is_exact):
     np.testing.assert_allclose(moved, 5e-4 * (1.0 if is_exact else gain), rtol=1e-6)
 
 
-def test_the_robot_finds_its_own_way_to_a_position(robot, name):
+def test_asynchronous_position_control(robot, name):
     velocities = [1.0] * 7
     if name == "panda":
         with pytest.raises(pyfranka.CommandException, match="5.9.0"):
@@ -361,7 +361,7 @@ def test_the_robot_finds_its_own_way_to_a_position(robot, name):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_programs_drive_the_robot_themselves(robot, kind):
+def test_active_control(robot, kind):
     begin = robot.read_once()
     with getattr(robot, f"start_{ACTIVE[kind]}_control")() as motion:
         for tick in range(TICKS + 21):
@@ -378,7 +378,7 @@ def test_programs_drive_the_robot_themselves(robot, kind):
     check_moved(kind, begin, robot.read_once())
 
 
-def test_a_motion_that_nobody_ends_ends_with_its_block(robot):
+def test_an_unfinished_motion_ends_with_its_with_block(robot):
     with robot.start_torque_control() as motion:
         motion.read_once()
         motion.write_once(pyfranka.Torques([0.0] * 7))
@@ -398,12 +398,12 @@ def test_a_motion_that_nobody_ends_ends_with_its_block(robot):
         (lambda state, period: pyfranka.Torques([math.nan] * 7), ValueError, "finite|NaN|infinite"),
     ],
 )
-def test_errors_of_a_callback_come_out_and_leave_the_robot_at_rest(robot, callback, error, sentence):
+def test_callback_errors_propagate_and_leave_the_robot_at_rest(robot, callback, error, sentence):
     with pytest.raises(error, match=sentence):
         robot.control_torques(callback)
 
 
-def test_an_abort_brings_its_log(robot):
+def test_an_aborted_motion_returns_its_log(robot):
     drive = Driver("joint_positions")
 
     def leap(state, period):

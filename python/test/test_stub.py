@@ -67,7 +67,7 @@ def texts(doc):
     return [doc.partition("\n")[2].strip()]
 
 
-def test_everything_public_says_what_it_is():
+def test_everything_public_has_a_docstring():
     silent = []
     for path, cls in classes():
         where = ".".join(path)

@@ -90,7 +90,7 @@ def fake():
     gripper.close()
 
 
-def test_its_state(fake):
+def test_state(fake):
     gripper = pyfranka.VacuumGripper(ADDRESS)
     assert gripper.server_version == 1
     state = gripper.read_once()
@@ -100,7 +100,7 @@ def test_its_state(fake):
     assert state.time == pytest.approx(2.5)
 
 
-def test_its_commands_arrive_as_given(fake):
+def test_commands_arrive_unchanged(fake):
     gripper = pyfranka.VacuumGripper(ADDRESS)
     profile = pyfranka.VacuumGripper.ProductionSetupProfile.P2
     assert gripper.vacuum(100, timedelta(seconds=1.5), profile)
@@ -113,7 +113,7 @@ def test_its_commands_arrive_as_given(fake):
     ]
 
 
-def test_what_did_not_work(fake):
+def test_failures_are_reported(fake):
     gripper = pyfranka.VacuumGripper(ADDRESS)
     fake.status = UNSUCCESSFUL
     assert not gripper.vacuum(100, timedelta(seconds=1))
@@ -122,7 +122,7 @@ def test_what_did_not_work(fake):
         gripper.drop_off(timedelta(seconds=1))
 
 
-def test_it_is_stopped_from_another_thread(fake):
+def test_stop_from_another_thread(fake):
     """The fake runs in this process: were the interpreter held while waiting, nothing would ever end."""
     gripper = pyfranka.VacuumGripper(ADDRESS)
     fake.waits = True

@@ -1,10 +1,10 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Turns a COLLADA mesh into OBJ files with one colour each, as MuJoCo loads them.
+"""Converts a COLLADA mesh into OBJ files with one colour each, for MuJoCo.
 
-MuJoCo reads neither COLLADA nor the colours of an OBJ. Debian's assimp does the reading; what it
-writes stands Y-up, so it is turned back to the link's Z-up frame, split by colour, and its bounding
-box is compared with one computed from the COLLADA file itself.
+MuJoCo reads neither COLLADA nor the colours of an OBJ. Debian's assimp reads the file and writes a
+Y-up mesh; it is rotated back to the link's Z-up frame and split by colour, and its bounding box is
+compared with one computed from the COLLADA file itself.
 """
 
 import itertools
@@ -18,13 +18,13 @@ BOX_TOLERANCE = 1e-4  # [m]
 
 
 class ConversionError(Exception):
-    """A sentence about a mesh that could not be converted."""
+    """The message names the mesh and the reason."""
 
 
 def convert(dae, folder):
-    """Writes 0.obj, 1.obj, ... and index.yaml for the mesh `dae` into `folder`, which is made.
+    """Writes 0.obj, 1.obj, ... and index.yaml for the mesh `dae` into the new folder `folder`.
 
-    Raises ConversionError when assimp fails or the result is not where the original is.
+    Raises ConversionError if assimp fails or the result has another bounding box than the original.
     """
     with tempfile.TemporaryDirectory(prefix="franka_meshes_") as scratch:
         obj = pathlib.Path(scratch, "mesh.obj")
@@ -93,12 +93,12 @@ class ObjMesh:
                 self.faces.append((material, corners))
 
     def box(self):
-        """Lower and upper corner [m] of what the faces use."""
+        """Lower and upper corner [m] of the faces."""
         used = {corner[0] for _, corners in self.faces for corner in corners}
         return bounding_box(tuple(map(float, self.vertices[v - 1])) for v in used)
 
     def parts(self, colours):
-        """Faces by colour, in the order the file names them."""
+        """Faces by colour, in the file's order."""
         parts = {}
         for material, corners in self.faces:
             parts.setdefault(colours.get(material, (1.0, 1.0, 1.0, 1.0)), []).append(corners)
@@ -109,7 +109,7 @@ class ObjMesh:
         vertices, normals, lines, edges = {}, {}, [], set()
         for triangle in itertools.chain.from_iterable(map(fan, faces)):
             # MuJoCo refuses meshes in which two faces run along an edge in the same direction, and
-            # CAD meshes have some: the second of them gets vertices of its own and looks the same.
+            # CAD meshes have some: the second of them gets its own vertices and looks the same.
             directed = {(triangle[i - 1][0], triangle[i][0]) for i in range(3)}
             copy = 0 if edges.isdisjoint(directed) else len(lines)
             if copy == 0:

@@ -40,7 +40,7 @@ def package_paths(monkeypatch):
 
 @pytest.fixture
 def mesh_index(tmp_path):
-    """Writes an available.xacro with the given folders, as install_meshes would, and names it."""
+    """Writes an available.xacro with the given folders, as install_meshes does; returns its path."""
 
     def write(**folders):
         lines = [f"{folder}: [{', '.join(names)}]" for folder, names in folders.items()]

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests ask an expanded description."""
+"""Functions that tests use on an expanded description."""
 
 import functools
 import math
@@ -15,7 +15,7 @@ NO_MESHES = "/nonexistent/available.xacro"
 ARM_LINKS = [f"link{i}" for i in range(8)]
 
 
-@functools.cache  # tests do not change what they get
+@functools.cache  # tests do not change the result
 def expand(name, mesh_index=NO_MESHES, **arguments):
     """The Robot from robots/<name>.urdf.xacro."""
     mappings = {"mesh_index": mesh_index, **arguments}

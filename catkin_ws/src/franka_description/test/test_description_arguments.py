@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The arguments of the robot files: what each does, and how wrong ones end."""
+"""The arguments of the robot files: the effect of each, and errors of wrong ones."""
 
 import re
 
@@ -94,7 +94,7 @@ def test_parent():
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("true, false", [("true", "false"), ("True", "False"), ("1", "0")])
-def test_truth_values(name, true, false):
+def test_both_spellings_of_truth_values_mean_the_same(name, true, false):
     with_hand = expand(f"{name}/{name}", hand=true, gazebo=false)
     assert with_hand.text == expand(f"{name}/{name}", hand="true").text
     simulated = expand(f"{name}/{name}", hand=false, gazebo=true)
@@ -117,7 +117,7 @@ def test_truth_values(name, true, false):
         (dict(gazebo="true", rpy="1"), ["'rpy'", "'1'", "three numbers"]),
     ],
 )
-def test_wrong_arguments_end_in_a_sentence(name, arguments, words):
+def test_wrong_arguments_are_reported(name, arguments, words):
     with pytest.raises(xacro.XacroException) as error:
         expand(f"{name}/{name}", **arguments)
     text = str(error.value)
@@ -127,18 +127,18 @@ def test_wrong_arguments_end_in_a_sentence(name, arguments, words):
 
 
 @pytest.mark.parametrize("number", ["0", "-1", "+.5", "1.", "1e-3", "-1.5E+2", "3.141592653589793"])
-def test_every_way_to_write_a_number(number):
+def test_every_number_format_is_accepted(number):
     robot = expand("panda/panda", hand="true", tcp_xyz=f"{number} 0 0")
     origin = robot.joints["panda_hand_tcp_joint"].find("origin")
     assert numbers(origin.get("xyz"))[0] == float(number)
 
 
-def test_two_arms_of_one_name_are_refused():
+def test_two_arms_with_the_same_name_are_refused():
     with pytest.raises(xacro.XacroException, match="'arm_id_1' and 'arm_id_2' are both 'a'"):
         expand("dual_panda/dual_panda_example", arm_id_1="a", arm_id_2="a")
 
 
-def test_two_arms_of_an_unknown_kind_are_refused():
+def test_two_arms_of_unknown_type_are_refused():
     with pytest.raises(xacro.XacroException, match="'robot' is 'ur5'; it must be panda or fr3"):
         expand("dual_panda/dual_panda_example", robot="ur5")
 

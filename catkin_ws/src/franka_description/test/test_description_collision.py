@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Self-collision capsules, fine volumes, fingers, looks, and the primitives in place of meshes."""
+"""Self-collision capsules, fine volumes, fingers, visuals, and primitives that replace meshes."""
 
 import math
 import struct
@@ -119,7 +119,7 @@ def test_capsule_directions(direction):
 
 @pytest.mark.parametrize("name, folder", [("panda", "visual"), ("fr3", "visual/fr3")])
 @pytest.mark.parametrize("gazebo", ["false", "true"])
-def test_meshes_where_they_are_installed(mesh_index, name, folder, gazebo):
+def test_installed_meshes_are_used(mesh_index, name, folder, gazebo):
     index = mesh_index(**ALL, **{"visual/fr3": ALL["visual"]})
     robot = expand(f"{name}/{name}", mesh_index=index, hand="true", gazebo=gazebo)
     root = "package://franka_description/meshes"
@@ -134,13 +134,13 @@ def test_meshes_where_they_are_installed(mesh_index, name, folder, gazebo):
         np.testing.assert_allclose(pose[:3, :3], rotation([0, 0, turn]), atol=1e-15)
 
 
-def test_fr3_shows_the_pandas_meshes_when_only_those_are_there(mesh_index):
+def test_fr3_falls_back_to_panda_meshes(mesh_index):
     robot = expand("fr3/fr3", mesh_index=mesh_index(**ALL))
     filename = "package://franka_description/meshes/visual/link3.dae"
     assert shapes(robot.links["fr3_link3"], "visual")[0][1] == {"filename": filename}
 
 
-def test_one_missing_mesh_becomes_primitives_alone(mesh_index):
+def test_only_a_missing_mesh_is_replaced_by_primitives(mesh_index):
     index = mesh_index(visual=["link0"], collision=["link1"])
     robot = expand("panda/panda", mesh_index=index)
     assert [s[0] for s in shapes(robot.links["panda_link0"], "visual")] == ["mesh"]
@@ -149,7 +149,7 @@ def test_one_missing_mesh_becomes_primitives_alone(mesh_index):
     assert [s[0] for s in shapes(robot.links["panda_link1"])] == ["mesh"]
 
 
-def test_other_description_packages_bring_their_own_looks():
+def test_other_description_packages_use_their_own_meshes():
     body = """<xacro:franka_arm arm_id="p" description_pkg="my_description"
         joint_limits="${panda_limits}"/>"""
     link = expand_text(body).links["p_link4"]
@@ -159,7 +159,7 @@ def test_other_description_packages_bring_their_own_looks():
 
 
 @pytest.mark.parametrize("name", ["panda", "fr3"])
-def test_without_meshes_everything_is_a_primitive(name):
+def test_without_meshes_all_links_are_primitives(name):
     robot = expand(f"{name}/{name}", mesh_index=NO_MESHES, hand="true", gazebo="true")
     assert "<mesh" not in robot.text
     for link in [*ARM_LINKS, "hand", "leftfinger", "rightfinger"]:

@@ -37,18 +37,18 @@ def test_bit_exact(name):
 
 
 @pytest.mark.parametrize("name", ["panda", "fr3"])
-def test_none_without_gazebo(name):
+def test_no_inertias_without_gazebo(name):
     assert expand(f"{name}/{name}", hand="true").xml.find(".//inertial") is None
 
 
 @pytest.mark.parametrize("link", ROWS)
-def test_inertias_are_those_of_bodies(link):
+def test_inertias_are_physically_possible(link):
     xx, yy, zz = ROWS[link][2]
     xy, xz, yz = ROWS[link][3]
     low, middle, high = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     assert low > 0
     assert low + middle > high
-    if link == "link2":  # so near the edge that rounding the table would cross it
+    if link == "link2":  # so close to the bound that rounded values would violate it
         assert low + middle - high == pytest.approx(1.7e-6, abs=0.05e-6)
 
 

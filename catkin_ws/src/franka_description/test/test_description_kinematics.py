@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The tree of links and joints, and where it puts flange, hand and tool centre point."""
+"""The tree of links and joints, and the poses of flange, hand and tool centre point."""
 
 import math
 
@@ -64,7 +64,7 @@ def test_joint_types_axes_and_dynamics(name):
 
 @settings(max_examples=50, deadline=None)
 @given(st.lists(st.floats(-math.pi, math.pi), min_size=7, max_size=7))
-def test_flange_is_where_the_dh_table_puts_it(q):
+def test_flange_matches_the_dh_table(q):
     for name in ROBOTS:
         pose = expand(f"{name}/{name}").pose(f"{name}_link8", positions(name, q))
         np.testing.assert_allclose(pose, modified_dh(q), atol=1e-13)
@@ -89,7 +89,7 @@ def test_stretched_and_ready_pose(name):
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_hand_is_turned_against_the_flange_and_fingers_part(name):
+def test_hand_is_rotated_at_the_flange_and_fingers_open(name):
     robot = expand(f"{name}/{name}", hand="true")
     hand = robot.joints[f"{name}_hand_joint"]
     assert hand.find("parent").get("link") == f"{name}_link8"

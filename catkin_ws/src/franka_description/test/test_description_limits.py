@@ -67,7 +67,7 @@ def test_limits(name, gazebo):
 
 
 @pytest.mark.parametrize("kind", TABLES)
-def test_two_arms_have_the_limits_of_what_they_are(kind):
+def test_two_arms_have_the_limits_of_their_types(kind):
     robot = expand("dual_panda/dual_panda_example", arm_id_1="l", arm_id_2="r", robot=kind)
     for arm in "lr":
         for i, row in enumerate(TABLES[kind], start=1):
@@ -84,7 +84,7 @@ def test_finger_limits(number):
 
 
 @pytest.mark.parametrize("name", TABLES)
-def test_stops_stand_outside_every_fci_limit(physics, name):
+def test_mechanical_stops_are_outside_every_fci_limit(physics, name):
     stops = physics[name]["joint_stops"]
     tables = [(numbers(lower), numbers(upper)) for lower, upper in FCI[name]]
     for joint in range(7):

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What gazebo:=true adds for controllers and the simulation, and gazebo:=false leaves out."""
+"""Elements for controllers and the simulation that only gazebo:=true adds."""
 
 from xml.etree import ElementTree
 
@@ -17,7 +17,7 @@ def transmissions(robot):
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("hand", ["false", "true"])
-def test_none_on_the_real_robot(name, hand):
+def test_no_transmissions_on_the_real_robot(name, hand):
     robot = expand(f"{name}/{name}", hand=hand)
     assert transmissions(robot) == []
     assert robot.xml.find("gazebo") is None
@@ -117,7 +117,7 @@ def test_plugin(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_gazebo_changes_nothing_else(name):
-    """Kinematics, limits and looks are those of the real robot's description."""
+    """Kinematics, limits and visuals match the real robot's description."""
     real = expand(f"{name}/{name}", hand="true")
     simulated = expand(f"{name}/{name}", hand="true", gazebo="true")
     assert set(simulated.joints) - set(real.joints) == {"world_joint"}

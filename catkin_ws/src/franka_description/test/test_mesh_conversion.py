@@ -82,7 +82,7 @@ def rounded(faces):
 
 
 @needs_assimp
-def test_coordinates_stay_and_colours_split(tmp_path):
+def test_coordinates_are_kept_and_colours_are_split(tmp_path):
     (tmp_path / "part.dae").write_text(collada())
     mesh_conversion.convert(tmp_path / "part.dae", tmp_path / "out" / "part")
     index = (tmp_path / "out" / "part" / "index.yaml").read_text().splitlines()
@@ -108,7 +108,7 @@ def test_orientation_of_faces_is_kept(tmp_path):
 
 
 @needs_assimp
-def test_faces_running_along_an_edge_in_one_direction_get_their_own_vertices(tmp_path):
+def test_faces_with_inconsistent_edges_get_their_own_vertices(tmp_path):
     (tmp_path / "part.dae").write_text(collada(red_triangles=(0, 1, 2, 1, 2, 3)))
     mesh_conversion.convert(tmp_path / "part.dae", tmp_path / "part")
     for number in (0, 1):
@@ -131,7 +131,7 @@ def test_bounding_box_of_collada(tmp_path):
 
 
 @needs_assimp
-def test_a_mesh_that_ends_up_elsewhere_is_refused(tmp_path, monkeypatch):
+def test_a_displaced_mesh_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(mesh_conversion, "z_up", lambda text: tuple(text.split()[:3]))
     (tmp_path / "part.dae").write_text(collada())
     with pytest.raises(mesh_conversion.ConversionError, match="part.dae would end up elsewhere"):
@@ -140,13 +140,13 @@ def test_a_mesh_that_ends_up_elsewhere_is_refused(tmp_path, monkeypatch):
 
 
 @needs_assimp
-def test_a_file_that_is_no_mesh(tmp_path):
+def test_a_file_that_is_not_a_mesh_is_refused(tmp_path):
     (tmp_path / "part.dae").write_text("nothing")
     with pytest.raises(mesh_conversion.ConversionError, match="assimp could not convert part.dae"):
         mesh_conversion.convert(tmp_path / "part.dae", tmp_path / "part")
 
 
-def test_missing_assimp(tmp_path, monkeypatch):
+def test_missing_assimp_is_reported(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(mesh_conversion.ConversionError, match="assimp-utils"):
         mesh_conversion.convert(tmp_path / "part.dae", tmp_path / "part")

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The least that a script can do."""
+"""The shortest possible script."""
 
 import numpy as np
 

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a controller in Python costs a cycle, beside one in C++ and a bare call into Python. Needs a
-// ROS master for the controllers' parameters.
+// Cost of a Python controller per cycle, compared with one in C++ and a bare call into Python.
+// Needs a ROS master for the controllers' parameters.
 #include <benchmark/benchmark.h>
 #include <controller_interface/controller.h>
 #include <franka_example_controllers/python_controller.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPeriod = 1e-3;  // [s]
 
-/// A controller that runs a class of this package's Python examples on an arm that stands still.
+/// A controller that runs a class of this package's Python examples on an arm at rest.
 class Running {
  public:
   Running(const std::string& script, const std::string& name) : node_(name) {
@@ -60,7 +60,7 @@ void run(benchmark::State& state, const std::string& script, const std::string& 
   }
 }
 
-// The script's thread works while the loop's waits: what counts is the time that passes.
+// The script's thread works while the loop's thread waits, so wall time is measured.
 void jointImpedance(benchmark::State& state) {
   run(state, std::string(EXAMPLES) + "/joint_impedance.py", "JointImpedance");
 }
@@ -80,7 +80,7 @@ void callOfPython(benchmark::State& state) {
 }
 BENCHMARK(callOfPython)->UseRealTime();
 
-/// What the same command costs in C++.
+/// The same command in C++.
 class ConstantEffort
     : public controller_interface::Controller<hardware_interface::EffortJointInterface> {
  public:

@@ -1,12 +1,12 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Leads the end effector along a circle in the plane of y and z, by its pose."""
+"""Moves the end effector on a circle in the yz plane with pose commands."""
 
 import numpy as np
 
 
 class CartesianCircle:
-    """Commands cartesian_pose. Parameters: radius [m], round_trip [s], and ramp [s] to reach that pace."""
+    """Commands cartesian_pose. Parameters: radius [m], round_trip [s], and ramp [s] to full speed."""
 
     def __init__(self, parameters):
         self.radius = float(parameters.get("radius", 0.05))

@@ -1,10 +1,10 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A joint impedance by torques: the arm swings about where it started, led like a pendulum."""
+"""Joint impedance with torque commands: the desired position swings about the start."""
 
 import numpy as np
 
-LARGEST_STEP = 1.0  # [Nm] in a cycle, as the robot demands it
+LARGEST_STEP = 1.0  # [Nm] per cycle, the robot's limit
 
 
 class JointImpedance:
@@ -22,7 +22,7 @@ class JointImpedance:
         self.time = 0.0
 
     def target(self):
-        """Where the joints should be, and how fast, at rest in the beginning."""
+        """Desired joint positions and velocities, at rest at the start."""
         q, dq = self.begin.copy(), np.zeros(7)
         q[3] += self.amplitude / 2.0 * (1.0 - np.cos(self.omega * self.time))
         dq[3] = self.amplitude / 2.0 * self.omega * np.sin(self.omega * self.time)

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Lets the user drag the frame between two arms, which a dual-arm controller makes them follow.
+"""Lets the user drag the frame between two arms, which a dual-arm controller follows.
 
 dual_arm_interactive_marker.py --left_arm_id ARM --right_arm_id ARM
 
-Shows a marker in the base of the left arm where the controller's topic centering_frame says the frame is,
-and publishes on its centering_frame_target_pose where it has been dragged, ten times a second of ROS time.
-While one of the arms does not move under a controller (stopped by a reflex, say), the marker goes with the
-frame, so that nothing jumps when the controller starts again.
+Shows a marker, in the base of the left arm, at the pose from the controller's topic centering_frame, and
+publishes the dragged pose on its centering_frame_target_pose, ten times per second of ROS time. While one of
+the arms is not controlled (for example after a reflex), the marker follows the frame, so that nothing jumps
+when the controller starts again.
 """
 
 import argparse
@@ -35,13 +35,13 @@ MARKER_SCALE = 0.3  # [m]
 
 
 class CenteringFrameMarker:
-    """The marker in rviz, and the topic that says where it is."""
+    """The marker in rviz, and the topic with its pose."""
 
     def __init__(self, frame_id, pose):
         self._frame_id = frame_id
-        self._pose = pose  # where the marker is
+        self._pose = pose  # of the marker
         self._lock = threading.Lock()
-        self._moving = {}  # arm -> is it under a controller?
+        self._moving = {}  # arm -> whether a controller moves it
         self._publisher = rospy.Publisher(TARGET_TOPIC, PoseStamped, queue_size=1)
         self._server = InteractiveMarkerServer("target_pose_marker")
         marker = InteractiveMarker()
@@ -57,7 +57,7 @@ class CenteringFrameMarker:
         self._timer = rospy.Timer(rospy.Duration(PUBLISH_PERIOD), self._publish, reset=True)
 
     def watch(self, arm):
-        """Takes the mode of this arm into account from now on."""
+        """Subscribes to the state of this arm."""
         topic = f"{arm}_state_controller/franka_states"
         self._moving[arm] = False
         return rospy.Subscriber(topic, FrankaState, self._state, callback_args=arm, queue_size=1)
@@ -93,12 +93,12 @@ class CenteringFrameMarker:
             message.pose = self._pose
         try:
             self._publisher.publish(message)
-        except rospy.ROSException:  # the node shuts down while the timer still runs
+        except rospy.ROSException:  # the node exits while the timer still runs
             pass
 
 
 def wait_for_frame():
-    """Where the controller's frame is at first; None when the node is shut down before it says so."""
+    """The controller's first frame; None if the node exits before it arrives."""
     while not rospy.is_shutdown():
         try:
             return rospy.wait_for_message(FRAME_TOPIC, PoseStamped)

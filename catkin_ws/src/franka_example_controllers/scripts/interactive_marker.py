@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lets the user drag the equilibrium pose of an impedance controller in rviz.
 
-Takes the arm's pose from franka_state_controller/franka_states, shows a marker there and publishes
-where the marker is on equilibrium_pose, every 5 ms of ROS time. The marker's frame is the private
-parameter link_name, the base of the arm (<arm_id>_link0).
+Reads the arm's pose from franka_state_controller/franka_states, shows a marker there and publishes the
+marker's pose on equilibrium_pose, every 5 ms of ROS time. The marker's frame is the private parameter
+link_name, the base of the arm (<arm_id>_link0).
 """
 
 import math
@@ -23,26 +23,26 @@ from visualization_msgs.msg import (
     InteractiveMarkerFeedback,
 )
 
-# Where the marker may go [m]: about what the arm can reach, and above the table.
+# Range of the marker [m]: about the arm's reach, and above the table.
 POSITION_LIMITS = {"x": (-0.6, 0.6), "y": (-0.6, 0.6), "z": (0.05, 0.9)}
 PUBLISH_PERIOD = 0.005  # [s]
 MARKER_SCALE = 0.3  # [m]
 
 
 def clamp(value, limits):
-    """The number nearest to value within (lowest, highest)."""
+    """The closest number to value within (lowest, highest)."""
     return min(max(value, limits[0]), limits[1])
 
 
 def clamp_position(position):
-    """Moves a geometry_msgs/Point, in place, to where the marker may be."""
+    """Moves a geometry_msgs/Point, in place, into the marker's range."""
     for axis, limits in POSITION_LIMITS.items():
         setattr(position, axis, clamp(getattr(position, axis), limits))
 
 
 def rotation_to_quaternion(m):
     """Unit quaternion (x, y, z, w) of a rotation, given as three rows of three numbers."""
-    # Of four ways to compute it, the one that divides by the largest component is exact enough.
+    # Of the four formulas, use the one that divides by the largest component, for accuracy.
     squares = (
         1 + m[0][0] - m[1][1] - m[2][2],
         1 - m[0][0] + m[1][1] - m[2][2],
@@ -77,7 +77,7 @@ def pose_from_state(state):
 
 
 def axis_controls():
-    """Six handles: turning about and moving along each axis."""
+    """Six handles: rotation about and motion along each axis."""
     half = math.sqrt(0.5)
     axes = {"x": (half, 0.0, 0.0), "y": (0.0, 0.0, half), "z": (0.0, half, 0.0)}
     modes = {
@@ -99,16 +99,16 @@ def axis_controls():
 
 
 class EquilibriumPoseMarker:
-    """The marker in rviz, and the topic that says where it is."""
+    """The marker in rviz, and the topic with its pose."""
 
     def __init__(self, link_name, pose):
         self._link_name = link_name
         self._pose = pose
-        self._lock = threading.Lock()  # rviz moves the marker here, a timer publishes there
+        self._lock = threading.Lock()  # rviz's thread moves the marker, a timer's thread publishes
         self._publisher = rospy.Publisher("equilibrium_pose", PoseStamped, queue_size=10)
         self._server = InteractiveMarkerServer("equilibrium_pose_marker")
         self._insert_marker()
-        # reset: a simulation that is started anew sets the time back, and publishing goes on.
+        # reset: a restarted simulation sets the time back, and publishing must continue.
         self._timer = rospy.Timer(rospy.Duration(PUBLISH_PERIOD), self._publish, reset=True)
 
     def _insert_marker(self):
@@ -140,12 +140,12 @@ class EquilibriumPoseMarker:
             message.pose = self._pose
         try:
             self._publisher.publish(message)
-        except rospy.ROSException:  # the node shuts down while the timer still runs
+        except rospy.ROSException:  # the node exits while the timer still runs
             pass
 
 
 def wait_for_pose():
-    """The arm's pose from the first good state; None when the node is shut down before it comes."""
+    """The arm's pose from the first valid state; None if the node exits before it arrives."""
     topic = "franka_state_controller/franka_states"
     while not rospy.is_shutdown():
         try:

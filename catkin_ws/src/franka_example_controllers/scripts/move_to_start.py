@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Moves the arm to where the example controllers begin, by a joint trajectory controller.
+"""Moves the arm to the start pose of the example controllers with a joint trajectory controller.
 
 Parameters: ~joint_pose, which maps the joints' names to positions [rad], and ~max_dq [rad/s]. Remap
 ~follow_joint_trajectory and ~joint_states to the controller's action and the arm's states, as
@@ -33,7 +33,7 @@ def fail(text):
 
 
 def goal_for(pose, present, max_dq):
-    """A goal of one point at rest, as slow as max_dq [rad/s] asks."""
+    """A goal of one point at rest, no faster than max_dq [rad/s]."""
     farthest = max(abs(pose[name] - present[name]) for name in pose)
     point = JointTrajectoryPoint()
     point.time_from_start = rospy.Duration.from_sec(max(farthest / max_dq, SHORTEST))
@@ -46,8 +46,8 @@ def goal_for(pose, present, max_dq):
 
 
 def run(client, goal, timeout):
-    """Sends a goal and waits for its end. @returns its handle, whether it has ended in time or not."""
-    # A SimpleActionClient complains of goals that a controller takes up at once.
+    """Sends a goal and waits for its end. @returns its handle, also after a timeout."""
+    # A SimpleActionClient logs errors about goals that a controller accepts at once.
     ended = threading.Event()
 
     def follow(handle):

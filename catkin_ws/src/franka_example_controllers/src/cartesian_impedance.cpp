@@ -9,7 +9,8 @@ namespace franka_example_controllers {
 
 namespace {
 
-/// Share of the way to a target that is covered in one update of 1 ms; the original's constant.
+/// Share of the difference to a target that is covered in one update of 1 ms; the original's
+/// constant.
 constexpr double kFilter = 0.005;
 
 using Pose = Eigen::Map<const Eigen::Matrix4d>;
@@ -69,7 +70,7 @@ Eigen::Matrix<double, 6, 1> CartesianImpedance::poseError(
   const Eigen::Matrix3d rotation = pose.topLeftCorner<3, 3>();
   Eigen::Quaterniond orientation(rotation);
   if (orientation_d_.coeffs().dot(orientation.coeffs()) < 0.0) {
-    orientation.coeffs() = -orientation.coeffs();  // the same rotation, reached the short way round
+    orientation.coeffs() = -orientation.coeffs();  // the same rotation, by the shortest arc
   }
   const Eigen::Quaterniond left_to_turn = orientation.conjugate() * orientation_d_;
   Eigen::Vector3d turn = left_to_turn.vec();

@@ -16,8 +16,8 @@ namespace franka_example_controllers {
 namespace {
 
 constexpr char kName[] = "CartesianImpedanceExampleController";
-constexpr double kShortestQuaternion = 1e-3;  ///< below it a quaternion names no rotation
-constexpr double kComplaintPeriod = 1.0;      ///< [s] between complaints about bad messages
+constexpr double kShortestQuaternion = 1e-3;  ///< below it a quaternion is no valid rotation
+constexpr double kLogPeriod = 1.0;            ///< [s] between log messages about invalid input
 
 bool isFinite(const compliance_paramConfig& config) {
   return std::isfinite(config.translational_stiffness) &&
@@ -35,7 +35,7 @@ bool CartesianImpedanceExampleController::init(hardware_interface::RobotHW* robo
     return false;
   }
 
-  // Setting the callback calls it at once, so the loop has the stiffness before it starts.
+  // setCallback calls it at once, so the loop has the stiffness before it starts.
   compliance_server_ = std::make_unique<dynamic_reconfigure::Server<compliance_paramConfig>>(
       ros::NodeHandle(node_handle, "dynamic_reconfigure_compliance_param_node"));
   compliance_server_->getConfigDefault(accepted_compliance_);
@@ -97,7 +97,7 @@ void CartesianImpedanceExampleController::equilibriumPoseCallback(
   const double length = equilibrium.orientation.norm();
   if (!equilibrium.position.allFinite() || !std::isfinite(length) || length < kShortestQuaternion) {
     ROS_ERROR_THROTTLE(
-        kComplaintPeriod,
+        kLogPeriod,
         "%s: an equilibrium pose was ignored, since its position (%g, %g, %g) is not "
         "finite or its quaternion (%g, %g, %g, %g) is no rotation; send numbers, and a "
         "quaternion of length 1.",
@@ -113,7 +113,7 @@ void CartesianImpedanceExampleController::equilibriumPoseCallback(
 void CartesianImpedanceExampleController::complianceCallback(compliance_paramConfig& config) {
   if (!isFinite(config)) {
     ROS_ERROR_THROTTLE(
-        kComplaintPeriod,
+        kLogPeriod,
         "%s: a stiffness that is not a finite number was ignored; the ones before it "
         "stay.",
         kName);

@@ -38,7 +38,7 @@ void CartesianVelocityExampleController::starting(const ros::Time& /*time*/) { e
 void CartesianVelocityExampleController::update(const ros::Time& /*time*/,
                                                 const ros::Duration& period) {
   elapsed_ += period.toSec();
-  // Every other cycle goes back.
+  // Every second cycle moves back.
   const double direction = std::fmod(elapsed_, 2.0 * kCycle) < kCycle ? 1.0 : -1.0;
   const double v = direction * kMaxVelocity / 2.0 * (1.0 - std::cos(2.0 * kPi / kCycle * elapsed_));
   const std::array<double, 6> command{

@@ -95,7 +95,7 @@ void DualArmCartesianImpedanceExampleController::starting(const ros::Time& time)
     arm->impedance.start(state.O_T_EE, state.q, compliance.nullspace_stiffness);
   }
   EEr_T_EEl_ = poseOf(right_).inverse() * Ol_T_Or_.inverse() * poseOf(left_);
-  // Half way between the two, with the axes of the left end effector.
+  // Half way between both, with the axes of the left end effector.
   EEl_T_C_.setIdentity();
   EEl_T_C_.translation() = 0.5 * EEr_T_EEl_.inverse().translation();
   target_in_use_ = target_.readFromRT()->number;

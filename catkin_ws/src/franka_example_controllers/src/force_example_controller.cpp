@@ -16,7 +16,7 @@ namespace {
 
 constexpr char kName[] = "ForceExampleController";
 constexpr double kGravity = 9.81;  // [m/s^2]
-constexpr double kFilter = 0.001;  // share of the way to a target in one cycle; the original's
+constexpr double kFilter = 0.001;  // share of the difference to a target per cycle; the original's
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 double filtered(double current, double target) noexcept {
@@ -57,13 +57,13 @@ void ForceExampleController::massCallback(desired_mass_paramConfig& config) {
     ROS_ERROR_THROTTLE(1.0, "%s: a setting that is not a number was ignored.", kName);
     return;
   }
-  wanted_.writeFromNonRT({config.desired_mass, config.k_p, config.k_i});
+  configured_.writeFromNonRT({config.desired_mass, config.k_p, config.k_i});
 }
 
 void ForceExampleController::starting(const ros::Time& /*time*/) {
   const franka::RobotState& state = state_handle_->getRobotState();
   const std::array<double, 7> gravity = model_handle_->getGravity();
-  // What the sensors show beyond gravity before anything is pressed is their bias.
+  // Sensor values beyond gravity before contact are their bias.
   for (std::size_t i = 0; i < gravity.size(); ++i) {
     tau_ext_initial_[i] = state.tau_J[i] - gravity[i];
   }
@@ -92,10 +92,10 @@ void ForceExampleController::update(const ros::Time& /*time*/, const ros::Durati
     joint_handles_[i].setCommand(tau[i]);
   }
 
-  const Target& wanted = *wanted_.readFromRT();
-  target_.mass = filtered(target_.mass, wanted.mass);
-  target_.k_p = filtered(target_.k_p, wanted.k_p);
-  target_.k_i = filtered(target_.k_i, wanted.k_i);
+  const Target& configured = *configured_.readFromRT();
+  target_.mass = filtered(target_.mass, configured.mass);
+  target_.k_p = filtered(target_.k_p, configured.k_p);
+  target_.k_i = filtered(target_.k_i, configured.k_i);
 }
 
 }  // namespace franka_example_controllers

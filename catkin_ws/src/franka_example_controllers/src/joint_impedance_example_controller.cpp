@@ -74,7 +74,7 @@ bool JointImpedanceExampleController::readParameters(const ros::NodeHandle& node
 void JointImpedanceExampleController::starting(const ros::Time& time) {
   const franka::RobotState& state = pose_handle_->getRobotState();
   O_T_EE_start_ = state.O_T_EE_d;
-  // A restart begins the circle anew, from rest.
+  // A restart begins the circle from rest.
   angle_ = 0.0;
   velocity_ = 0.0;
   dq_filtered_ = state.dq;
@@ -124,7 +124,7 @@ void JointImpedanceExampleController::compare(const franka::RobotState& state,
   const std::array<double, 7> gravity = model_handle_->getGravity();
   double sum = 0.0;
   for (std::size_t i = 0; i < gravity.size(); ++i) {
-    // What was commanded a cycle ago is what is measured now.
+    // The measured torque is the command of the last cycle.
     const double commanded = last_tau_[i] + gravity[i];
     publisher_.msg_.tau_commanded[i] = commanded;
     publisher_.msg_.tau_measured[i] = state.tau_J[i];

@@ -13,7 +13,7 @@ namespace {
 
 constexpr char kName[] = "JointPositionExampleController";
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kOpposite = 4;  // the fifth joint goes the other way
+constexpr std::size_t kOpposite = 4;  // the fifth joint moves in the opposite direction
 
 }  // namespace
 

@@ -43,7 +43,7 @@ void JointVelocityExampleController::starting(const ros::Time& /*time*/) { elaps
 void JointVelocityExampleController::update(const ros::Time& /*time*/,
                                             const ros::Duration& period) {
   elapsed_ += period.toSec();
-  // Every other cycle goes back.
+  // Every second cycle moves back.
   const double direction = std::fmod(elapsed_, 2.0 * kCycle) < kCycle ? 1.0 : -1.0;
   const double omega =
       direction * kMaxVelocity / 2.0 * (1.0 - std::cos(2.0 * kPi / kCycle * elapsed_));

@@ -39,8 +39,8 @@ void JointWall::reset() {
 
 double JointWall::depth(double q) const noexcept {
   const double width = pd_width_ + d_width_;
-  const double room = std::min(upper_ - q, q - lower_);
-  return width > 0.0 ? std::clamp(1.0 - room / width, 0.0, 1.0) : 0.0;
+  const double distance = std::min(upper_ - q, q - lower_);
+  return width > 0.0 ? std::clamp(1.0 - distance / width, 0.0, 1.0) : 0.0;
 }
 
 void JointWall::begin(double q) {

@@ -12,10 +12,10 @@ namespace {
 constexpr double kAligned = 0.01;           // [rad]
 constexpr double kAlignVelocity = 0.1;      // [rad/s]
 constexpr double kAlignAcceleration = 0.5;  // [rad/s^2]
-constexpr double kVelocityShift = 0.25;     // [rad] deviation at which the limits are half way
+constexpr double kVelocityShift = 0.25;     // [rad] deviation at the middle of the transition
 constexpr double kVelocityIncrease = 20.0;  // [1/rad]
 constexpr double kContactIncrease = 0.3;    // [1/N]
-constexpr double kErrorDecay = 0.95;        // of the torques a cycle, while an arm has an error
+constexpr double kErrorDecay = 0.95;        // of the torques per cycle, while an arm has an error
 
 const Vector7d& alignStiffness() {
   static const Vector7d gains = (Vector7d() << 45.0, 45.0, 45.0, 45.0, 18.0, 11.0, 5.0).finished();
@@ -26,7 +26,7 @@ const Vector7d& alignDamping() {
   return gains;
 }
 
-/// 0 without force, towards 1 above the threshold.
+/// 0 without force, approaching 1 above the threshold.
 double contact(const Eigen::Vector3d& force, double threshold) noexcept {
   return rampParameter(force.norm(), 1.0, 0.0, threshold, kContactIncrease);
 }
@@ -53,7 +53,7 @@ void TeleopFollow::update(const TeleopParameters& parameters, const TeleopArm& l
   leader_contact_ = contact(leader.force_ext, parameters.leader_contact_force_threshold);
   follower_contact_ = contact(follower.force_ext, parameters.follower_contact_force_threshold);
   if (leader.has_error || follower.has_error) {
-    // Nothing drives an arm against a partner that stands still.
+    // An arm is not driven while its partner stands still.
     tau_leader_ *= kErrorDecay;
     tau_follower_ *= kErrorDecay;
     q_target_ = follower.q;
@@ -78,7 +78,7 @@ void TeleopFollow::advanceTarget(const TeleopParameters& parameters, const Teleo
     double dq_max = kAlignVelocity;
     double ddq_max = kAlignAcceleration;
     if (tracking_) {
-      // The larger the deviation, the slower it is made up for.
+      // The larger the deviation, the slower it is reduced.
       dq_max =
           rampParameter(std::abs(deviation), parameters.follower_dq_max_lower[i],
                         parameters.follower_dq_max_upper[i], kVelocityShift, kVelocityIncrease);
@@ -86,8 +86,8 @@ void TeleopFollow::advanceTarget(const TeleopParameters& parameters, const Teleo
           rampParameter(std::abs(deviation), parameters.follower_ddq_max_lower[i],
                         parameters.follower_ddq_max_upper[i], kVelocityShift, kVelocityIncrease);
     }
-    const double wanted = parameters.drift_comp_gains[i] * deviation + leader.dq[i];
-    const double step = std::min(std::max(wanted - dq_target_[i], -ddq_max * dt), ddq_max * dt);
+    const double desired = parameters.drift_comp_gains[i] * deviation + leader.dq[i];
+    const double step = std::min(std::max(desired - dq_target_[i], -ddq_max * dt), ddq_max * dt);
     dq_target_[i] = std::min(std::max(dq_target_[i] + step, -dq_max), dq_max);
     q_target_[i] += dq_target_[i] * dt;
   }

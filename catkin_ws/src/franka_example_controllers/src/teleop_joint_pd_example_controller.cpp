@@ -108,7 +108,7 @@ bool TeleopJointPDExampleController::initArm(hardware_interface::RobotHW* robot_
 bool TeleopJointPDExampleController::buildWalls(const ros::NodeHandle& node_handle,
                                                 const std::vector<std::string>& joint_names,
                                                 FrankaDataContainer7& arm) {
-  // <parent>/<controller>/leader: the description stands beside the controller.
+  // <parent>/<controller>/leader: the description is beside the controller.
   const std::string parent =
       ros::names::parentNamespace(ros::names::parentNamespace(node_handle.getNamespace()));
   urdf::Model model;
@@ -134,7 +134,7 @@ bool TeleopJointPDExampleController::buildWalls(const ros::NodeHandle& node_hand
   return true;
 }
 
-// --- what debug adds -----------------------------------------------------------------------------
+// --- debug functions -----------------------------------------------------------------------------
 
 void TeleopJointPDExampleController::offerReconfigure(const ros::NodeHandle& node_handle) {
   publishers_ = std::make_unique<Publishers>();
@@ -166,7 +166,7 @@ void TeleopJointPDExampleController::offerReconfigure(const ros::NodeHandle& nod
     markers.push_back(marker);
   }
 
-  // The values that were read become the server's, so that its defaults do not overwrite them.
+  // The values read become the server's, so that its defaults do not overwrite them.
   const ros::NodeHandle server_nh("dyn_reconf_teleop_param_node");
   teleop_paramConfig config = teleop_paramConfig::__getDefault__();
   const TeleopParameters& p = parameters_;

@@ -48,7 +48,7 @@ bool waitFor(const std::function<bool()>& condition) {
   return true;
 }
 
-/// A model so plain that torques can be read off: joint i moves along axis i of the end effector.
+/// A simple model with predictable torques: joint i moves along axis i of the end effector.
 class PlainModel : public franka_hw::ModelBase {
  public:
   std::array<double, 16> pose(franka::Frame, const std::array<double, 7>&,
@@ -133,7 +133,7 @@ class ControllerTest : public testing::Test {
     return base.initRequest(&robot, root, node, claims);
   }
 
-  /// Lets the controller run for some milliseconds on an arm that follows its commands.
+  /// Runs the controller for some milliseconds on an arm that follows its commands.
   void run(CartesianImpedanceExampleController& controller, FakeRobot& robot, int milliseconds) {
     for (int i = 0; i < milliseconds; ++i) {
       controller.update(ros::Time(1.0 + 1e-3 * i), ros::Duration(0.001));
@@ -150,7 +150,7 @@ class ControllerTest : public testing::Test {
     return message;
   }
 
-  /// Publishes and waits until the controller has had the message.
+  /// Publishes and waits until the controller has received the message.
   void send(const geometry_msgs::PoseStamped& message) {
     if (!publisher) {
       publisher = node.advertise<geometry_msgs::PoseStamped>("equilibrium_pose", 10);
@@ -211,7 +211,7 @@ TEST_F(ControllerTest, HoldsStillWhereItStarts) {
   }
 }
 
-TEST_F(ControllerTest, FollowsTheEquilibriumPoseByItsSpring) {
+TEST_F(ControllerTest, FollowsTheEquilibriumPoseWithItsStiffness) {
   FakeRobot robot("panda");
   CartesianImpedanceExampleController controller;
   ASSERT_TRUE(initialise(controller, robot));
@@ -225,7 +225,7 @@ TEST_F(ControllerTest, FollowsTheEquilibriumPoseByItsSpring) {
   EXPECT_NEAR(200.0 * 0.05, robot.command[0], 1e-6) << "the default stiffness times 5 cm";
   EXPECT_NEAR(0.0, robot.command[1], 1e-9);
 
-  // A quaternion of any length and sign is the rotation it points to.
+  // A quaternion of any length and sign is normalised.
   auto message = poseMessage(0.35);
   message.pose.orientation.x = -3.0;
   send(message);
@@ -241,7 +241,7 @@ TEST_F(ControllerTest, FollowsTheEquilibriumPoseByItsSpring) {
   }
 }
 
-TEST_F(ControllerTest, ForgetsPosesFromBeforeItsStart) {
+TEST_F(ControllerTest, DropsPosesFromBeforeItsStart) {
   FakeRobot robot("panda");
   CartesianImpedanceExampleController controller;
   ASSERT_TRUE(initialise(controller, robot));
@@ -259,7 +259,7 @@ TEST_F(ControllerTest, ForgetsPosesFromBeforeItsStart) {
   }
 }
 
-TEST_F(ControllerTest, RefusesPosesThatAreNone) {
+TEST_F(ControllerTest, RefusesInvalidPoses) {
   FakeRobot robot("panda");
   CartesianImpedanceExampleController controller;
   ASSERT_TRUE(initialise(controller, robot));
@@ -273,7 +273,7 @@ TEST_F(ControllerTest, RefusesPosesThatAreNone) {
   send(poseMessage(0.9, nan));
   send(poseMessage(0.9, infinite));
   send(zero);
-  send(poseMessage(0.29));  // comes last, so the others were seen before it
+  send(poseMessage(0.29));  // sent last, so that the others were received before
   ASSERT_TRUE(waitFor([&] {
     run(controller, robot, 1);
     return robot.command[0] < -1e-3;
@@ -288,7 +288,7 @@ TEST_F(ControllerTest, TakesStiffnessFromDynamicReconfigure) {
   ASSERT_TRUE(initialise(controller, robot));
   controller.starting(ros::Time(1.0));
 
-  // Joint 7 moves nothing: it has the whole null space, with 0.5 Nm/rad from the first cycle on.
+  // Joint 7 moves nothing: it is the whole null space, with 0.5 Nm/rad from the first cycle on.
   robot.state.q[6] = 0.2;
   run(controller, robot, 1);
   EXPECT_NEAR(-0.5 * 0.2, robot.command[6], 1e-12);

@@ -1,9 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The law against a second computation of the same formulas that shares nothing with it:
-// orientation errors by rotation matrices, the null space by singular values, gains by their closed
-// form in time.
+// The law compared with an independent computation of the same formulas: orientation errors by
+// rotation matrices, the null space by singular values, gains by their closed form in time.
 
 #include <franka_example_controllers/cartesian_impedance.h>
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector7 = CartesianImpedance::Vector7;
 using Arm = CartesianImpedance::Arm;
 
-constexpr double kFar = 1e9;  // a torque nobody reaches: for tests without saturation
+constexpr double kFar = 1e9;  // a torque out of reach: for tests without saturation
 
 class Random {
  public:
@@ -60,7 +59,7 @@ Vector7 joints(const std::array<double, 7>& values) {
   return Eigen::Map<const Vector7>(values.data());
 }
 
-/// Torques of the formulas, for gains and equilibrium given outright.
+/// Torques of the formulas, for given gains and equilibrium.
 Vector7 expectedTorque(const Arm& arm, const Eigen::Isometry3d& desired, const Vector7& q_start,
                        double kt, double kr, double dt, double dr, double kn) {
   const Eigen::Map<const Eigen::Matrix<double, 6, 7>> J(arm.zero_jacobian.data());
@@ -84,7 +83,7 @@ Vector7 expectedTorque(const Arm& arm, const Eigen::Isometry3d& desired, const V
   return J.transpose() * wrench + kept + joints(arm.coriolis);
 }
 
-/// The law keeps within 1 Nm of tau_J_d: told to be at the answer already, it shows the answer.
+/// The law stays within 1 Nm of tau_J_d: if that is the expected result, the output is the result.
 Vector7 unsaturated(CartesianImpedance& impedance, Arm arm, const Vector7& expected) {
   Eigen::Map<Vector7>(arm.tau_J_d.data()) = expected;
   return impedance.update(arm);
@@ -101,7 +100,7 @@ TEST(CartesianImpedance, FollowsTheFormulasOnRandomStates) {
 
     const Eigen::Isometry3d begin{Eigen::Map<const Eigen::Matrix4d>(start.O_T_EE.data())};
     const Eigen::Isometry3d target = random.pose();
-    // Either sign of a quaternion is the same rotation.
+    // Both signs of a quaternion are the same rotation.
     Eigen::Quaterniond orientation(target.linear());
     if (n % 2 == 0) {
       orientation.coeffs() *= -1.0;
@@ -109,7 +108,7 @@ TEST(CartesianImpedance, FollowsTheFormulasOnRandomStates) {
     impedance.setEquilibrium(target.translation(), orientation);
 
     for (int update = 0; update < 30; ++update) {
-      // What 0.5 % per update has made of everything by now.
+      // Closed form of 0.5 % per update.
       const double way = 1.0 - std::pow(0.995, update);
       Eigen::Isometry3d desired;
       desired.setIdentity();
@@ -140,7 +139,7 @@ TEST(CartesianImpedance, StartsSoftly) {
   CartesianImpedance impedance;
   impedance.start(arm.O_T_EE, arm.q, 0.5);
   impedance.setCompliance({200.0, 10.0, 0.5});
-  // Pushed away by 10 cm in the same cycle: no spring yet, so nothing but the Coriolis torques.
+  // Pushed by 10 cm in the same cycle: no spring yet, so only Coriolis torques.
   arm.O_T_EE[12] += 0.1;
   EXPECT_LT((unsaturated(impedance, arm, joints(arm.coriolis)) - joints(arm.coriolis))
                 .lpNorm<Eigen::Infinity>(),
@@ -164,7 +163,7 @@ TEST(CartesianImpedance, IsAtRestWhereItStarted) {
   }
 }
 
-TEST(CartesianImpedance, ForgetsItsTargetsWhenStartedAgain) {
+TEST(CartesianImpedance, ResetsItsTargetsWhenRestarted) {
   Random random;
   Arm arm = random.arm();
   arm.dq.fill(0.0);

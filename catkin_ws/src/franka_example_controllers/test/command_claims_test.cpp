@@ -30,8 +30,7 @@ Names subset(unsigned bits) {
   return names;
 }
 
-/// What the robot says when a controller with these claims is to start: franka_hw's checks of a
-/// switch.
+/// Whether the robot allows a controller with these claims: franka_hw's checks of a switch.
 bool robotAllows(const Names& names) {
   const char* const interfaces[] = {
       "hardware_interface::PositionJointInterface", "hardware_interface::VelocityJointInterface",
@@ -58,7 +57,7 @@ bool robotAllows(const Names& names) {
          franka_hw::getControlMode("panda", arms) != franka_hw::ControlMode::None;
 }
 
-/// The rows of the documentation's table that are allowed, as bits.
+/// The allowed rows of the documentation's table, as bits.
 std::set<unsigned> documented() {
   std::ifstream page(WRITE_YOUR_OWN);
   std::set<unsigned> rows;
@@ -77,7 +76,7 @@ std::set<unsigned> documented() {
   return rows;
 }
 
-TEST(CommandClaims, AreThoseOfTheRobotAndOfTheDocumentation) {
+TEST(CommandClaims, MatchTheRobotAndTheDocumentation) {
   const std::set<unsigned> rows = documented();
   EXPECT_EQ(9U, rows.size());
   for (unsigned bits = 1; bits < 32; ++bits) {
@@ -88,14 +87,14 @@ TEST(CommandClaims, AreThoseOfTheRobotAndOfTheDocumentation) {
   }
 }
 
-TEST(CommandClaims, SaysWhatIsWrong) {
+TEST(CommandClaims, ReportErrorsWithTheirCause) {
   EXPECT_NE(std::string::npos, checkCommandClaims({}).refusal.find("No command interface"));
   EXPECT_NE(std::string::npos, checkCommandClaims({"tau"}).refusal.find("'tau'"));
   EXPECT_NE(std::string::npos,
             checkCommandClaims({"effort", "effort"}).refusal.find("named twice"));
 }
 
-TEST(GentleStop, BeginsWithWhatWasAndEndsAtRest) {
+TEST(GentleStop, StartsAtTheGivenMotionAndEndsAtRest) {
   for (const double velocity : {-2.0, 0.0, 0.5}) {
     for (const double acceleration : {-3.0, 0.0, 7.0}) {
       const GentleStop<1> stop({{velocity}}, {{acceleration}}, 5.0);

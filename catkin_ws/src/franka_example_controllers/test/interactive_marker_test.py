@@ -48,7 +48,7 @@ class InteractiveMarkerTest(unittest.TestCase):
         self.clock.publish(Clock(clock=rospy.Time.from_sec(seconds)))
 
     def run_clock(self, first, condition, step=0.005):
-        """Until the condition holds; where it never does, that shows afterwards. @returns the time then."""
+        """Runs until the condition holds or a deadline; the caller checks. @returns the time then."""
         end = time.monotonic() + DEADLINE
         while not condition() and time.monotonic() < end:
             self.tick(first)
@@ -57,7 +57,7 @@ class InteractiveMarkerTest(unittest.TestCase):
         return first
 
     def poses_at(self, wanted):
-        """Those received that are where they are wanted."""
+        """Received poses at the expected position."""
         return [
             pose
             for pose in self.poses
@@ -79,11 +79,11 @@ class InteractiveMarkerTest(unittest.TestCase):
         message.pose.orientation.w = 1.0
         self.feedback.publish(message)
 
-    def test_follows_the_arm_then_the_user(self):
+    def test_marker_follows_the_arm_and_then_the_user(self):
         self.assertTrue(wait_for(lambda: self.states.get_num_connections() > 0))
         self.assertEqual([], self.poses)
 
-        # A robot that knows no pose yet is not followed, and time still stands still.
+        # The marker does not follow a robot without a pose, and time still stands still.
         self.states.publish(FrankaState())
         time.sleep(0.3)
         self.assertEqual([], self.markers)
@@ -110,13 +110,13 @@ class InteractiveMarkerTest(unittest.TestCase):
         q = pose.pose.orientation
         self.assertAlmostEqual(1.0, q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, places=12)
         self.assertAlmostEqual(1.0, abs(q.x), places=4)
-        # The median: a machine that stands still delays some.
+        # The median: a busy machine delays some.
         stamps = [pose.header.stamp.to_sec() for pose in self.poses]
         period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))
         self.assertLess(period, 0.01, "5 ms were asked for")
         self.assertGreater(period, 0.0047)
 
-        # Dragged inside and outside of where the arm may go.
+        # Dragged inside and outside of the marker's range.
         drags = [
             ((0.2, -0.2, 0.3), (0.2, -0.2, 0.3)),
             ((9.0, 9.0, 9.0), (0.6, 0.6, 0.9)),
@@ -127,7 +127,7 @@ class InteractiveMarkerTest(unittest.TestCase):
             now = self.run_clock(now, lambda wanted=expected: self.poses_at(wanted))
             self.assertTrue(self.poses_at(expected), self.poses[-1])
 
-        # The simulation starts anew: time goes back, and the marker goes on publishing.
+        # The simulation restarts: time goes back, and the marker continues to publish.
         def again():
             return sum(pose.header.stamp.to_sec() < 9.0 for pose in self.poses) > 20
 
@@ -136,7 +136,7 @@ class InteractiveMarkerTest(unittest.TestCase):
 
 
 class DualArmMarkerTest(unittest.TestCase):
-    def test_speaks_on_the_topics_of_the_controller(self):
+    def test_uses_the_topics_of_the_controller(self):
         controller = "/dual_arm_cartesian_impedance_example_controller/"
         clock = rospy.Publisher("/clock", Clock, queue_size=10)
         frames = rospy.Publisher(controller + "centering_frame", PoseStamped, queue_size=1, latch=True)
@@ -162,7 +162,7 @@ class DualArmMarkerTest(unittest.TestCase):
 
 
 class QuaternionTest(unittest.TestCase):
-    def test_all_four_ways_to_compute_it(self):
+    def test_all_four_branches_of_the_quaternion(self):
         import interactive_marker
 
         half = math.sqrt(0.5)

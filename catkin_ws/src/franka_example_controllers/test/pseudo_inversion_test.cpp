@@ -25,7 +25,7 @@ void expectSameAnswers() {
   }
 }
 
-TEST(PseudoInversion, FixedSizeGivesTheAnswerOfTheSingularValues) {
+TEST(PseudoInversion, FixedSizeMatchesSingularValues) {
   expectSameAnswers<7, 6>();
   expectSameAnswers<6, 7>();
   expectSameAnswers<3, 3>();

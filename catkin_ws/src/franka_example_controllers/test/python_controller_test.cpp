@@ -24,7 +24,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 constexpr double kPeriod = 1e-3;               // [s]
-constexpr std::chrono::seconds kDeadline{30};  // of what happens in other threads
+constexpr std::chrono::seconds kDeadline{30};  // for events in other threads
 
 bool waitFor(const std::function<bool()>& condition) {
   const auto end = std::chrono::steady_clock::now() + kDeadline;
@@ -37,8 +37,8 @@ bool waitFor(const std::function<bool()>& condition) {
   return true;
 }
 
-/// The errors in the log, and what the controllers ask of the controller manager, which the test
-/// is.
+/// The log's errors, and the controllers' requests to the controller manager, which the test
+/// replaces.
 class World {
  public:
   World() {
@@ -106,7 +106,7 @@ class PythonControllerTest : public testing::Test {
     node.setParam("class", "Law");
     node.setParam("arm_id", "panda");
     node.setParam("joint_names", arm.joint_names);
-    // Of a machine that others use as well.
+    // For a shared machine.
     node.setParam("max_update_time", 5.0);
     node.setParam("max_starting_time", 20.0);
     command({"joint_velocity"});
@@ -147,7 +147,7 @@ class PythonControllerTest : public testing::Test {
     }
   }
 
-  /// Runs a law until the controller asks to be stopped; then the log must have the text.
+  /// Runs a law until the controller requests its stop; then the log must contain the text.
   void expectFailure(const std::string& text) {
     world().forget();
     PythonController controller;
@@ -175,7 +175,7 @@ class PythonControllerTest : public testing::Test {
   controller_interface::ControllerBase::ClaimedResources claims;
 };
 
-TEST_F(PythonControllerTest, HandsOnEveryAllowedCombination) {
+TEST_F(PythonControllerTest, PassesEveryAllowedCombination) {
   const std::string seven = "np.arange(7.0) + 10.0";
   const std::string pose = "np.array(state.O_T_EE_d)";
   const std::string twist = "np.arange(6.0) + 20.0";
@@ -219,7 +219,7 @@ TEST_F(PythonControllerTest, HandsOnEveryAllowedCombination) {
   EXPECT_EQ("", world().errors());
 }
 
-TEST_F(PythonControllerTest, ElbowGoesWithCartesianCommands) {
+TEST_F(PythonControllerTest, ElbowAccompaniesCartesianCommands) {
   command({"cartesian_velocity"});
   law("return {'cartesian_velocity': [0.0] * 6, 'elbow': [0.25, -1.0]}");
   PythonController controller;
@@ -263,7 +263,7 @@ class Law:
   EXPECT_EQ((std::array<double, 7>{{2.5, kPeriod, -0.7, 0.5, 0.0, 0.0, 0.0}}), arm.velocity);
 }
 
-TEST_F(PythonControllerTest, StopsItselfWithASentenceWhateverTheScriptDoes) {
+TEST_F(PythonControllerTest, StopsItselfWithASentenceForAnyScriptError) {
   const std::pair<const char*, const char*> cases[] = {
       {"return 1.0 / 0", "ZeroDivisionError: float division by zero"},
       {"return None", "update() returned None; it must return joint_velocity."},
@@ -282,11 +282,11 @@ TEST_F(PythonControllerTest, StopsItselfWithASentenceWhateverTheScriptDoes) {
   }
   law("return [0.0] * 7", "raise ValueError('not here')");
   expectFailure("ValueError: not here");
-  // The place is named as well.
+  // The location is reported as well.
   EXPECT_TRUE(world().logged(", in starting"));
 }
 
-TEST_F(PythonControllerTest, RefusesPosesThatAreNone) {
+TEST_F(PythonControllerTest, RefusesInvalidPoses) {
   command({"cartesian_pose"});
   for (const char* body : {"return 1.1 * np.array(state.O_T_EE_d)",
                            "return np.diag([1, 1, -1, 1.0])", "return np.ones(16)"}) {
@@ -295,7 +295,7 @@ TEST_F(PythonControllerTest, RefusesPosesThatAreNone) {
   }
 }
 
-TEST_F(PythonControllerTest, LeavesAScriptThatIsLateAndGoesOnWithOthers) {
+TEST_F(PythonControllerTest, AbandonsALateScriptAndContinuesWithOthers) {
   node.setParam("max_update_time", 0.2);
   node.setParam("fallback_controllers", Names{"other"});
   law("\n    while self.n == 3: pass\n    return [0.0] * 7");
@@ -311,7 +311,7 @@ TEST_F(PythonControllerTest, LeavesAScriptThatIsLateAndGoesOnWithOthers) {
   EXPECT_TRUE(waitFor([] { return world().logged("was interrupted here:"); })) << world().errors();
   EXPECT_TRUE(waitFor([] { return !world().started().empty(); }));
   EXPECT_EQ(Names{"other"}, world().started());
-  // Started again it begins anew.
+  // After a restart it begins from the start.
   controller.stopping(ros::Time(5.0));
   controller.starting(ros::Time(6.0));
   run(controller, 2);
@@ -343,7 +343,7 @@ class Law:
   expectFailure("The model may be used only within starting() and update()");
 }
 
-TEST_F(PythonControllerTest, RefusesWhatCannotBeLoaded) {
+TEST_F(PythonControllerTest, RefusesScriptsThatCannotBeLoaded) {
   script("class Law:\n  def starting(self\n");
   expectRefusal("SyntaxError");
   script("class Other: pass\n");
@@ -375,7 +375,7 @@ TEST_F(PythonControllerTest, RefusesWhatCannotBeLoaded) {
   expectRefusal("must be a time above zero");
 }
 
-TEST_F(PythonControllerTest, LoadsAScriptAnewTwentyTimes) {
+TEST_F(PythonControllerTest, ReloadsAScriptTwentyTimes) {
   for (int i = 0; i < 20; ++i) {
     law("return [" + std::to_string(i) + ".0] * 7");
     PythonController controller;
@@ -408,7 +408,7 @@ class Law:
   }
 }
 
-TEST_F(PythonControllerTest, TheLoopItselfNeitherAllocatesNorLocks) {
+TEST_F(PythonControllerTest, LoopNeitherAllocatesNorLocks) {
   law("return [0.0] * 7");
   PythonController controller;
   ASSERT_TRUE(initialise(controller));
@@ -420,7 +420,7 @@ TEST_F(PythonControllerTest, TheLoopItselfNeitherAllocatesNorLocks) {
   EXPECT_EQ(0U, scope.locks());
 }
 
-/// Runs a motion that raises after a second, and returns what was commanded from then on.
+/// Runs a motion that raises after a second, and returns the commands from then on.
 TEST_F(PythonControllerTest, BringsJointsToRestWithoutAJump) {
   command({"joint_position"});
   law("\n    t = self.n * 1e-3\n    if self.n > 1000: raise RuntimeError('enough')\n"
@@ -437,16 +437,17 @@ TEST_F(PythonControllerTest, BringsJointsToRestWithoutAJump) {
   double acceleration_before = 0.0;
   for (std::size_t i = 1; i + 1 < q.size(); ++i) {
     const double acceleration = (q[i + 1] - 2.0 * q[i] + q[i - 1]) / (kPeriod * kPeriod);
-    EXPECT_LT(std::abs(acceleration), 5.5) << i;  // the stop's 5 rad/s^2, and what fades
+    EXPECT_LT(std::abs(acceleration), 5.5)
+        << i;  // the stop's 5 rad/s^2, and the fading acceleration
     if (i > 1) {
-      // 2000 rad/s^3: a fourth of the Panda's limit.
+      // 2000 rad/s^3: a quarter of the Panda's limit.
       EXPECT_LT(std::abs(acceleration - acceleration_before), 2.0) << i;
     }
     acceleration_before = acceleration;
   }
   EXPECT_NEAR(q[q.size() - 1], q[q.size() - 2], 1e-12);
   // v = 0.5 sin 2 = 0.455 rad/s and a = cos 2 = -0.416 rad/s^2 at the end, so T = 1.5 v / 5 s and
-  // the way is the integral of the cubic: v T / 2 + a T^2 / 12.
+  // the distance is the integral of the cubic: v T / 2 + a T^2 / 12.
   const double v = 0.5 * std::sin(2.0);
   const double a = std::cos(2.0);
   const double stop = 1.5 * v / 5.0;
@@ -478,12 +479,12 @@ TEST_F(PythonControllerTest, BringsPosesToRestAsPoses) {
   }
   EXPECT_GT(positions.back(), x);
   EXPECT_NEAR(positions.back(), positions[positions.size() - 2], 1e-12);
-  // It turned as far as it went: one rad for one metre, as the law had it.
+  // It turned one rad per metre, like the law.
   const double angle = std::atan2(arm.pose[1], arm.pose[0]);
   EXPECT_NEAR(positions.back() - 0.3, angle, 1e-4);
 }
 
-TEST_F(PythonControllerTest, DampsWithTorquesOfALimitedRate) {
+TEST_F(PythonControllerTest, DampsWithTorquesAtALimitedRate) {
   command({"effort"});
   law("return [20.0] * 7 if self.n < 3 else None");
   arm.state.dq.fill(0.1);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The Python examples move a simulated FR3 as they say; a script that fails stops nobody else."""
+"""The Python examples move a simulated FR3; a failing script stops only its controller."""
 
 import math
 import tempfile
@@ -66,7 +66,7 @@ class PythonControllersTest(unittest.TestCase):
             if s.header.stamp >= begin and s.robot_mode == FrankaState.ROBOT_MODE_MOVE
         ]
 
-    def test_1_joint_impedance_swings_the_fourth_joint(self):
+    def test_1_joint_impedance_moves_the_fourth_joint(self):
         self.wait_for(lambda: self.states, "There is no state.")
         begin = self.states[-1].q
         states = self.record(IMPEDANCE, 4.0)
@@ -77,7 +77,7 @@ class PythonControllersTest(unittest.TestCase):
         for joint in (0, 1, 2, 4, 5, 6):
             self.assertLess(max(abs(s.q[joint] - begin[joint]) for s in states), 0.01)
 
-    def test_2_circle_is_a_circle(self):
+    def test_2_cartesian_example_moves_on_a_circle(self):
         states = self.record(CIRCLE, 5.0)
         begin = states[0].O_T_EE_d
         centre = begin[13] + 0.05
@@ -88,7 +88,7 @@ class PythonControllersTest(unittest.TestCase):
         self.assertGreater(max(abs(s.O_T_EE_d[13] - begin[13]) for s in states), 0.09)
         self.assertEqual([], [e for e in self.errors if "Python" in e])
 
-    def test_3_a_script_that_fails_stops_alone(self):
+    def test_3_a_failing_script_stops_only_its_controller(self):
         with tempfile.TemporaryDirectory() as folder:
             script = Path(folder) / "faulty.py"
             script.write_text(

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""teleop_gripper_node between two hands that the test plays."""
+"""teleop_gripper_node between two hands simulated by the test."""
 
 import os
 import subprocess
@@ -98,7 +98,7 @@ class TeleopGripperTest(unittest.TestCase):
         )
 
     def wait_to_follow(self):
-        """Until the node says that it has seen how wide the leader's hand is and follows it."""
+        """Waits until the node reports that it follows the leader's width."""
         said = ""
         for line in self.node.stdout:
             said += line
@@ -138,14 +138,14 @@ class TeleopGripperTest(unittest.TestCase):
         self.assertEqual("follower/move", name)
         self.assertAlmostEqual(WIDEST, move.width, places=9)
         self.assertEqual(0.1, move.speed)
-        # Between the two nothing is to happen: the next order must be the one after.
+        # Between the two widths no order is sent: the next order must belong to the next width.
         type(self).width = 0.041
         time.sleep(0.3)
         self.follow(0.0, 5, "The second grasp")
         self.assertEqual("follower/grasp", self.hands.names()[-1])
         self.assertEqual(12.0, self.hands.orders[-1][1].force)
 
-    def test_homed_hands_are_not_homed_again_and_a_grasp_without_end_is_stopped(self):
+    def test_homed_hands_are_not_homed_again_and_an_endless_grasp_is_stopped(self):
         self.hands.grasp_lasts = 60.0
         self.start("_gripper_homed:=true")
         # The largest width is taken for 0.07: grasps below 0.035.
@@ -156,14 +156,14 @@ class TeleopGripperTest(unittest.TestCase):
         self.follow(0.043, 3, "The opening")
         self.assertAlmostEqual(0.07, self.hands.orders[-1][1].width, places=9)
 
-    def test_ends_with_a_sentence_when_homing_fails(self):
+    def test_reports_failed_homing_and_exits(self):
         self.hands.homing_error = "a finger is blocked"
         self.start()
         self.assertEqual(1, self.node.wait(DEADLINE))
         said = self.node.stdout.read()
         self.assertIn("homing failed: a finger is blocked. Clear the fingers", said)
 
-    def test_ends_with_a_sentence_without_hands(self):
+    def test_reports_missing_hands_and_exits(self):
         self.start("leader/homing:=nobody/homing", "_server_timeout:=0.5")
         self.assertEqual(1, self.node.wait(DEADLINE))
         self.assertIn("no action /nobody/homing after 0.5 s", self.node.stdout.read())

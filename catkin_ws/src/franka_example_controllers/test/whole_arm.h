@@ -15,7 +15,7 @@
 
 namespace franka_example_controllers {
 
-/// A model whose answers can be told apart: numbers counted up from 100, 200, ...
+/// A model with distinguishable results: numbers counted up from 100, 200, ...
 class CountingModel : public franka_hw::ModelBase {
  public:
   using Q = std::array<double, 7>;
@@ -56,7 +56,7 @@ class CountingModel : public franka_hw::ModelBase {
   }
 };
 
-/// An arm `panda` with every interface of a Franka arm, which does what it is told at once.
+/// An arm `panda` with every interface of a Franka arm, which executes commands at once.
 class WholeArm : public hardware_interface::RobotHW {
  public:
   WholeArm() {

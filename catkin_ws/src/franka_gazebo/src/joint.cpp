@@ -14,7 +14,7 @@ double rate(double now, const boost::optional<double>& before, const ros::Durati
 
 }  // namespace
 
-// A mutex stays where it is; nobody else may use a joint that is moved from.
+// The mutex is not moved; no other thread may use a joint that is moved from.
 Joint::Joint(Joint&& other) noexcept
     : name(std::move(other.name)),
       handle(other.handle),

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// The original's headers, as programs that were written for them use them.
+/// Uses the original's headers as programs for the original do.
 
 #include <franka_gazebo/controller_verifier.h>
 #include <franka_gazebo/franka_gripper_sim.h>
@@ -58,7 +58,7 @@ std::set<std::string> armJoints(const std::string& arm_id) {
   return names;
 }
 
-TEST(FrankaGazeboJoint, DifferentiatesWhatItsDriveMeasures) {
+TEST(FrankaGazeboJoint, DifferentiatesMeasurementsOfItsDrive) {
   FakeDrive drive;
   Joint joint;
   joint.handle = &drive;
@@ -81,7 +81,7 @@ TEST(FrankaGazeboJoint, DifferentiatesWhatItsDriveMeasures) {
   EXPECT_FALSE(joint.isInCollision());
 }
 
-TEST(FrankaGazeboJoint, TellsWhatIsWantedByModeAndMethod) {
+TEST(FrankaGazeboJoint, DesiredValuesDependOnModeAndMethod) {
   Joint joint;
   joint.position = 1;
   joint.velocity = 2;
@@ -103,7 +103,7 @@ TEST(FrankaGazeboJoint, TellsWhatIsWantedByModeAndMethod) {
   EXPECT_EQ(joint.getDesiredTorque(RobotMode::kMove), 40);
 }
 
-TEST(FrankaGazeboControllerVerifier, TellsArmAndHand) {
+TEST(FrankaGazeboControllerVerifier, DistinguishesArmAndHand) {
   const JointMap joints = robot("fr3_left");
   const ControllerVerifier verifier(joints, "fr3_left");
   const auto arm = claiming("EffortJointInterface", armJoints("fr3_left"));

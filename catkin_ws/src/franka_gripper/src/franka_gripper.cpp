@@ -12,9 +12,9 @@ namespace franka_gripper {
 namespace {
 
 constexpr double kNoEffort = 1e-4;  // [N] smaller efforts mean: move, do not grasp
-constexpr double kArrived = 1e-4;   // [m] nearer targets are reached already
+constexpr double kArrived = 1e-4;   // [m] closer targets count as reached
 
-/// Whether the hand carried out the command. @throws franka::Exception
+/// @returns whether the hand succeeded @throws franka::Exception
 bool carryOut(const franka::Gripper& gripper, const GraspEpsilon& epsilon, double speed,
               double width, double effort, double present_width) {
   if (std::abs(width - present_width) < kArrived) {

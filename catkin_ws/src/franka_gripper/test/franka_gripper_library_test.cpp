@@ -1,8 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The library as a program with a franka::Gripper of its own uses it, against a gripper that
-// answers as it is told: the real wire, without a simulated hand.
+// Uses the library with a real connection to a fake gripper whose answers the test sets.
 #include <arpa/inet.h>
 #include <franka_gripper/franka_gripper.h>
 #include <gtest/gtest.h>
@@ -127,7 +126,7 @@ TEST(GripperLibrary, ReadsTheState) {
   EXPECT_EQ(0.08, state.max_width);
 }
 
-TEST(GripperLibrary, CarriesOutGoals) {
+TEST(GripperLibrary, ExecutesGoals) {
   FakeHand hand;
   const franka::Gripper gripper(hand.address());
   auto move = boost::make_shared<franka_gripper::MoveGoal>();
@@ -157,7 +156,7 @@ TEST(GripperLibrary, CarriesOutGoals) {
   EXPECT_EQ(4, hand.last[0]);
 }
 
-TEST(GripperLibrary, TellsFailureFromRefusal) {
+TEST(GripperLibrary, DistinguishesFailureAndRefusal) {
   FakeHand hand;
   const franka::Gripper gripper(hand.address());
   hand.status = 2;
@@ -167,13 +166,13 @@ TEST(GripperLibrary, TellsFailureFromRefusal) {
                franka::CommandException);
 }
 
-TEST(GripperLibrary, SaysWhetherTheStateCanBeRead) {
+TEST(GripperLibrary, ReportsWhetherTheStateCanBeRead) {
   auto hand = std::make_unique<FakeHand>();
   const franka::Gripper gripper(hand->address());
   hand.reset();
   franka::GripperState state;
   bool read = true;
-  for (int i = 0; i < 200 && read; i++) {  // states that were under way come first
+  for (int i = 0; i < 200 && read; i++) {  // states already sent arrive first
     read = franka_gripper::updateGripperState(gripper, &state);
   }
   EXPECT_FALSE(read);

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a user, and a careless one, does with franka_gripper_node; prints what came of it as JSON.
+"""Calls franka_gripper_node as users do, also with invalid goals; prints the results as JSON.
 
 Run by test_gripper_node.py with the interpreter that ROS uses. Arguments: the robot's address, the place
 of the stone between the fingers, the goals of the stream, and which action shall end which, as `move,grasp`.
@@ -73,14 +73,14 @@ class Fingers:
             return self._changed.wait_for(lambda: self.message is not None and condition(self.width), timeout)
 
     def next(self, count=3, timeout=20.0):
-        """Waits for some more messages; says whether they came."""
+        """Waits for more messages; returns whether they arrived."""
         with self._changed:
             end = len(self.stamps) + count
             return self._changed.wait_for(lambda: len(self.stamps) >= end, timeout)
 
 
 class Goal:
-    """A goal under way, and when it ended."""
+    """A running goal, and the time of its end."""
 
     def __init__(self, name, goal):
         self.name, self.active, self.ended = name, threading.Event(), threading.Event()
@@ -101,7 +101,7 @@ class Goal:
         self.active.wait(20.0)
 
     def result(self, timeout=30.0):
-        """[state, success, sentence], or what is missing."""
+        """[state, success, message], or what is missing."""
         if not self.ended.wait(timeout):
             return ["never ended", None, self.name]
         outcome = self.handle.get_result()
@@ -142,7 +142,7 @@ def opened(fingers):
 
 
 def plain(fingers):
-    """Each action with what it is for."""
+    """Each action in normal use."""
     report = {"homing": homing().result(), "names": fingers.message.name}
     report["move"] = move(0.03).result() + [fingers.until(lambda width: abs(width - 0.03) < 1e-3)]
     report["empty grasp"] = grasp(0.02).result() + [fingers.width]
@@ -179,7 +179,7 @@ def with_stone(fingers):
 
 
 def interrupted(fingers):
-    """Actions ended by others, or cancelled: how each ended and after how long."""
+    """Actions ended by others, or cancelled: state and duration of each."""
     slow = {
         "homing": homing,
         "move": lambda: move(0.0, 0.02),
@@ -190,7 +190,7 @@ def interrupted(fingers):
         "homing": homing,
         "move": lambda: move(0.03, 0.02),
         "grasp": lambda: grasp(0.01, 0.02),
-        "gripper_action": lambda: command(0.0),  # as far as it goes: it must not end by itself
+        "gripper_action": lambda: command(0.0),  # the longest motion: it must not end by itself
         "stop": stop,
     }
     report = {}
@@ -226,7 +226,7 @@ def stopped_on_the_way(fingers):
 
 
 def stream(fingers, count):
-    """Goals at 20 Hz, each before the one before it has ended."""
+    """Goals at 20 Hz, each before the end of the previous one."""
     opened(fingers)
     begin = len(fingers.stamps)
     at = time.monotonic()
@@ -267,7 +267,7 @@ def nonsense(fingers):
 
 
 def death(fingers):
-    """The hand is gone in the middle of a move, and comes back."""
+    """The hand is lost during a move, and is started again."""
     opened(fingers)
     running = move(0.0, 0.01)
     fingers.until(lambda width: width < 0.0785)

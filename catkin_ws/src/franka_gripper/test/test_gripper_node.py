@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_gripper_node against a simulated hand with a stone; gripper_client.py does what is judged here."""
+"""franka_gripper_node with a simulated hand and a stone; checks the report of gripper_client.py."""
 
 import json
 import os
@@ -20,7 +20,7 @@ PREEMPTED, SUCCEEDED, ABORTED = 2, 3, 4
 RECALLED = 8
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 
-# Which action is ended by which; in the long form each by each.
+# Pairs of a running action and the one that ends it; the long form has all pairs.
 ACTIONS = ("homing", "move", "grasp", "gripper_action")
 PAIRS = [
     *(("homing", "move"), ("move", "move"), ("grasp", "gripper_action"), ("gripper_action", "grasp")),
@@ -46,7 +46,7 @@ def start_hand(world) -> subprocess.Popen:
 
 
 def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
-    """Follows the client, and ends and starts the hand when it asks for that."""
+    """Reads the client's output, and ends and starts the hand on request."""
     lines = Lines(client.stdout)
     deadline = time.monotonic() + 600
     while time.monotonic() < deadline:
@@ -66,7 +66,7 @@ def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
 
 
 def complaints(session) -> dict:
-    """How nodes with something wrong end: [status, what they say]."""
+    """Exit of nodes with errors: [status, output]."""
     names = "_joint_names:=[a, b]"
     cases = {
         "no address": [names],
@@ -125,21 +125,21 @@ def report(tmp_path_factory):
                 process.wait()
 
 
-def test_each_action_does_what_it_is_for(report):
+def test_each_action_moves_the_hand(report):
     plain = report["plain"]
     assert plain["homing"] == [SUCCEEDED, True, ""]
     assert plain["names"] == ["panda_finger_joint1", "panda_finger_joint2"]
     assert plain["move"] == [SUCCEEDED, True, "", True]
 
 
-def test_a_grasp_of_nothing_says_so(report):
+def test_a_grasp_without_object_is_reported(report):
     state, success, text, width = report["plain"]["empty grasp"]
     assert (state, success) == (SUCCEEDED, False)
     assert "there is no object between them" in text
     assert width < 0.002
 
 
-def test_gripper_command_counts_one_finger_and_answers_the_whole_width(report):
+def test_gripper_command_takes_one_finger_and_returns_the_whole_width(report):
     plain = report["plain"]
     assert plain["command moves"][:2] == [SUCCEEDED, True]
     assert plain["command moves"][3] == pytest.approx(0.02, abs=1e-3)
@@ -149,7 +149,7 @@ def test_gripper_command_counts_one_finger_and_answers_the_whole_width(report):
     assert report["with_stone"]["command grasps"][:2] == [SUCCEEDED, True]
 
 
-def test_the_width_decides_whether_an_object_is_the_one_expected(report):
+def test_the_width_decides_whether_the_expected_object_is_grasped(report):
     stone = report["with_stone"]
     assert stone["fits"][:3] == [SUCCEEDED, True, ""]
     assert stone["fits"][3] == pytest.approx(0.03, abs=1e-3)
@@ -159,22 +159,22 @@ def test_the_width_decides_whether_an_object_is_the_one_expected(report):
         assert "another one than expected" in text
 
 
-def test_a_move_that_meets_an_obstacle_ends_at_once_and_says_where(report):
+def test_a_blocked_move_ends_at_once_and_reports_the_width(report):
     state, success, text, seconds, width = report["with_stone"]["obstacle"]
     assert (state, success) == (SUCCEEDED, False)
     assert "something is in their way" in text and "instead of 0.0 mm" in text
-    # 50 mm at 50 mm/s, and what it takes to notice.
+    # 50 mm at 50 mm/s, and the time to detect the end.
     assert 0.9 < seconds < 2.5
     assert width == pytest.approx(0.03, abs=2e-3)
 
 
-def test_what_slips_out_of_the_fingers_shows_in_their_width(report):
+def test_a_lost_object_shows_in_the_width(report):
     assert report["with_stone"]["hold"][:2] == [SUCCEEDED, True]
     assert report["with_stone"]["slipped"]
 
 
 @pytest.mark.parametrize("first, second", PAIRS)
-def test_whatever_comes_next_ends_what_runs(report, first, second):
+def test_a_new_goal_or_stop_ends_the_running_action(report, first, second):
     state, success, text, seconds, moving, new = report["interrupted"][f"{first},{second}"]
     assert moving
     assert state == (ABORTED if second == "stop" else PREEMPTED), text
@@ -187,7 +187,7 @@ def test_whatever_comes_next_ends_what_runs(report, first, second):
 def test_interruptions_take_less_than_100_ms(report):
     latencies = [outcome[3] for outcome in report["interrupted"].values()]
     assert len(latencies) == len(PAIRS)
-    # The typical one: another process may be at work on both cores.
+    # The median: other processes may use both cores.
     assert statistics.median(latencies) < 0.1
 
 
@@ -199,7 +199,7 @@ def test_a_stopped_grasp_stays_where_it_is(report):
     assert stopped["end"] == pytest.approx(stopped["begin"], abs=5e-4)
 
 
-def test_a_stream_of_goals_is_carried_out_to_the_last(report):
+def test_the_last_goal_of_a_stream_is_carried_out(report):
     stream = report["stream"]
     assert set(stream["states"][:-1]) <= {PREEMPTED, RECALLED, SUCCEEDED}
     assert stream["states"].count(SUCCEEDED) < len(stream["states"]) // 2
@@ -207,9 +207,9 @@ def test_a_stream_of_goals_is_carried_out_to_the_last(report):
     assert stream["reached"]
 
 
-def test_joint_states_come_at_the_set_rate_meanwhile(report):
+def test_joint_states_keep_their_rate_during_actions(report):
     gaps = report["stream"]["gaps"]
-    # Typically, and never a long time: another process may be at work on both cores.
+    # The median, and an upper bound: other processes may use both cores.
     assert statistics.median(gaps) == pytest.approx(1 / 30, rel=0.05)
     assert max(gaps) < 0.5
 
@@ -237,7 +237,7 @@ def test_impossible_widths_are_refused(report, goal):
         ("command effort", "max_effort must be"),
     ],
 )
-def test_other_nonsense_is_refused(report, goal, sentence):
+def test_other_invalid_goals_are_refused(report, goal, sentence):
     state, success, text = report["nonsense"][goal]
     assert (state, success) == (ABORTED, False)
     assert sentence in text
@@ -247,12 +247,12 @@ def test_refused_goals_move_nothing(report):
     assert report["nonsense"]["width"] == pytest.approx(0.08, abs=2e-3)
 
 
-def test_a_hand_that_goes_and_comes_back(report):
+def test_a_lost_hand_is_reported_and_reconnected(report):
     death = report["death"]
     assert death["running"][0] == ABORTED and "libfranka" in death["running"][2]
     assert death["meanwhile"][0] == ABORTED and death["meanwhile"][2]
     assert death["again"]
-    assert death["silent"]  # no old widths under new times
+    assert death["silent"]  # no old widths with new time stamps
     assert death["move"] == [SUCCEEDED, True, "", True]
 
 
@@ -267,7 +267,7 @@ def test_a_hand_that_goes_and_comes_back(report):
         ("nobody there", "no gripper at 127.0.31.9"),
     ],
 )
-def test_a_node_that_cannot_work_says_why_and_ends(report, case, sentence):
+def test_a_node_that_cannot_start_reports_why_and_exits(report, case, sentence):
     status, text = report["complaints"][case]
     assert status == 255
     assert sentence in text

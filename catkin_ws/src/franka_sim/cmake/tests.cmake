@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 
-# rt_guard.h: proves that loops neither allocate nor lock.
+# rt_guard.h proves that loops neither allocate nor lock.
 set(FRANKA_TEST_INCLUDE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 
 # Under catkin the workspace's gtest runs the tests; a plain build takes the system's gtest and ctest.
@@ -30,7 +30,7 @@ if(NOT catkin_FOUND)
   find_package(GTest REQUIRED)
 endif()
 
-# Each in a program of its own: rt_guard.h is made for one translation unit of a program.
+# One program each: rt_guard.h works in one translation unit of a program.
 foreach(name control_unit external_force gripper_unit modes_and_requests parts repeatability)
   sim_test(robot_${name}_test SOURCES test/robot/${name}_test.cpp LIBRARIES franka_sim_robot)
 endforeach()

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_sim as the user meets it: its command line, and the control interface of one line a command."""
+"""franka_sim as a user calls it: its command line, and the control interface."""
 
 import socket
 import struct
@@ -104,7 +104,7 @@ def test_help_names_every_option():
         (["--urdf", str(ROBOTS / "panda.urdf"), "--arm-id", "nobody"], "nobody"),
     ],
 )
-def test_a_wrong_command_line_is_refused_with_a_sentence(arguments, sentence):
+def test_a_wrong_command_line_is_refused(arguments, sentence):
     result = run(*arguments)
     assert result.returncode == 2
     assert sentence in result.stderr
@@ -119,7 +119,7 @@ def test_a_wrong_command_line_is_refused_with_a_sentence(arguments, sentence):
         (["--urdf", "/nowhere.urdf"], "Cannot read the file '/nowhere.urdf'"),
     ],
 )
-def test_what_cannot_be_is_said(arguments, sentence, monkeypatch):
+def test_impossible_configurations_are_reported(arguments, sentence, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     result = run(*arguments)
     assert result.returncode == 1
@@ -159,7 +159,7 @@ def test_switches_of_the_robot(pace):
         assert say("state").startswith("ok Idle")
 
 
-def test_what_it_does_not_understand_it_says():
+def test_invalid_control_commands_are_reported():
     with simulated("127.0.22.4") as (say, _):
         assert say("dance").startswith("error: There is no command 'dance'")
         assert say("user_stop") == "error: Words are missing: user_stop on|off."
@@ -177,7 +177,7 @@ def test_what_it_does_not_understand_it_says():
         assert say("load 0.5 0 0 0.1") == "ok"
 
 
-def test_a_push_moves_the_held_arm_and_lets_it_come_back(tmp_path):
+def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
     world = tmp_path / "world.xml"
     world.write_text(WORLD)
 
@@ -193,16 +193,16 @@ def test_a_push_moves_the_held_arm_and_lets_it_come_back(tmp_path):
 
         before = joints(say)
         assert say("place stone 0.5 -0.3 0.2") == "ok"
-        # So long that it is seen: time runs flat out.
+        # Long enough to be seen: time runs as fast as possible.
         assert say("push panda_hand 0 8 0 6000") == "ok"
         until(lambda: displacement() > 1e-4)
         until(lambda: displacement() < 1e-4)
-        # It was let go in the air and lies on the ground.
+        # It was released in the air and lies on the ground.
         until(lambda: float(say("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
 
 
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
-def test_robots_of_one_world_have_addresses_and_names_of_their_own(pace):
+def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
     arms = "--robot panda"
     arms += " --robot panda --ip 127.0.22.8 --base 0.5,1,0,1.5708"
     arms += " --robot fr3 --ip 127.0.22.9 --base 0,-1,0"
@@ -212,11 +212,11 @@ def test_robots_of_one_world_have_addresses_and_names_of_their_own(pace):
             heads[name] = [float(word) for word in say(f"where {name}_link0").split()[1:]]
         assert heads["panda_2"] == pytest.approx([0.5, 1, 0])
         assert heads["fr3"] == pytest.approx([0, -1, 0])
-        # The second one looks along y.
+        # The second one faces along y.
         hand = [float(word) for word in say("where panda_2_link7").split()[1:]]
         first = [float(word) for word in say("where panda_link7").split()[1:]]
         assert hand == pytest.approx([0.5 - first[1], 1 + first[0], first[2]], abs=2e-3)
-        # A switch is one robot's, the world is everyone's.
+        # A switch concerns one robot, the world all.
         assert answer("127.0.22.8", "user_stop on") == "ok"
         assert answer("127.0.22.8", "state").startswith("ok User stopped")
         assert say("state").startswith("ok Idle")
@@ -226,7 +226,7 @@ def test_robots_of_one_world_have_addresses_and_names_of_their_own(pace):
         assert process.wait(10) == 0
 
 
-def test_a_vacuum_gripper_takes_the_gripper_s_place():
+def test_a_vacuum_gripper_replaces_the_gripper():
     with simulated("127.0.22.10", "--hand", "vacuum") as (say, _):
         for port, served in ((1337, True), (1338, False), (1339, True)):
             with socket.socket() as probe:
@@ -240,7 +240,7 @@ def test_a_vacuum_gripper_takes_the_gripper_s_place():
         assert say("part on").startswith("error: There is no command 'part'")
 
 
-def test_every_option_takes_its_value_behind_an_equals_sign_too():
+def test_every_option_also_takes_its_value_after_an_equals_sign():
     options = "--robot=fr3 --protocol=10 --base=0,1,0 --arm-id=left --friction=fr3 --hand=none"
     options += " --control-port=1340 --pace=lockstep --world=stone.xml --linger=0"
     with simulated("127.0.22.12", *options.split()) as (say, _):
@@ -250,7 +250,7 @@ def test_every_option_takes_its_value_behind_an_equals_sign_too():
     assert process.returncode == 0
 
 
-# What no robot meets, at each line that takes a size: words, and the unit that must be named.
+# Unreasonable values for each line that takes a size: words, and the unit that the error must name.
 TOO_LARGE = [
     ("place stone 1e11 0 0", " m"),
     ("place stone 0 0 -1001", " m"),
@@ -267,7 +267,7 @@ TOO_LARGE = [
 ]
 
 
-def test_sizes_no_robot_meets_are_refused_and_change_nothing():
+def test_unreasonable_values_are_refused_and_change_nothing():
     with simulated("127.0.22.13", "--world", "stone.xml", "--base=-0.5,0,0", "--pace=lockstep") as (say, _):
         before = say("state"), say("where stone")
         for line, part in TOO_LARGE:
@@ -285,7 +285,7 @@ FEATHER = """<mujoco><worldbody><body name="feather" pos="5 5 5"><freejoint/>
 
 
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
-def test_a_world_that_diverges_stops_is_told_and_can_be_reset(pace, tmp_path):
+def test_a_diverging_world_stops_is_reported_and_can_be_reset(pace, tmp_path):
     world = tmp_path / "feather.xml"
     world.write_text(FEATHER)
     with simulated("127.0.22.14", "--pace", pace, "--world", str(world)) as (say, process):
@@ -309,7 +309,7 @@ def test_a_world_that_diverges_stops_is_told_and_can_be_reset(pace, tmp_path):
     assert "franka_sim: The physics diverged: the acceleration of body 'feather'" in process.stdout.read()
 
 
-def test_a_body_that_the_robot_begins_in_is_told_and_the_example_stands_right():
+def test_a_robot_that_starts_inside_a_body_is_reported():
     page = (ROBOTS.parents[3] / "docs" / "franka_sim.md").read_text()
     example = next(line.split() for line in page.splitlines() if line.startswith("    franka_sim "))
     assert "stone.xml" in example
@@ -319,10 +319,10 @@ def test_a_body_that_the_robot_begins_in_is_told_and_the_example_stands_right():
         assert ("begins within other bodies" in process.stdout.read()) == within
 
 
-def test_the_hash_waits_for_a_world_at_rest():
+def test_the_hash_command_waits_for_a_world_at_rest():
     with simulated("127.0.22.16", "--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0") as (say, _):
         before = joints(say)
-        # For 3 s of its time the hand is pushed, then it comes back.
+        # The hand is pushed for 3 s of simulated time, then it returns.
         assert say("push panda_hand 0 8 0 3000") == "ok"
         assert say("hash") == "ok cbf29ce484222325", "of no commands"
         settled = say("state")
@@ -335,7 +335,7 @@ def lines_of(connection, text):
     return connection.makefile("r", newline="\n")
 
 
-def test_one_who_types_slowly_and_one_who_comes_second_get_a_sentence():
+def test_a_slow_control_client_and_a_second_one_get_an_error():
     with simulated("127.0.22.17") as (say, _):
         assert say("state").startswith("ok Idle")
         with socket.create_connection(("127.0.22.17", 1340), timeout=20) as second:
@@ -345,7 +345,7 @@ def test_one_who_types_slowly_and_one_who_comes_second_get_a_sentence():
         assert say("state").startswith("ok Idle")
 
 
-def test_a_line_is_answered_also_to_one_who_has_ended_its_side():
+def test_a_half_closed_control_connection_is_answered():
     process = start("--ip=127.0.22.18")
     try:
         for _ in range(3):
@@ -359,7 +359,7 @@ def test_a_line_is_answered_also_to_one_who_has_ended_its_side():
         stop(process)
 
 
-def test_lines_are_answered_once_a_state_shows_their_effect():
+def test_commands_are_answered_after_a_state_shows_their_effect():
     with simulated("127.0.22.19") as (say, _), Client("127.0.22.19", 5) as client:
         client.connect()
         for pressed in (True, False) * 10:
@@ -368,7 +368,7 @@ def test_lines_are_answered_once_a_state_shows_their_effect():
             assert client.newest_state().mode == (USER_STOPPED if pressed else IDLE)
 
 
-def test_after_a_recovery_the_next_state_says_idle():
+def test_the_first_state_after_a_recovery_is_idle():
     with simulated("127.0.22.20"), Client("127.0.22.20", 5) as client:
         client.connect()
         for _ in range(2):
@@ -382,7 +382,7 @@ def test_after_a_recovery_the_next_state_says_idle():
 
 
 @pytest.mark.parametrize("pace", ["realtime", "lockstep", "0.5"])
-def test_a_fresh_hand_reads_the_same_width_at_any_pace(pace):
+def test_the_initial_width_of_a_hand_is_the_same_at_any_pace(pace):
     with simulated("127.0.22.21", "--pace", pace):
         # Gripper protocol: Connect [u16 version, u16 port]; states are 23 bytes, the width behind the id.
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as states:
@@ -396,18 +396,18 @@ def test_a_fresh_hand_reads_the_same_width_at_any_pace(pace):
 
 
 @pytest.mark.parametrize("pace", ["lockstep", "0.5"])
-def test_franka_info_judges_a_robot_of_another_pace_without_lateness(pace):
+def test_franka_info_ignores_lateness_of_a_robot_with_another_pace(pace):
     info = Path(program()).with_name("franka_info")
     with simulated("127.0.22.22", "--pace", pace):
         result = subprocess.run([str(info), "127.0.22.22", "0.5"], capture_output=True, text=True, timeout=60)
     assert "of the clock's: a simulated robot" in result.stdout
     assert "states come late" not in result.stdout
-    lost = "states are lost" in result.stdout  # as happens to a client that a busy machine holds up
+    lost = "states are lost" in result.stdout  # as happens to a client on a busy machine
     assert ("Verdict         ready to be controlled" in result.stdout) == (not lost)
     assert result.returncode == lost
 
 
-def test_quit_ends_it():
+def test_quit_ends_the_simulation():
     with simulated("127.0.22.6") as (say, process):
         assert say("quit") == "ok"
         assert process.wait(10) == 0
@@ -415,7 +415,7 @@ def test_quit_ends_it():
 
 @pytest.fixture
 def lingering():
-    """Starts a robot with a client, tells it to end, and returns both."""
+    """Starts a robot with a client, signals it to exit, and returns both."""
     processes = []
 
     def begin(seconds):
@@ -431,7 +431,7 @@ def lingering():
         process.wait()
 
 
-def test_clients_may_go_first(lingering):
+def test_exit_waits_for_clients(lingering):
     process, client = lingering(30)
     with client:
         begin = time.monotonic()
@@ -441,7 +441,7 @@ def test_clients_may_go_first(lingering):
     assert process.wait(10) == 0
 
 
-def test_who_does_not_go_is_left_in_the_end(lingering):
+def test_exit_drops_clients_after_the_linger_time(lingering):
     process, client = lingering(0.3)
     with client:
         assert process.wait(10) == 0

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The robots that come with franka_sim are those of franka_description."""
+"""The URDFs in franka_sim match franka_description."""
 
 import importlib.util
 import sys
@@ -22,7 +22,7 @@ def load(name):
 
 
 def canonical(element):
-    """An element without the white space and the order of attributes that do not matter."""
+    """An element without irrelevant white space and order of attributes."""
     attributes = tuple(sorted((key, " ".join(value.split())) for key, value in element.attrib.items()))
     return element.tag, attributes, (element.text or "").strip(), tuple(canonical(child) for child in element)
 
@@ -36,7 +36,7 @@ def parts(robot):
 
 
 @pytest.mark.parametrize("name", ["panda", "fr3"])
-def test_is_what_the_description_gives(name, monkeypatch):
+def test_kept_urdf_matches_the_description(name, monkeypatch):
     packages = load("conftest").resolver()
     monkeypatch.setitem(sys.modules, "ament_index_python", types.ModuleType("ament_index_python"))
     monkeypatch.setitem(sys.modules, "ament_index_python.packages", packages)

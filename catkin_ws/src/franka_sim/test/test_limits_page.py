@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/limits.md shows the ways that the tests of the limits go."""
+"""docs/limits.md lists the motions of the limit tests."""
 
 import re
 from pathlib import Path
@@ -39,7 +39,7 @@ def rows_of_the_page():
             yield robot, limit.split(":")[0], numbers(start), numbers(axis), float(share), int(draws)
 
 
-def test_the_page_shows_the_ways_of_the_tests():
+def test_the_page_shows_the_rows_of_the_tests():
     expected = list(rows_of_the_tests())
     assert len(expected) == 8
     assert list(rows_of_the_page()) == expected

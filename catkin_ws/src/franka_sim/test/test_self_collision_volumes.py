@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The capsules of the control unit are those of the robot's description."""
+"""The capsules of the control unit match the robot's description."""
 
 import math
 import re
@@ -14,7 +14,7 @@ import xacro
 
 PACKAGE = Path(__file__).resolve().parents[1]
 SOURCES = PACKAGE.parent
-SAFETY_DISTANCE = 0.03  # [m], which the robots' files ask for around each volume
+SAFETY_DISTANCE = 0.03  # [m] around each volume, from the robots' files
 
 
 @pytest.fixture(autouse=True)
@@ -43,7 +43,7 @@ def table():
 
 
 def rotated(rpy, point):
-    """Fixed axes x, y, z in turn."""
+    """Rotations about the fixed axes x, y, z, in this order."""
     x, y, z = point
     r, p, w = rpy
     y, z = y * math.cos(r) - z * math.sin(r), y * math.sin(r) + z * math.cos(r)
@@ -87,7 +87,7 @@ def described(robot):
 
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_the_table_is_that_of_the_description(robot):
+def test_the_table_matches_the_description(robot):
     ours = table()
     theirs = described(robot)
     assert len(ours) == len(theirs) == 12

@@ -15,19 +15,19 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-/// Flange to the hand's nominal end effector (manual: turned by -45 deg about z, 10.34 cm along
-/// it).
+/// Flange to the hand's nominal end effector (manual: rotated by -45 deg about z, shifted by 10.34
+/// cm along it).
 constexpr std::array<double, 16> kHandF_T_NE{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0,      0,
                                              0,      0,       1, 0, 0,      0,      0.1034, 1};
 
-/// A rotation that was typed with three or four digits: the columns are brought to length one,
-/// which gives back cos(45 deg) and leaves exact matrices as they are.
+/// For rotations typed with three or four digits: scales the columns to length one, which restores
+/// cos(45 deg) and keeps exact matrices.
 std::array<double, 16> withUnitColumns(std::array<double, 16> transform) {
   for (std::size_t column = 0; column < 3; ++column) {
     double* entry = transform.data() + 4 * column;
     const double length =
         std::sqrt(entry[0] * entry[0] + entry[1] * entry[1] + entry[2] * entry[2]);
-    // Only rounding is repaired; what is no rotation is left for the check to refuse.
+    // Corrects rounding only; other matrices are refused by the check.
     if (std::abs(length - 1.0) < 1e-3) {
       for (std::size_t row = 0; row < 3; ++row) {
         entry[row] /= length;
@@ -189,7 +189,7 @@ franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
   parameters.gravity = gravity;
   readArray(node, "gravity_vector", parameters.gravity);
 
-  // With all three given, a hand that has no inertial in the URDF is no fault.
+  // With all three set, a hand without inertial in the URDF is no error.
   const bool explicit_end_effector =
       node.hasParam("m_ee") && node.hasParam("I_ee") && node.hasParam("F_x_Cee");
   if (!explicit_end_effector) {

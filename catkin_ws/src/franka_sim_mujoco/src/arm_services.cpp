@@ -36,7 +36,7 @@ constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit gives up afte
 constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
 constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
 
-/// The messages hold boost arrays.
+/// The messages contain boost arrays.
 template <std::size_t N, typename Array>
 std::array<double, N> toArray(const Array& values) {
   std::array<double, N> result;
@@ -49,8 +49,8 @@ std::string notATransform(const std::string& name, const std::array<double, 16>&
          franka_sim::frameFault(matrix) + ".";
 }
 
-/// Logs what is odd. @throws std::runtime_error with a sentence for the first threshold that makes
-/// no sense
+/// Logs unusual thresholds. @throws std::runtime_error with a sentence for the first invalid
+/// threshold
 franka_sim::CollisionThresholds checked(const franka_sim::CollisionThresholds& thresholds,
                                         const std::string& phase) {
   const std::string fault = checkThresholds(thresholds);
@@ -187,7 +187,7 @@ void ArmServices::offerImpedances() {
   });
 }
 
-// --- hands on the robot --------------------------------------------------------------------------
+// --- user stop and brakes ------------------------------------------------------------------------
 
 void ArmServices::offerUserStop() {
   offer<std_srvs::SetBool>(control_node_, "set_user_stop", [this](const auto& request) {
@@ -324,7 +324,7 @@ bool ArmServices::recovering() {
 std::vector<std::string> ArmServices::runningArmControllers() {
   const std::string service = node_.resolveName("controller_manager/list_controllers");
   controller_manager_msgs::ListControllers list;
-  // Not waitForService: it sleeps in simulated time, for ever while the simulation is paused.
+  // waitForService would sleep in simulated time, for ever while the simulation is paused.
   if (!ros::service::exists(service, false) || !ros::service::call(service, list)) {
     throw std::runtime_error("The controllers cannot be restarted: " + service +
                              " does not answer.");

@@ -21,7 +21,7 @@ namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
 constexpr std::chrono::milliseconds kNap{5};
-/// Cameras come with robots and objects: how often to look for new ones, in naps.
+/// Interval of the search for new cameras (robots and objects bring them), in naps.
 constexpr int kLookInterval = 100;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
@@ -93,7 +93,7 @@ std::string topicOf(const std::string& camera) {
   return starts_well ? topic : "camera_" + topic;
 }
 
-bool CameraPublisher::Topics::wanted() const {
+bool CameraPublisher::Topics::hasSubscribers() const {
   return image.getNumSubscribers() > 0 || info.getNumSubscribers() > 0 ||
          depth.getNumSubscribers() > 0 || depth_info.getNumSubscribers() > 0;
 }
@@ -120,7 +120,7 @@ void CameraPublisher::loop() {
         follow(present);
       }
       for (auto& [name, topics] : cameras_) {
-        if (!stop_ && topics.wanted()) {
+        if (!stop_ && topics.hasSubscribers()) {
           publish(&topics);
         }
       }

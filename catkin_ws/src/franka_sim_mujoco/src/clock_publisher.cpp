@@ -20,8 +20,8 @@ void ClockPublisher::setRate(double rate) { interval_ns_ = std::llround(1e9 / ra
 
 void ClockPublisher::tick(const ros::Time& time) {
   const std::int64_t now = monotonicNanoseconds();
-  // Half an interval of grace: a tick that is woken a little early must not lose its message. The
-  // bookkeeping below keeps the mean at one message an interval.
+  // Tolerance of half an interval: a tick that is slightly early must not lose its message. The
+  // bookkeeping below keeps the mean at one message per interval.
   if (now + interval_ns_ / 2 < next_ns_ || !publisher_.trylock()) {
     return;
   }

@@ -22,7 +22,7 @@ using franka_hw::ControlMode;
 using franka_sim::kTick;
 using Joints = std::array<double, 7>;
 
-// Kept free of every limit, as by libfranka's limiter, so that rounding never exceeds one.
+// Margin to every limit, as in libfranka's limiter, so that rounding never exceeds a limit.
 constexpr double kMargin = franka::kLimitEps;
 
 Joints withMargin(Joints limits) noexcept {
@@ -104,7 +104,8 @@ franka_sim::Transform shapePose(const ShapingOptions& options, franka_sim::Trans
   if (isFiltered(options)) {
     pose = franka::cartesianLowpassFilter(kTick, pose, state.O_T_EE_c, options.cutoff_frequency);
   }
-  // As in the client's loop: what is no transform after the filter goes to the robot, which judges.
+  // As in the client's loop: a pose that is no transform after the filter goes to the robot, which
+  // checks it.
   if (options.rate_limiting && franka_core::isHomogeneousTransformation(pose)) {
     const auto& [v, a, j] = limits.arm.translation;
     const auto& [w, dw, ddw] = limits.arm.rotation;
@@ -158,53 +159,52 @@ Joints shapeTorques(const ShapingOptions& options, Joints torque,
              : torque;
 }
 
-// The command as the controllers want it, each kind shaped by a function of its own. What is not
-// finite is handed on.
-void shapeAll(const ShapingOptions& options, ControlMode mode, const ArmCommands& wanted,
+// The controllers' command, with one function per kind. Values that are not finite pass unchanged.
+void shapeAll(const ShapingOptions& options, ControlMode mode, const ArmCommands& desired,
               const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
               franka_core::RobotCommand& command) {
   if (contains(mode, ControlMode::JointTorque) && options.torques &&
-      franka_core::allFinite(wanted.torque)) {
-    command.tau_J_d = shapeTorques(options, wanted.torque, state, limits);
+      franka_core::allFinite(desired.torque)) {
+    command.tau_J_d = shapeTorques(options, desired.torque, state, limits);
   }
-  if (contains(mode, ControlMode::JointPosition) && franka_core::allFinite(wanted.position)) {
-    command.q_c = shapePositions(options, wanted.position, state, limits);
+  if (contains(mode, ControlMode::JointPosition) && franka_core::allFinite(desired.position)) {
+    command.q_c = shapePositions(options, desired.position, state, limits);
   }
-  if (contains(mode, ControlMode::JointVelocity) && franka_core::allFinite(wanted.velocity)) {
-    command.dq_c = shapeVelocities(options, wanted.velocity, state, limits);
+  if (contains(mode, ControlMode::JointVelocity) && franka_core::allFinite(desired.velocity)) {
+    command.dq_c = shapeVelocities(options, desired.velocity, state, limits);
   }
   if (contains(mode, ControlMode::CartesianPose)) {
-    if (franka_core::allFinite(wanted.pose)) {
-      command.O_T_EE_c = shapePose(options, wanted.pose, state, limits);
+    if (franka_core::allFinite(desired.pose)) {
+      command.O_T_EE_c = shapePose(options, desired.pose, state, limits);
     }
-    shapeElbow(options, wanted.pose_elbow, state, limits, command);
+    shapeElbow(options, desired.pose_elbow, state, limits, command);
   }
   if (contains(mode, ControlMode::CartesianVelocity)) {
-    if (franka_core::allFinite(wanted.twist)) {
-      command.O_dP_EE_c = shapeTwist(options, wanted.twist, state, limits);
+    if (franka_core::allFinite(desired.twist)) {
+      command.O_dP_EE_c = shapeTwist(options, desired.twist, state, limits);
     }
-    shapeElbow(options, wanted.twist_elbow, state, limits, command);
+    shapeElbow(options, desired.twist_elbow, state, limits, command);
   }
 }
 
-franka_core::RobotCommand unshaped(ControlMode mode, const ArmCommands& wanted) noexcept {
+franka_core::RobotCommand unshaped(ControlMode mode, const ArmCommands& desired) noexcept {
   franka_core::RobotCommand command;
   if (contains(mode, ControlMode::JointTorque)) {
-    command.tau_J_d = wanted.torque;
+    command.tau_J_d = desired.torque;
   }
   if (contains(mode, ControlMode::JointPosition)) {
-    command.q_c = wanted.position;
+    command.q_c = desired.position;
   }
   if (contains(mode, ControlMode::JointVelocity)) {
-    command.dq_c = wanted.velocity;
+    command.dq_c = desired.velocity;
   }
   if (contains(mode, ControlMode::CartesianPose)) {
-    command.O_T_EE_c = wanted.pose;
-    setElbow(wanted.pose_elbow, command);
+    command.O_T_EE_c = desired.pose;
+    setElbow(desired.pose_elbow, command);
   }
   if (contains(mode, ControlMode::CartesianVelocity)) {
-    command.O_dP_EE_c = wanted.twist;
-    setElbow(wanted.twist_elbow, command);
+    command.O_dP_EE_c = desired.twist;
+    setElbow(desired.twist_elbow, command);
   }
   return command;
 }
@@ -212,17 +212,17 @@ franka_core::RobotCommand unshaped(ControlMode mode, const ArmCommands& wanted) 
 }  // namespace
 
 franka_core::RobotCommand shapeCommand(const ShapingOptions& options, ControlMode mode,
-                                       const ArmCommands& wanted,
+                                       const ArmCommands& desired,
                                        const franka_core::RobotState& state,
                                        const franka_sim::MotionLimits& limits) noexcept {
-  franka_core::RobotCommand command = unshaped(mode, wanted);
+  franka_core::RobotCommand command = unshaped(mode, desired);
   command.message_id = state.message_id;
   try {
-    shapeAll(options, mode, wanted, state, limits, command);
+    shapeAll(options, mode, desired, state, limits, command);
   } catch (...) {
-    // libfranka's functions throw for what is checked here before; another libfranka may check
-    // more.
-    command = unshaped(mode, wanted);
+    // libfranka's functions throw for values that are checked here before; another libfranka may
+    // check more.
+    command = unshaped(mode, desired);
     command.message_id = state.message_id;
   }
   return command;

@@ -119,7 +119,7 @@ ControlMode claimedMode(const ControllerInfo& controller, const std::string& arm
   return mode;
 }
 
-/// The controllers with those of their claims' resources that are the arm's, or that are not.
+/// The controllers with those of their claimed resources that belong to the arm, or that do not.
 std::list<ControllerInfo> part(const std::list<ControllerInfo>& controllers,
                                const std::string& arm_id, bool of_arm) {
   std::list<ControllerInfo> result;

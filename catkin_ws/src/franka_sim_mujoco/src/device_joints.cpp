@@ -15,8 +15,8 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr char kLog[] = "device_joints";
-/// A blocked joint that is to move at a velocity runs on from where it is, not from where it would
-/// be: so far its target may be ahead of it. Ours; five times the drive's lag at that velocity.
+/// Limit of the target's lead over a blocked joint in velocity control, so that it continues from
+/// where it is. Chosen here: five times the drive's lag at that velocity.
 constexpr double kLeadTime = 0.02;  ///< [s]
 
 using hardware_interface::JointHandle;
@@ -214,7 +214,7 @@ double DeviceJoints::limited(const Joint& joint, double effort) noexcept {
                                       : effort;
 }
 
-// --- controllers come and go ---------------------------------------------------------------------
+// --- switching of controllers --------------------------------------------------------------------
 
 void DeviceJoints::doSwitch(
     const std::list<hardware_interface::ControllerInfo>& start_list,

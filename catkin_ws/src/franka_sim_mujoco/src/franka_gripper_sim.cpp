@@ -94,7 +94,7 @@ bool FrankaGripperSim::init(hardware_interface::EffortJointInterface* hw, ros::N
         node, readActionParameters(node, parameters.max_width), mailbox_, view_);
     return true;
   } catch (const std::exception& error) {
-    // HardwareInterfaceException for the fingers' handles is one of them.
+    // Includes HardwareInterfaceException for the fingers' handles.
     ROS_ERROR_NAMED(kLog, "The gripper %s does not start: %s", node.getNamespace().c_str(),
                     error.what());
     return false;
@@ -103,7 +103,7 @@ bool FrankaGripperSim::init(hardware_interface::EffortJointInterface* hw, ros::N
 
 void FrankaGripperSim::starting(const ros::Time& time) {
   unit_->restart();
-  mailbox_.interruptAll();  // what was posted while the controller stood still
+  mailbox_.interruptAll();  // commands posted while the controller was stopped
   publish_rate_.emplace(kPublishRate, time);
   view_.controller_runs = true;
 }

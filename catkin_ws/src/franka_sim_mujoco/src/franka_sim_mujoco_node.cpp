@@ -3,9 +3,9 @@
 
 /// @file
 /// The simulation as a ROS node. Parameters: ~world, ~real_time_factor, ~paused,
-/// ~pub_clock_frequency (see SimulationOptions and findWorldFile), ~gui (a window, where there is a
+/// ~pub_clock_frequency (see SimulationOptions and findWorldFile), ~gui (a window, if there is a
 /// display); services: see SimServices and PictureService; topics: see ContactPublisher,
-/// CameraPublisher and GazeboTopics. It needs use_sim_time.
+/// CameraPublisher and GazeboTopics. Requires use_sim_time.
 
 #include <franka_hw/usage.h>
 #include <franka_sim_mujoco/camera_publisher.h>
@@ -42,7 +42,8 @@ constexpr char kUsage[] =
     "~world,"
     "\n~real_time_factor, ~paused, ~gui; /use_sim_time must be true. Launch files set them all:\n"
     "  roslaunch franka_gazebo panda.launch (or fr3.launch)";
-/// Controllers' and robots' services and topics; a switch of controllers may hold one for long.
+/// Threads for controllers' and robots' services and topics; a controller switch may block one for
+/// long.
 constexpr std::uint32_t kThreads = 4;
 
 sim::SimulationOptions readOptions(const ros::NodeHandle& node) {
@@ -107,7 +108,7 @@ void run(ros::NodeHandle& node) {
   }
   ros::waitForShutdown();
   window.reset();
-  // From the outside in: no new requests, then no more ticks, then no more callbacks.
+  // In this order: no new requests, then no more ticks, then no more callbacks.
   simulation.stop();
   gazebo.reset();
   cameras.reset();
@@ -127,7 +128,7 @@ int main(int argc, char** argv) {
     return EXIT_SUCCESS;
   }
   ros::init(argc, argv, "gazebo");
-  // Outlives the catch: the log falls silent when the last node handle goes.
+  // Outlives the catch: logging ends with the last node handle.
   ros::NodeHandle node;
   try {
     run(node);

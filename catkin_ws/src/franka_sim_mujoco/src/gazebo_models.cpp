@@ -119,7 +119,7 @@ void place(Simulation& simulation, const gazebo_msgs::ModelState& state) {
   const franka_sim::BodyState target = toState(state);
   simulation.withWorld([&](franka_sim::World& world) {
     GazeboModels models(world);
-    models.model(state.model_name);  // throws the sentence for a link
+    models.model(state.model_name);  // throws for the name of a link
     models.place(state.model_name, target, state.reference_frame);
   });
 }

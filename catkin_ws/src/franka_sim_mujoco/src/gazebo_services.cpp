@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// SimServices: what other people's programs ask Gazebo for most, under its names and with its
-/// types. Errors come in status_message.
+/// SimServices: the most used services of Gazebo, with its names and types. Errors are reported in
+/// status_message.
 
 #include <franka_sim_mujoco/gazebo_models.h>
 #include <franka_sim_mujoco/sim_messages.h>
@@ -33,7 +33,7 @@ namespace {
 
 using gazebo_msgs::GetJointProperties;
 
-/// What one step of physics is called with Gazebo's rate and step. @returns 0 for "no limit"
+/// Gazebo's max_update_rate. @returns 0 for "no limit"
 double updateRate(const SimulationInventory& inventory) {
   return inventory.real_time_factor / franka_sim::World::kTick;
 }
@@ -144,7 +144,7 @@ void spawnSdf(Simulation& simulation, const gazebo_msgs::SpawnModel::Request& re
   }
 }
 
-/// Gazebo gives a model's joints with or without its name in front.
+/// Gazebo accepts a model's joints with or without the model's name as prefix.
 void configure(Simulation& simulation, const gazebo_msgs::SetModelConfiguration::Request& request) {
   if (request.joint_names.size() != request.joint_positions.size()) {
     throw std::runtime_error("There are " + std::to_string(request.joint_names.size()) +

@@ -28,7 +28,7 @@ void append(const std::string& name, const franka_sim::BodyState& state, Message
   message.twist.push_back(toMessage(state.twist));
 }
 
-/// Nobody waits for an answer to a topic: the log says what was wrong.
+/// Topics have no answer, so errors are logged.
 void orWarn(const char* topic, const std::function<void()>& work) {
   try {
     work();

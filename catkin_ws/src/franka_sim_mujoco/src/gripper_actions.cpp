@@ -13,7 +13,7 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{5};
-/// How long a cancelled goal waits for the loop to take its stop [polls]; the loop may stand still.
+/// Maximum wait of a cancelled goal for its stop [polls]; the loop may stand still.
 constexpr int kCancelPolls = 40;
 constexpr double kNoEffort = 1e-4;  ///< below it gripper_action moves instead of grasping [N]
 
@@ -87,8 +87,8 @@ GripperActions::~GripperActions() {
 template <typename Action>
 GripperActions::Fate GripperActions::await(Server<Action>& server,
                                            const GripperCommand& command) const {
-  // Wall time on purpose: under a paused simulation ROS time stands still, and a shutdown must get
-  // through.
+  // Wall time: while the simulation is paused ROS time stands still, and a shutdown must still
+  // work.
   while (!command.isSettled() && !server.isPreemptRequested() && view_.controller_runs &&
          !ending_ && ros::ok()) {
     std::this_thread::sleep_for(kPoll);

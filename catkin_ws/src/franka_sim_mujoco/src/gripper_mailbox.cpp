@@ -68,7 +68,7 @@ void GripperMailbox::serve(franka_sim::GripperUnit& unit) noexcept {
   }
   const franka_sim::GripperUnit::Ticket ticket = give(unit, *command);
   if (ticket == 0) {
-    // Refused commands leave what runs alone.
+    // Refused commands do not interrupt the running one.
     setFate(*command, Fate::kRefused);
     return;
   }

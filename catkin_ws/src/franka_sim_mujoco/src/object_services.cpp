@@ -114,7 +114,7 @@ void SimServices::offerStates() {
       "set_body_state", [this](SetBodyState::Request& request, SetBodyState::Response&) {
         const franka_sim::Pose pose = fromMessage(request.pose);
         const franka_sim::Twist twist = fromMessage(request.twist);
-        // Before the pose is set: all or nothing.
+        // Checked before the pose is set, so that nothing changes on error.
         franka_sim::sizes::check(twist.linear, franka_sim::sizes::kFastest, "m/s",
                                  "The linear velocity");
         franka_sim::sizes::check(twist.angular, franka_sim::sizes::kFastest, "rad/s",

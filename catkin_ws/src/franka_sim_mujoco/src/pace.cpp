@@ -13,15 +13,15 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr double kClockRate = 1000.0;  ///< [Hz] a tick each
-/// [Hz] Chosen here: no node hears of the time more than 5 ms late, and a Python node, which takes
-/// 0.1 ms for a message, spends a fiftieth of a processor on it.
+constexpr double kClockRate = 1000.0;  ///< [Hz] one per tick
+/// [Hz] Chosen here: the time in nodes is at most 5 ms old, and a Python node, which needs 0.1 ms
+/// per message, uses a fiftieth of a processor for it.
 constexpr double kFastClockRate = 200.0;
 
 constexpr std::int64_t kLongestRun = 20000000;  ///< [ns]
 constexpr timespec kShortSleep{0, 1000000};
-/// Fewer within kLongestRun are locks that were met, not waiting for the next tick; or ticks that
-/// are 5 ms and more apart, of which a short sleep delays none.
+/// Fewer sleeps within kLongestRun are contended locks, not waits for the next tick; or ticks are
+/// at least 5 ms apart, and a short sleep delays none.
 constexpr std::int64_t kFewSleeps = 4;
 
 std::int64_t sleepsOfThread() noexcept {
@@ -37,7 +37,7 @@ std::int64_t nanoseconds(clockid_t clock) noexcept {
   return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
 }
 
-// Who asks something of the simulation waits meanwhile, for ten seconds at most (RequestQueue).
+// Callers of the simulation's services wait meanwhile, for ten seconds at most (RequestQueue).
 constexpr std::chrono::seconds kPatience{5};
 
 }  // namespace

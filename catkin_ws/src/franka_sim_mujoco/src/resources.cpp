@@ -24,7 +24,7 @@ void appendList(const std::string& list, Folders& folders) {
   }
 }
 
-/// What packages that depend on gazebo_ros export under these attributes.
+/// Folders that packages which depend on gazebo_ros export under these attributes.
 Folders exportedFolders(std::initializer_list<const char*> attributes) {
   Folders folders;
   for (const char* attribute : attributes) {

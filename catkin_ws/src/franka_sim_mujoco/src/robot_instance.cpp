@@ -17,8 +17,8 @@ namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
 
-/// The URDF names the hardware by the original's name; where the package franka_gazebo is not ours
-/// (it steps aside for the original) the same hardware has our own. So has Gazebo's default.
+/// The URDF uses the original's name of the hardware; if the package franka_gazebo is not ours (it
+/// steps aside for the original) the same hardware has our own name. Likewise Gazebo's default.
 std::string availableName(HardwareLoader& loader, const std::string& type) {
   if (!loader.isClassAvailable(type)) {
     for (const std::string original : {"franka_gazebo/", "gazebo_ros_control/"}) {
@@ -30,10 +30,10 @@ std::string availableName(HardwareLoader& loader, const std::string& type) {
   return type;
 }
 
-/// So many ticks apart it is looked whether the awaited controllers run.
+/// Interval of checks whether the awaited controllers run [ticks].
 constexpr int kStartReview = 50;
 
-/// Adds the time since its making to a sum, when there is one.
+/// Adds the time since its construction to a sum, unless null.
 class Stopwatch {
  public:
   explicit Stopwatch(bool runs) noexcept : last_(runs ? threadNanoseconds() : 0) {}
@@ -189,7 +189,7 @@ void RobotInstance::updateControllers(const ros::Time& time, const ros::Duration
   try {
     manager_->update(time, period, restart_controllers_);
   } catch (const std::exception& error) {
-    // One controller is no reason to end the simulation of everything else.
+    // A single controller must not end the simulation.
     thrown_report_.report(name_, error.what(),
                           "The robot is stopped until another controller is started in its place.");
     hardware_->eStopActive(true);

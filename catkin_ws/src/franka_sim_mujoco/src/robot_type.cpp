@@ -11,14 +11,13 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr char kPanda[] = "panda", kFr3[] = "fr3";
-constexpr double kTolerance =
-    1e-3;  ///< [rad], [rad/s]: tables are printed with four digits or less
+constexpr double kTolerance = 1e-3;  ///< [rad], [rad/s]: tables have four digits or less
 
 struct JointLimits {
   std::array<double, 7> lower, upper, velocity;  ///< [rad], [rad], [rad/s]
 };
 
-/// Nothing when a joint is missing or has none.
+/// Empty if a joint or its limits are missing.
 std::optional<JointLimits> limitsIn(const urdf::Model& urdf, const std::string& arm_id) {
   JointLimits limits{};
   for (std::size_t i = 0; i < 7; ++i) {
@@ -52,13 +51,13 @@ bool equal(const std::array<double, 7>& a, const std::array<double, 7>& b) {
   return true;
 }
 
-/// Nothing when both or neither can be.
+/// Empty for both or neither.
 std::optional<std::string> theOne(bool panda, bool fr3) {
   return panda == fr3 ? std::nullopt : std::optional<std::string>(panda ? kPanda : kFr3);
 }
 
-/// Nothing when the limits fit both or neither.
-std::optional<RobotType> tellByLimits(const urdf::Model& urdf, const std::string& arm_id) {
+/// Empty if the limits fit both or neither.
+std::optional<RobotType> detectByLimits(const urdf::Model& urdf, const std::string& arm_id) {
   const std::optional<JointLimits> limits = limitsIn(urdf, arm_id);
   if (!limits) {
     return std::nullopt;
@@ -81,16 +80,16 @@ std::optional<RobotType> tellByLimits(const urdf::Model& urdf, const std::string
 
 bool isRobotType(const std::string& name) { return name == kPanda || name == kFr3; }
 
-RobotType tellRobotType(const std::optional<std::string>& asked, const urdf::Model& urdf,
+RobotType tellRobotType(const std::optional<std::string>& configured, const urdf::Model& urdf,
                         const std::string& arm_id) {
-  const std::optional<RobotType> told = tellByLimits(urdf, arm_id);
-  if (asked) {
-    const bool other = told && told->name != *asked;
-    return {*asked, "it was asked for",
-            other ? "it looks like " + told->name + ": " + told->why : ""};
+  const std::optional<RobotType> detected = detectByLimits(urdf, arm_id);
+  if (configured) {
+    const bool other = detected && detected->name != *configured;
+    return {*configured, "it was asked for",
+            other ? "it looks like " + detected->name + ": " + detected->why : ""};
   }
-  if (told) {
-    return *told;
+  if (detected) {
+    return *detected;
   }
   return {
       urdf.getName() == kFr3 ? kFr3 : kPanda,

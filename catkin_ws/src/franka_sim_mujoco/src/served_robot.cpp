@@ -22,8 +22,8 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-/// The robot's own configuration, as the user enters it in Desk, comes from the same parameters as
-/// that of a robot under controllers in process; how it behaves comes from the FCI.
+/// The robot's configuration, which users enter in Desk, comes from the same parameters as that of
+/// a robot under controllers in process; its behaviour is that of the FCI.
 franka_sim::ControlUnitParameters unitParameters(const RobotPlan& plan, franka_sim::World& world,
                                                  bool has_hand) {
   const ros::NodeHandle node(plan.robot_namespace);

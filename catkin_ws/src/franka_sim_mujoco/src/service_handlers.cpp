@@ -9,7 +9,7 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-/// Some wait (step, spawn); the others must get through beside them.
+/// Some calls block (step, spawn); others must be served meanwhile.
 constexpr std::uint32_t kThreads = 3;
 
 }  // namespace

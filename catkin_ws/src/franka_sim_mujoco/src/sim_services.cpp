@@ -64,18 +64,18 @@ void push(franka_sim::World& world, const PushBody::Request& request) {
 
 bool between(const franka_sim::Contact& contact, const std::string& body1,
              const std::string& body2) {
-  const auto matches = [](const std::string& wanted, const std::string& body) {
-    return wanted.empty() || wanted == body;
+  const auto matches = [](const std::string& name, const std::string& body) {
+    return name.empty() || name == body;
   };
   return matches(body1, contact.body1) && matches(body2, contact.body2);
 }
 
-/// Forces are told as acting on the second body asked for, whichever order the physics has them in.
+/// Forces act on the second requested body, whatever the order of the bodies in the physics.
 void collectContacts(franka_sim::World& world, const GetContacts::Request& request,
                      GetContacts::Response& response) {
   for (const std::string& body : {request.body1, request.body2}) {
     if (!body.empty()) {
-      world.bodyPose(body);  // throws the sentence for a body that does not exist
+      world.bodyPose(body);  // throws for an unknown body
     }
   }
   for (franka_sim::Contact contact : world.contacts()) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
 constexpr std::uint32_t kTickNanoseconds = 1000000;
-constexpr std::chrono::milliseconds kServedNap{1};  ///< where clients want to be heard
+constexpr std::chrono::milliseconds kServedNap{1};  ///< if clients wait
 constexpr std::chrono::milliseconds kStandStillNap{20};
 /// Compiling a world with several robots takes seconds on a slow machine.
 constexpr std::chrono::milliseconds kSpawnTimeout{60000};
@@ -176,7 +176,7 @@ void Simulation::setPaused(bool paused) {
 
 void Simulation::setRealTimeFactor(double factor) {
   requests_.run([&] {
-    paceOf(factor);  // throws the sentence for a factor that makes no sense
+    paceOf(factor);  // throws for an invalid factor
     real_time_factor_ = factor;
     applyPace();
   });
@@ -215,7 +215,7 @@ SimulationState Simulation::state() {
 
 void Simulation::requireRest() const {
   if (world_.stopped()) {
-    return;  // nothing moves
+    return;  // nothing can move
   }
   for (const auto& robot : robots_) {
     robot->requireRest();
@@ -291,7 +291,8 @@ void Simulation::remove(const std::string& name) {
     world_.removeRobot(name);
     host_.restartClock();
   });
-  // Its action servers and services may wait for their threads: not in the stepping thread.
+  // Destroyed outside of the stepping thread: its action servers and services may wait for their
+  // threads.
   removed.reset();
 }
 

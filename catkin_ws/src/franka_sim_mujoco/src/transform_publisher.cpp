@@ -11,7 +11,7 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr std::uint32_t kQueueSize = 1;  // a state that has been overtaken is of no use
+constexpr std::uint32_t kQueueSize = 1;  // an outdated state is useless
 
 KDL::Tree treeOf(const urdf::Model& urdf) {
   KDL::Tree tree;
@@ -31,7 +31,7 @@ std::string readPrefix(const ros::NodeHandle& node) {
   return prefix;
 }
 
-/// Adds the joints that follow others.
+/// Adds positions of mimic joints.
 void addMimics(const urdf::Model& urdf, std::map<std::string, double>& positions) {
   for (const auto& [name, joint] : urdf.joints_) {
     if (joint->mimic) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints that are no Franka arm's: driven beside the arm as Gazebo's default hardware would drive them."""
+"""Joints of other devices, driven beside the arm as by Gazebo's default hardware."""
 
 import time
 import unittest
@@ -29,7 +29,7 @@ def call(name, kind, *arguments, **fields):
 
 
 class Joints:
-    """The joint states of one robot, all of them."""
+    """All joint states of one robot."""
 
     def __init__(self, namespace):
         self.namespace, self.seen = namespace, []
@@ -81,7 +81,7 @@ class Joints:
 
 
 def masses():
-    """Of all that the lift carries, and its own [kg]."""
+    """Mass of the lift and of everything above it [kg]."""
     links = ElementTree.fromstring(rospy.get_param("robot_description")).iter("mass")
     return [float(mass.get("value")) for mass in links]
 
@@ -104,11 +104,11 @@ class DevicesTest(unittest.TestCase):
             f"The lift's motion to {height} m",
         )
 
-    def test_all_joints_are_shown(self):
+    def test_all_joints_are_published(self):
         state = self.robot.when(lambda _: True, "A state")[-1]
         self.assertEqual({*ARM, *FINGERS, "lift", "head", "tilt", "fan"}, set(state))
 
-    def test_the_lift_lifts_the_arm_no_faster_than_it_may(self):
+    def test_the_lift_raises_the_arm_within_its_speed_limit(self):
         self.lift_to(0.0)
         # The arm controller of another test may only just have been stopped.
         self.robot.when(
@@ -121,8 +121,8 @@ class DevicesTest(unittest.TestCase):
         self.assertAlmostEqual(max(speeds), 0.2, delta=1e-3)  # the URDF's limit
         base = call("/gazebo/get_body_pose", GetBodyPose, body="panda_link0").pose
         self.assertAlmostEqual(base.position.z, 0.2 + 0.3, delta=2e-4)
-        # The lift starts and stops with a jerk, for which the joints, held by springs, give way: by no more
-        # than takes up the energy of the whole load at that speed. Then they stand where they stood.
+        # When the lift starts and stops, the joints, held by springs, yield: at most until the springs hold
+        # the kinetic energy of the whole load at that speed. Then they return to their positions.
         weakest = 2000.0  # [Nm/rad], of the joints' default stiffness
         gives = np.sqrt(sum(masses()) * max(speeds) ** 2 / weakest)
         for state in self.arm[self.arm.index(before) :]:
@@ -132,7 +132,7 @@ class DevicesTest(unittest.TestCase):
             lambda _: np.abs(np.array(self.arm[-1].q) - before.q).max() < 1e-3, "The arm to stand again"
         )
 
-    def test_the_lift_carries_the_weight_of_all_above(self):
+    def test_the_lift_effort_is_the_weight_above_it(self):
         self.lift_to(0.3)
         weight = 9.81 * sum(masses())
         states = self.robot.when(
@@ -143,7 +143,7 @@ class DevicesTest(unittest.TestCase):
         )
         self.assertAlmostEqual(states[-1]["lift"][2], weight, delta=0.5)
 
-    def test_an_arm_controller_runs_beside(self):
+    def test_an_arm_controller_runs_beside_the_lift(self):
         self.assertTrue(self.robot.switch(start=["joint_position_example_controller"]))
         begin = len(self.arm)
         self.lift_to(0.1)
@@ -152,10 +152,10 @@ class DevicesTest(unittest.TestCase):
         self.assertTrue(self.robot.switch(stop=["joint_position_example_controller"]))
         self.assertGreater(len(states), 10)
         for state in states:
-            # The lift's start and stop are accelerations that no control unit knows of.
+            # The control unit does not know the lift's accelerations at start and stop.
             self.assertLess(np.abs(np.array(state.q) - state.q_d).max(), 5e-3)
         self.assertGreater(np.ptp([state.q_d[0] for state in states]), 0.01)
-        # To the arm they are a push, of which states show at least the end; at rest they show 1e-6 N.
+        # It reports them as external forces, at least at the end; at rest it reports 1e-6 N.
         self.assertGreater(max(abs(state.O_F_ext_hat_K[2]) for state in states), 1e-3)
 
     def test_velocities(self):
@@ -168,7 +168,7 @@ class DevicesTest(unittest.TestCase):
         self.robot.when(lambda state: abs(state["head"][0] - at[-1]["head"][0]) < 1e-4, "Standing there")
         self.assertTrue(self.robot.switch(start=["head_velocity"]))
 
-    def test_one_joint_takes_either_interface(self):
+    def test_one_joint_accepts_either_interface(self):
         self.lift_to(0.1)
         self.assertFalse(self.robot.switch(start=["lift_velocity"]), "it is claimed")
         self.assertTrue(self.robot.switch(start=["lift_velocity"], stop=["lift_position"]))
@@ -178,14 +178,14 @@ class DevicesTest(unittest.TestCase):
         self.assertTrue(self.robot.switch(start=["lift_position"], stop=["lift_velocity"]))
         self.lift_to(0.2)
 
-    def test_gains_make_a_drive_that_yields(self):
+    def test_gains_make_a_compliant_drive(self):
         self.robot.command("tilt_position", 0.2)
         # A proportional drive of 20 Nm/rad; the camera's centre of mass is on the axis.
         self.robot.when(lambda state: abs(state["tilt"][0] - 0.2) < 1e-3, "A tilt of 0.2 rad")
 
     def test_efforts(self):
         self.robot.command("fan_effort", 0.7)
-        speed = (0.7 - 0.2) / 0.5  # where friction and damping of the URDF take it all
+        speed = (0.7 - 0.2) / 0.5  # at which friction and damping of the URDF use the whole effort
         self.robot.when(lambda state: abs(state["fan"][1] - speed) < 1e-3, f"A speed of {speed} rad/s")
         self.robot.command("fan_effort", 100.0)
         speed = (1.2 - 0.2) / 0.5  # the URDF's limit of the effort

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the manual's tables say of the simulated arm: interfaces, services and state, with their meaning."""
+"""Interfaces, services and state of the simulated arm, as in the manual's tables."""
 
 import math
 import sys
@@ -46,7 +46,7 @@ def matrix(values, rows):
 
 
 class Arm:
-    """One robot as its users see it."""
+    """One robot through its topics and services."""
 
     def __init__(self, namespace, arm_id):
         self.namespace, self.arm_id, self.states = namespace, arm_id, []
@@ -57,7 +57,7 @@ class Arm:
         return call(f"{self.namespace}/franka_control/{name}", kind, *arguments, **fields)
 
     def when(self, condition):
-        """The first state from now on that meets a condition. States lag behind services: a stamp tells."""
+        """The next state that meets a condition; by its stamp, because states lag behind services."""
         now = call("/gazebo/step", Step, 0).time
         begin, end = len(self.states), time.monotonic() + WAIT
         while time.monotonic() < end:
@@ -145,7 +145,7 @@ class InterfacesTest(unittest.TestCase):
         self.arm.when(lambda state: state.robot_mode == IDLE and max(map(abs, state.dq)) < 1e-4)
 
     def follows(self, states, tolerance=1e-3):
-        """Nobody complained, and the arm went where it was wanted."""
+        """Fails on errors in the states, or if the arm did not follow its desired positions."""
         for state in states:
             self.assertEqual(state.robot_mode, MOVE)
             self.assertEqual(state.current_errors, type(state.current_errors)())
@@ -222,7 +222,7 @@ class InterfacesTest(unittest.TestCase):
             self.assertEqual(state.current_errors, type(state.current_errors)())
         moved = max(np.linalg.norm(np.array(s.q_d) - states[0].q_d) for s in states)
         self.assertGreater(moved, 0.05)
-        # A soft controller of the user's follows, with the error its gains allow.
+        # A soft user controller follows, with the error of its gains.
         self.assertLess(max(np.abs(np.array(s.q) - s.q_d).max() for s in states), 0.05)
         self.assertGreater(max(np.abs(s.tau_J_d).max() for s in states), 0.1)
 
@@ -239,7 +239,7 @@ class InterfacesTest(unittest.TestCase):
         self.assertTrue(self.arm.switch(start=["force_example_controller"]))  # torques beside a motion
         self.assertEqual(self.arm.state().robot_mode, MOVE)
 
-    def test_controllers_follow_each_other_while_the_arm_moves(self):
+    def test_controllers_are_switched_while_the_arm_moves(self):
         chain = [
             "joint_velocity_example_controller",
             "cartesian_impedance_example_controller",
@@ -278,11 +278,11 @@ class InterfacesTest(unittest.TestCase):
         self.assertEqual(state.current_errors, type(state.current_errors)())
         self.assertAlmostEqual(state.time, state.header.stamp.to_sec(), delta=2e-3)
         np.testing.assert_allclose(state.O_ddP_O, [0, 0, -9.81])
-        # The base carries what the shoulder feels: gravity bends joint 2 and 4, not joint 1.
+        # Gravity bends joint 2 and 4, not joint 1.
         self.assertLess(abs(state.tau_J[0]), 0.1)
         self.assertGreater(abs(state.tau_J[3]), 5)
 
-    def test_pushes_show_as_forces_contacts_and_collisions(self):
+    def test_pushes_are_reported_as_forces_contacts_and_collisions(self):
         self.arm.service(
             "set_force_torque_collision_behavior",
             SetForceTorqueCollisionBehavior,
@@ -302,7 +302,7 @@ class InterfacesTest(unittest.TestCase):
                 ticks=8000,
             )
             self.assertTrue(answer.success, answer.error)
-            # What the robot exerts counts: against the push.
+            # Forces that the robot exerts are positive: against the push.
             state = self.arm.when(
                 lambda state, force=force: (
                     abs(state.O_F_ext_hat_K[1] + force) < 0.3 and max(map(abs, state.dq)) < 1e-3
@@ -312,9 +312,9 @@ class InterfacesTest(unittest.TestCase):
             np.testing.assert_allclose(world @ state.K_F_ext_hat_K[:3], state.O_F_ext_hat_K[:3], atol=1e-6)
             self.assertTrue(any(state.cartesian_contact))
             self.assertEqual(any(state.cartesian_collision), collides)
-            self.assertEqual(state.robot_mode, IDLE)  # shown, not reacted to
+            self.assertEqual(state.robot_mode, IDLE)  # reported, without a reaction
             self.arm.when(lambda state: abs(state.O_F_ext_hat_K[1]) < 0.3)
-        # Without reflexes the flags are the manual's formulas at every moment: nothing is latched.
+        # Without reflexes the flags follow the manual's formulas in each state: nothing is latched.
         self.arm.when(lambda state: not any(state.cartesian_collision) and not any(state.cartesian_contact))
 
     def hand(self):
@@ -364,7 +364,7 @@ class InterfacesTest(unittest.TestCase):
                 total += matrix(inertia, 3) + mass * (d @ d * np.eye(3) - np.outer(d, d))
             np.testing.assert_allclose(matrix(state.I_total, 3), total, atol=1e-12)
 
-    def test_the_end_effector_does_not_jump_under_a_motion(self):
+    def test_the_end_effector_frame_is_fixed_during_a_motion(self):
         self.arm.switch(start=["joint_position_example_controller"])
         answer = self.arm.service("set_EE_frame", SetEEFrame, IDENTITY)
         self.assertFalse(answer.success)
@@ -426,13 +426,13 @@ class InterfacesTest(unittest.TestCase):
             answer = call(name, SetJointConfiguration, joint_names=names, joint_positions=positions)
             self.assertFalse(answer.success)
             self.assertIn(expected, answer.error)
-        # A running motion starts anew where the arm stands now.
+        # A running motion restarts at the arm's present position.
         self.assertTrue(self.arm.switch(start=["joint_position_example_controller"]))
         self.assertTrue(self.arm.place().success)
         state = self.arm.when(lambda state: state.robot_mode == MOVE)
         self.assertLess(np.abs(np.array(state.q) - START).max(), 0.08)  # the controller's amplitude
 
-    # what stops an arm
+    # stops
 
     def test_user_stop_disconnects_until_recovery(self):
         self.arm.switch(start=["joint_position_example_controller"])
@@ -449,7 +449,7 @@ class InterfacesTest(unittest.TestCase):
         self.arm.when(lambda state: state.robot_mode == MOVE)
         self.assertEqual(self.arm.controllers()["joint_position_example_controller"], "running")
 
-    def test_reflexes_end_motions_where_they_are_asked_for(self):
+    def test_reflexes_end_motions_if_configured(self):
         self.strict.when(lambda state: state.robot_mode == MOVE)
         x, y, z = matrix(self.strict.state().O_T_EE, 4)[:3, 3]
         push = call(

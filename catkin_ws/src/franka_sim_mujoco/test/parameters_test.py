@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every parameter of a simulated robot, right and wrong, and the spawner's own errors."""
+"""Valid and invalid values of every parameter of a simulated robot, and the spawner's own errors."""
 
 import subprocess
 import sys
@@ -27,7 +27,7 @@ from std_srvs.srv import Empty
 
 WAIT = 30
 WRONG = [
-    # parameter, value, what the sentence must name
+    # parameter, value, text that the error must contain
     ("arm_id", "left", "left_joint1"),
     ("arm_id", 3, "arm_id"),
     ("tau_ext_lowpass_filter", 1.5, "tau_ext_lowpass_filter"),
@@ -116,7 +116,7 @@ class ParametersTest(unittest.TestCase):
         order.joint_positions = [position for _, position in joints]
         return self.spawn_service(order)
 
-    def test_wrong_parameters_end_in_a_sentence_and_leave_nothing_behind(self):
+    def test_wrong_parameters_are_reported_and_leave_no_robot(self):
         for number, (name, value, expected) in enumerate(WRONG):
             namespace = f"/wrong{number}"
             rospy.set_param(namespace + "/arm_id", "panda")
@@ -128,7 +128,7 @@ class ParametersTest(unittest.TestCase):
         answer = self.delete("panda")
         self.assertFalse(answer.success)
 
-    def test_right_parameters_are_taken_as_lists_and_as_texts(self):
+    def test_right_parameters_are_accepted_as_lists_and_strings(self):
         for name, value in {
             "arm_id": "panda",
             "m_ee": 0.5,
@@ -167,7 +167,7 @@ class ParametersTest(unittest.TestCase):
         twice = self.spawn("panda", "/right")
         self.assertFalse(twice.success)
         self.assertIn("panda", twice.error)
-        # A second robot of another kind, name and namespace beside it.
+        # A second robot with another type, name and namespace.
         rospy.set_param("/second/arm_id", "right")
         answer = self.spawn("right", "/second", rospy.get_param("/fr3_description"))
         self.assertTrue(answer.success, answer.error)
@@ -175,12 +175,12 @@ class ParametersTest(unittest.TestCase):
         self.assertTrue(self.delete("right").success)
 
     def spawn_bent(self, urdf, namespace):
-        """With joint 6 where an FR3 may go, but no Panda."""
+        """Spawns it with joint 6 in the range of an FR3, outside that of a Panda."""
         rospy.set_param(namespace + "/arm_id", "right")
         bent = [("right_joint2", -0.8), ("right_joint4", -2.4), ("right_joint6", 4.3)]
         return self.spawn("machine", namespace, urdf, bent)
 
-    def test_an_fr3_is_one_whatever_its_urdf_is_called(self):
+    def test_an_fr3_is_detected_whatever_its_urdf_is_called(self):
         fr3 = rospy.get_param("/fr3_description")
         carried = rospy.get_param("/carried_fr3_description").replace("</robot>", PLATFORM + "</robot>")
         for number, urdf in enumerate((fr3, carried)):
@@ -190,7 +190,7 @@ class ParametersTest(unittest.TestCase):
             self.assertTrue(answer.success, answer.error)
             self.assertTrue(self.delete("machine").success)
 
-    def test_who_says_what_a_robot_is_is_believed_and_told_of_a_contradiction(self):
+    def test_robot_type_overrides_urdf_and_warns_on_mismatch(self):
         heard, log = self.listen_to_log()
         rospy.set_param("/believed/robot_type", "panda")
         answer = self.spawn_bent(rospy.get_param("/fr3_description"), "/believed")
@@ -226,7 +226,7 @@ class ParametersTest(unittest.TestCase):
             self.assertLess(time.monotonic(), end, [said.msg for said in heard])
             time.sleep(0.05)
 
-    def test_positions_of_joints_that_are_not_there_are_ignored_with_a_warning(self):
+    def test_positions_of_unknown_joints_are_ignored_with_a_warning(self):
         heard, log = self.listen_to_log()
         rospy.set_param("/handless/arm_id", "right")
         fingers = [(f"right_finger_joint{i}", 0.001) for i in (1, 2)]
@@ -238,7 +238,7 @@ class ParametersTest(unittest.TestCase):
         log.unregister()
         self.assertTrue(self.delete("right").success)
 
-    def test_the_namespace_of_the_description_counts(self):
+    def test_the_namespace_of_the_description_is_used(self):
         # The manual's own snippet of the plugin.
         heard, log = self.listen_to_log()
         end = "</robotSimType>"
@@ -294,7 +294,7 @@ class ParametersTest(unittest.TestCase):
             self.pause()
             self.assertTrue(self.delete("panda").success)
 
-    def test_wrong_orders_end_in_a_sentence(self):
+    def test_wrong_spawn_requests_are_refused(self):
         rospy.set_param("/order/arm_id", "panda")
         for expected, answer in (
             ("name", self.spawn("", "/order")),
@@ -332,7 +332,7 @@ class ParametersTest(unittest.TestCase):
         )
         return done.returncode, done.stdout + done.stderr
 
-    def test_spawner_ends_with_a_status_and_a_sentence(self):
+    def test_spawner_reports_errors_and_exits_with_a_status(self):
         status, text = self.run_spawner("-param", "nothing_here", "-model", "panda")
         self.assertEqual(status, 1, text)
         self.assertIn("/nothing_here", text)
@@ -368,7 +368,7 @@ class ParametersTest(unittest.TestCase):
         self.assertEqual(status, 0, text)
         self.assertTrue(self.delete("panda").success)
 
-    def test_the_node_ends_with_a_status_and_a_sentence(self):
+    def test_the_node_reports_errors_and_exits_with_a_status(self):
         for wrong, expected in (
             ("_world:=/nowhere/moon.sdf", "moon"),
             ("_real_time_factor:=-1", "real time factor"),

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// The parts of the ROS room that need no master: queue, pace, world names, physics file, robot
-/// types, mailbox, claims.
+/// Parts of the package that need no master: queue, pace, world names, physics file, robot types,
+/// mailbox, claims.
 
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
@@ -44,7 +44,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// The sentence an action throws; empty when it throws none.
+/// The sentence that an action throws; empty if it throws nothing.
 template <typename Action>
 std::string sentence(Action action) {
   try {
@@ -59,7 +59,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(RequestQueue, DoesWorkInTheServingThreadInOrder) {
+TEST(RequestQueue, RunsWorkInTheServingThreadInOrder) {
   RequestQueue queue;
   std::atomic<bool> stop{false};
   std::thread::id server;
@@ -86,18 +86,18 @@ TEST(RequestQueue, DoesWorkInTheServingThreadInOrder) {
   EXPECT_EQ(server, worker);
 }
 
-TEST(RequestQueue, GivesUpWorkWhoseTurnDoesNotCome) {
+TEST(RequestQueue, TimesOutWithoutRunningTheWork) {
   RequestQueue queue;
   bool done = false;
   const std::string text = sentence([&] { queue.run([&] { done = true; }, milliseconds(20)); });
   EXPECT_TRUE(contains(text, "20 ms")) << text;
   queue.serve();
-  EXPECT_FALSE(done) << "abandoned work must not be done later: its data may be gone";
+  EXPECT_FALSE(done) << "abandoned work must not run later: its data may be invalid";
   queue.close();
   EXPECT_TRUE(contains(sentence([&] { queue.run([] {}); }), "shutting down"));
 }
 
-TEST(RequestQueue, CloseReleasesThoseWhoWait) {
+TEST(RequestQueue, CloseEndsAllWaits) {
   RequestQueue queue;
   std::string text;
   std::thread waiting([&] { text = sentence([&] { queue.run([] {}); }); });
@@ -107,7 +107,7 @@ TEST(RequestQueue, CloseReleasesThoseWhoWait) {
   EXPECT_TRUE(contains(text, "shutting down")) << text;
 }
 
-TEST(Pace, RefusesWhatIsNone) {
+TEST(Pace, RefusesInvalidFactors) {
   for (const double factor : {-1.0, 0.001, std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity()}) {
     EXPECT_TRUE(contains(sentence([&] { paceOf(factor); }), "is wrong: it must be 0")) << factor;
@@ -116,7 +116,7 @@ TEST(Pace, RefusesWhatIsNone) {
   EXPECT_EQ(franka_sim::fci::PaceMode::kPatient, paceOf(kSlowestPace).mode);
 }
 
-TEST(Pace, TellsTheTimeLessOftenBeyondRealTime) {
+TEST(Pace, PublishesTheClockLessOftenBeyondRealTime) {
   EXPECT_EQ(1000.0, clockRateOf(kSlowestPace));
   EXPECT_EQ(1000.0, clockRateOf(1.0));
   for (const double factor : {0.0, 1.01, 30.0}) {
@@ -152,12 +152,12 @@ double secondsFor(double factor, int ticks) {
   return 1e-9 * static_cast<double>(monotonicNanoseconds() - start);
 }
 
-TEST(Pace, KeepsThePaceWithoutAddingUpErrors) {
-  // Never faster than asked; how much slower depends on the machine's load.
+TEST(Pace, KeepsThePaceWithoutDrift) {
+  // Never faster than requested; how much slower depends on the machine's load.
   EXPECT_GE(secondsFor(1.0, 200), 0.199);
   EXPECT_GE(secondsFor(2.0, 200), 0.099);
-  // A host that waits takes the whole hundred simulated seconds; one that does not, half a second
-  // of a processor, which it may have to share.
+  // A host that follows the clock takes a hundred seconds; one that does not, half a second of a
+  // processor, which may be shared.
   EXPECT_LT(secondsFor(0.0, 100000), 25.0);
 }
 
@@ -185,8 +185,8 @@ TEST(WorldFile, FindsWorldsByTheirNames) {
   fs::remove_all(folder);
 }
 
-/// The one test in this program that looks for packages: they are searched once.
-TEST(Resources, AreFoundWherePackagesExportThem) {
+/// The only test in this program that searches packages: they are searched once.
+TEST(Resources, AreFoundInFoldersThatPackagesExport) {
   namespace fs = std::filesystem;
   const fs::path package = fs::path(testing::TempDir()) / "franka_resources_test" / "pebbles";
   fs::create_directories(package / "my_models" / "pebble");
@@ -253,7 +253,7 @@ TEST_F(PhysicsFile, TakesTheRobotsSectionAndTheFrictionSet) {
   EXPECT_EQ(0.7, read(text, "fr3").damping[6]);
 }
 
-TEST_F(PhysicsFile, SaysWhatIsWrong) {
+TEST_F(PhysicsFile, ReportsErrorsWithTheirCause) {
   const auto complaint = [this](const std::string& text, const std::string& friction = "none") {
     return sentence([&] { read(text, friction); });
   };
@@ -269,7 +269,8 @@ TEST_F(PhysicsFile, SaysWhatIsWrong) {
                "/nowhere.yaml"));
 }
 
-/// What the manufacturer's descriptions say of joints 1 to 7: lower, upper [rad], velocity [rad/s].
+/// Limits of joints 1 to 7 in the manufacturer's descriptions: lower, upper [rad], velocity
+/// [rad/s].
 struct Limits {
   std::array<double, 7> lower, upper, velocity;
 };
@@ -283,7 +284,7 @@ constexpr Limits kFr3Ros2Urdf{{{-2.9007, -1.8361, -2.9007, -3.077, -2.8763, 0.43
                               {{2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508}},
                               {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}}};
 
-/// Ranges that both robots can reach; the velocities are left.
+/// Ranges that both robots can reach; velocities are kept.
 Limits narrowed(Limits limits) {
   limits.lower = {{-1.0, -1.0, -1.0, -2.5, -1.0, 1.0, -1.0}};
   limits.upper = {{1.0, 1.0, 1.0, -0.5, 1.0, 3.0, 1.0}};
@@ -320,7 +321,7 @@ RobotType tell(const std::string& name, const std::string& parts,
   return tellRobotType(asked, urdf, arm_id);
 }
 
-TEST(RobotType, IsToldByTheJointsAndNotByTheName) {
+TEST(RobotType, IsDetectedByTheJointsNotByTheName) {
   for (const Limits& fr3 :
        {kFr3Urdf, kFr3Ros2Urdf, slowed(kFr3Urdf), narrowed(kFr3Urdf), narrowed(kFr3Ros2Urdf)}) {
     EXPECT_EQ("fr3", tell("my_machine", joints("arm", fr3)).name);
@@ -335,14 +336,14 @@ TEST(RobotType, IsToldByTheJointsAndNotByTheName) {
   EXPECT_TRUE(contains(tell("a", joints("arm", narrowed(kFr3Urdf))).why, "velocities"));
 }
 
-TEST(RobotType, IsThatOfTheArmAmongOthers) {
+TEST(RobotType, IsDetectedForEachOfSeveralArms) {
   const std::string both = "<link name='base'/>" + joints("left", kFr3Urdf) + carried("left") +
                            joints("right", kPandaUrdf) + carried("right");
   EXPECT_EQ("fr3", tell("two_arms", both, {}, "left").name);
   EXPECT_EQ("panda", tell("two_arms", both, {}, "right").name);
 }
 
-TEST(RobotType, IsTheNamesWhereJointsDoNotTell) {
+TEST(RobotType, FollowsTheNameIfTheJointsAreAmbiguous) {
   for (const std::string& parts :
        {joints("arm", slowed(narrowed(kFr3Urdf))), joints("other", kFr3Urdf)}) {
     EXPECT_EQ("fr3", tell("fr3", parts).name);
@@ -352,7 +353,7 @@ TEST(RobotType, IsTheNamesWhereJointsDoNotTell) {
   }
 }
 
-TEST(RobotType, IsTheOneAskedForWhateverTheJointsSay) {
+TEST(RobotType, ParameterOverridesTheJointsAndWarns) {
   const RobotType agreed = tell("my_machine", joints("arm", kFr3Urdf), "fr3");
   EXPECT_EQ("fr3", agreed.name);
   EXPECT_EQ("", agreed.warning);
@@ -390,7 +391,7 @@ class Mailbox : public testing::Test {
 
 using Fate = GripperCommand::Fate;
 
-TEST_F(Mailbox, CarriesACommandToItsOutcome) {
+TEST_F(Mailbox, ReportsTheOutcomeOfACommand) {
   const auto move = post(GripperCommand::Kind::kMove);
   EXPECT_EQ(Fate::kWaiting, move->fate);
   tick();
@@ -402,19 +403,19 @@ TEST_F(Mailbox, CarriesACommandToItsOutcome) {
   EXPECT_NEAR(0.04, unit_.width(), 5e-3);
 }
 
-TEST_F(Mailbox, ANewCommandInterruptsWhatWaitsAndWhatRuns) {
+TEST_F(Mailbox, NewCommandInterruptsWaitingAndRunningOnes) {
   const auto running = post(GripperCommand::Kind::kMove);
   tick();
   const auto waiting = post(GripperCommand::Kind::kHoming);
   const auto stop = post(GripperCommand::Kind::kStop);
-  EXPECT_EQ(Fate::kInterrupted, waiting->fate) << "although the loop stands still";
+  EXPECT_EQ(Fate::kInterrupted, waiting->fate) << "although the loop does not run";
   EXPECT_EQ(Fate::kRunning, running->fate);
   tick();
   EXPECT_EQ(Fate::kInterrupted, running->fate);
   EXPECT_EQ(Fate::kSucceeded, stop->fate);
 }
 
-TEST_F(Mailbox, ARefusedCommandLeavesWhatRuns) {
+TEST_F(Mailbox, RefusedCommandDoesNotInterrupt) {
   const auto running = post(GripperCommand::Kind::kMove);
   tick();
   const auto wrong = post(GripperCommand::Kind::kMove, std::nan(""));
@@ -437,7 +438,7 @@ const std::set<std::string> kArm{"a_joint1", "a_joint2", "a_joint3", "a_joint4",
                                  "a_joint5", "a_joint6", "a_joint7"};
 const std::set<std::string> kHand{"a_finger_joint1", "a_finger_joint2"};
 
-TEST(ControllerCheck, TakesWholeArmsAndWholeHands) {
+TEST(ControllerCheck, AcceptsWholeArmsAndWholeHands) {
   std::set<std::string> six = kArm, both = kArm, with_wheel = kArm;
   six.erase("a_joint4");
   both.insert(kHand.begin(), kHand.end());
@@ -464,7 +465,7 @@ TEST(ControllerCheck, TakesWholeArmsAndWholeHands) {
   EXPECT_TRUE(contains(whyRefused(pose, "b"), "b_robot"));
 }
 
-TEST(ControllerCheck, KnowsWhatIsClaimedOfTheArm) {
+TEST(ControllerCheck, DeterminesTheClaimedMode) {
   using franka_hw::ControlMode;
   hardware_interface::ControllerInfo pose = controller("EffortJointInterface", kArm);
   pose.claimed_resources.emplace_back("franka_hw::FrankaPoseCartesianInterface",
@@ -478,7 +479,7 @@ TEST(ControllerCheck, KnowsWhatIsClaimedOfTheArm) {
   EXPECT_FALSE(commandsArm(controller("EffortJointInterface", kHand), "a"));
 }
 
-TEST(ControllerCheck, ConflictsAreThoseOfTheRobot) {
+TEST(ControllerCheck, ConflictsMatchTheRobot) {
   const auto effort = controller("EffortJointInterface", kArm);
   const auto position = controller("PositionJointInterface", kArm);
   const auto velocity = controller("VelocityJointInterface", kArm);
@@ -500,37 +501,38 @@ franka_sim::MotionLimits limitsOf(unsigned protocol) {
   return franka_sim::motionLimitsOfProtocol(protocol);
 }
 
-TEST(CommandShaper, PassesOnWhatIsWithinTheLimits) {
+TEST(CommandShaper, PassesCommandsWithinTheLimits) {
   ShapingOptions options;
   options.cutoff_frequency = 1000.0;
   franka_core::RobotState state{};
   state.message_id = 7;
-  ArmCommands wanted;
-  wanted.torque.fill(3.0);
-  wanted.velocity.fill(1e-6);
+  ArmCommands desired;
+  desired.torque.fill(3.0);
+  desired.velocity.fill(1e-6);
   const auto mode = franka_hw::ControlMode::JointTorque | franka_hw::ControlMode::JointVelocity;
-  const franka_core::RobotCommand command = shapeCommand(options, mode, wanted, state, limitsOf(5));
+  const franka_core::RobotCommand command =
+      shapeCommand(options, mode, desired, state, limitsOf(5));
   EXPECT_EQ(7u, command.message_id);
-  EXPECT_EQ(wanted.torque, command.tau_J_d) << "torques are limited only where reflexes act";
+  EXPECT_EQ(desired.torque, command.tau_J_d) << "torques are limited only where reflexes act";
   for (std::size_t i = 0; i < 7; ++i) {
     EXPECT_NEAR(1e-6, command.dq_c[i], 1e-15);
   }
   options.torques = true;
-  EXPECT_NEAR(1.0, shapeCommand(options, mode, wanted, state, limitsOf(5)).tau_J_d[3], 1e-5);
+  EXPECT_NEAR(1.0, shapeCommand(options, mode, desired, state, limitsOf(5)).tau_J_d[3], 1e-5);
 }
 
-TEST(CommandShaper, HandsOnWhatIsNoNumberForTheRobotToJudge) {
-  ArmCommands wanted;
-  wanted.position[2] = std::nan("");
-  wanted.pose[0] = 2.0;
+TEST(CommandShaper, PassesNonFiniteCommandsToTheRobot) {
+  ArmCommands desired;
+  desired.position[2] = std::nan("");
+  desired.pose[0] = 2.0;
   const franka_core::RobotState state{};
   const auto position =
-      shapeCommand({}, franka_hw::ControlMode::JointPosition, wanted, state, limitsOf(5));
+      shapeCommand({}, franka_hw::ControlMode::JointPosition, desired, state, limitsOf(5));
   EXPECT_TRUE(std::isnan(position.q_c[2]));
   ShapingOptions limited;
   limited.cutoff_frequency = 1000.0;
   const auto pose =
-      shapeCommand(limited, franka_hw::ControlMode::CartesianPose, wanted, state, limitsOf(5));
+      shapeCommand(limited, franka_hw::ControlMode::CartesianPose, desired, state, limitsOf(5));
   EXPECT_EQ(2.0, pose.O_T_EE_c[0]);
 }
 
@@ -559,7 +561,7 @@ struct PoseControlledArm {
   SimArm arm;
 };
 
-TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
+TEST(CommandShaper, PoseHandlesAcceptTheSamePosesAsTheRobot) {
   franka_sim::ControlUnitParameters parameters = franka_sim::test::pandaWithHand();
   for (const bool reflexes : {false, true}) {
     for (const bool limited : {false, true}) {
@@ -571,18 +573,19 @@ TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
         shaping.cutoff_frequency = cutoff;
         const std::array<double, 16> pose =
             PoseControlledArm(parameters, shaping).arm.commands().pose;
-        for (const franka_sim::test::DustyMatrix& dusty : franka_sim::test::dustOn(pose)) {
+        for (const franka_sim::test::PerturbedMatrix& perturbed :
+             franka_sim::test::perturbations(pose)) {
           PoseControlledArm controlled(parameters, shaping);
           ASSERT_EQ(SimArm::Switch::kDone, controlled.arm.switchResult());
-          controlled.arm.commands().pose = dusty.matrix;
+          controlled.arm.commands().pose = perturbed.matrix;
           controlled.tick();
           controlled.tick();
           const bool runs = controlled.arm.state().robot_mode == franka::RobotMode::kMove;
-          EXPECT_EQ(dusty.accepted, runs) << dusty << ", reflexes " << reflexes << ", limited "
-                                          << limited << ", cutoff " << cutoff;
-          EXPECT_EQ(dusty.accepted ? 0u : 1u, controlled.arm.lastAbort().count) << dusty;
+          EXPECT_EQ(perturbed.accepted, runs) << perturbed << ", reflexes " << reflexes
+                                              << ", limited " << limited << ", cutoff " << cutoff;
+          EXPECT_EQ(perturbed.accepted ? 0u : 1u, controlled.arm.lastAbort().count) << perturbed;
           EXPECT_EQ(
-              !dusty.accepted,
+              !perturbed.accepted,
               controlled.arm.lastAbort().errors[franka_core::indexOf(
                   franka_core::RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag)]);
         }
@@ -591,7 +594,7 @@ TEST(CommandShaper, PoseHandlesTakeOrRefuseDustAsTheRobotDoes) {
   }
 }
 
-TEST(SimArm, FlagsAreTheManualsFormulasForTheFilteredValuesThatAreShown) {
+TEST(SimArm, FlagsFollowTheManualsFormulasForFilteredValues) {
   franka_sim::ControlUnitParameters parameters = franka_sim::test::pandaWithHand();
   franka_sim::test::FakeArm plant(parameters.model, franka_sim::test::kReady);
   plant.payload = parameters.end_effector;
@@ -622,7 +625,7 @@ TEST(SimArm, FlagsAreTheManualsFormulasForTheFilteredValuesThatAreShown) {
   EXPECT_LT(contacts, 700);
 }
 
-/// The robot itself judges what the shaper makes of commands that jump.
+/// The robot itself checks the shaped commands of a controller that jumps.
 class ShapedMotion : public testing::TestWithParam<unsigned> {};
 
 TEST_P(ShapedMotion, IsNeverRefused) {
@@ -634,11 +637,11 @@ TEST_P(ShapedMotion, IsNeverRefused) {
     franka_core::RobotState state{};
     state.q_d = {{0.0, -0.8, 0.0, -2.0, 0.0, 1.6, 0.0}};
     motion.start(state.q_d);
-    ArmCommands wanted;
+    ArmCommands desired;
     for (int tick = 0; tick < 4000; ++tick) {
-      wanted.velocity.fill(tick / 250 % 2 == 0 ? 0.7 : -0.7);  // jumps every quarter of a second
+      desired.velocity.fill(tick / 250 % 2 == 0 ? 0.7 : -0.7);  // jumps every quarter of a second
       const auto command =
-          shapeCommand(options, franka_hw::ControlMode::JointVelocity, wanted, state, limits);
+          shapeCommand(options, franka_hw::ControlMode::JointVelocity, desired, state, limits);
       ASSERT_FALSE(motion.takeVelocities(command.dq_c, limits)) << tick;
       state.q_d = motion.last().q;
       state.dq_d = motion.last().dq;
@@ -650,10 +653,10 @@ TEST_P(ShapedMotion, IsNeverRefused) {
 
 INSTANTIATE_TEST_SUITE_P(PandaAndFr3, ShapedMotion, testing::Values(5u, 10u));
 
-/// An FR3's velocity limits fall towards the joints' ends faster than joints 5 and 7 may brake.
+/// An FR3's velocity limits fall towards the joints' ends faster than joints 5 and 7 can brake.
 class ShapedMotionToTheEnds : public testing::TestWithParam<unsigned> {};
 
-TEST_P(ShapedMotionToTheEnds, ComesToRestUnrefused) {
+TEST_P(ShapedMotionToTheEnds, ComesToRestWithoutRefusal) {
   const franka_sim::MotionLimits limits = limitsOf(GetParam());
   for (const double towards : {-20.0, 20.0}) {
     ShapingOptions options;
@@ -662,12 +665,12 @@ TEST_P(ShapedMotionToTheEnds, ComesToRestUnrefused) {
     franka_core::RobotState state{};
     state.q_d = {{0.0, -0.8, 0.0, -2.0, 0.0, 1.6, 0.0}};
     motion.start(state.q_d);
-    ArmCommands wanted;
-    wanted.velocity.fill(towards);
+    ArmCommands desired;
+    desired.velocity.fill(towards);
     std::array<double, 7> fastest{};
     for (int tick = 0; tick < 10000; ++tick) {
       const auto command =
-          shapeCommand(options, franka_hw::ControlMode::JointVelocity, wanted, state, limits);
+          shapeCommand(options, franka_hw::ControlMode::JointVelocity, desired, state, limits);
       ASSERT_FALSE(motion.takeVelocities(command.dq_c, limits)) << tick << " " << towards;
       state.q_d = motion.last().q;
       state.dq_d = motion.last().dq;

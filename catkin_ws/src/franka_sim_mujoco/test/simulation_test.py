@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A Panda with hand in the stone world, met through topics, services and actions only."""
+"""A Panda with hand in the stone world, used through topics, services and actions only."""
 
 import math
 import sys
@@ -56,7 +56,7 @@ def state():
 
 
 def state_when(condition, wait=WAIT):
-    """The first state that meets a condition; fails loudly when none does in time."""
+    """The first state that meets a condition; fails if none does in time."""
     end = time.monotonic() + wait
     while time.monotonic() < end:
         now = state()
@@ -66,7 +66,7 @@ def state_when(condition, wait=WAIT):
 
 
 def action(name, kind):
-    # Not the simple client: it loses goals that end before its send_goal() returns, as they do flat out.
+    # Not the simple client: it loses goals that end before its send_goal() returns, as they do here.
     client = actionlib.ActionClient(name, kind)
     client.wait_for_server()  # bounded by the time limit of the test
     return client
@@ -77,7 +77,7 @@ def finish(client, goal):
 
 
 def result(handle):
-    """Waits by the wall clock: ROS time runs many times faster here."""
+    """Waits in wall time: ROS time is many times faster here."""
     end = time.monotonic() + WAIT
     while handle.get_comm_state() != actionlib.CommState.DONE and time.monotonic() < end:
         time.sleep(0.01)
@@ -124,7 +124,7 @@ class SimulationTest(unittest.TestCase):
         for q, start in zip(now.q, (0, -0.785398163, 0, -2.35619449, 0, 1.57079632679, 0.785398163397)):
             self.assertAlmostEqual(q, start, delta=0.02)
 
-    def test_joint_states_carry_the_names_of_the_arm_and_the_fingers(self):
+    def test_joint_states_name_the_joints_of_the_arm_and_the_fingers(self):
         arm = rospy.wait_for_message("/franka_state_controller/joint_states", JointState, WAIT)
         self.assertEqual(list(arm.name), [f"panda_joint{i}" for i in range(1, 8)])
         hand = rospy.wait_for_message("/franka_gripper/joint_states", JointState, WAIT)
@@ -137,7 +137,7 @@ class SimulationTest(unittest.TestCase):
 
     # services
 
-    def test_load_and_frames_are_set_or_refused_with_a_sentence(self):
+    def test_load_and_frames_are_set_or_refused(self):
         set_load = service("/franka_control/set_load", SetLoad)
         self.assertTrue(set_load(0.1, [0, 0, 0.1], [0] * 9).success)
         now = state_when(lambda s: s.m_load > 0)
@@ -161,7 +161,7 @@ class SimulationTest(unittest.TestCase):
             self.assertFalse(refused.success)
             self.assertIn(field, refused.error)
 
-    def test_a_push_shows_as_contact_and_collision_with_the_right_sign(self):
+    def test_a_push_is_reported_as_contact_and_collision_with_the_right_sign(self):
         set_behavior = service(
             "/franka_control/set_force_torque_collision_behavior", SetForceTorqueCollisionBehavior
         )
@@ -187,7 +187,7 @@ class SimulationTest(unittest.TestCase):
         self.assertFalse(bad.success)
         self.assertIn("negative", bad.error)
         self.assertFalse(push("no_such_body", Vector3(), Vector3(), False, Point(), 1).success)
-        # The push lasts 100 s of simulated time, which a busy machine takes a while for.
+        # The push lasts 100 s of simulated time, which may take long on a busy machine.
         state_when(lambda s: abs(s.O_F_ext_hat_K[0]) < 0.5, wait=3 * WAIT)
 
     def test_user_stop_disconnects_until_recovery(self):
@@ -218,7 +218,7 @@ class SimulationTest(unittest.TestCase):
         status, answer, text = finish(action("/franka_gripper/homing", HomingAction), HomingGoal())
         self.assertEqual((status, answer.success), (GoalStatus.SUCCEEDED, True), text)
 
-    def test_gripper_refuses_goals_that_make_no_sense(self):
+    def test_gripper_refuses_invalid_goals(self):
         move = action("/franka_gripper/move", MoveAction)
         grasp = action("/franka_gripper/grasp", GraspAction)
         command = action("/franka_gripper/gripper_action", GripperCommandAction)
@@ -240,7 +240,7 @@ class SimulationTest(unittest.TestCase):
             self.assertEqual(status, GoalStatus.ABORTED, goal)
             self.assertTrue(text, goal)
 
-    def test_gripper_grasps_nothing_and_says_so(self):
+    def test_gripper_reports_a_grasp_without_object(self):
         finish(action("/franka_gripper/move", MoveAction), MoveGoal(width=0.06, speed=0.1))
         grasp = action("/franka_gripper/grasp", GraspAction)
         goal = GraspGoal(width=0.03, epsilon=GraspEpsilon(inner=0.005, outer=0.005), speed=0.1, force=5)
@@ -248,7 +248,7 @@ class SimulationTest(unittest.TestCase):
         self.assertFalse(answer.success)
         self.assertTrue(answer.error or text)
 
-    def test_a_new_goal_interrupts_and_a_cancelled_one_ends(self):
+    def test_a_new_goal_preempts_and_a_cancel_ends_a_motion(self):
         move = action("/franka_gripper/move", MoveAction)
         stop = action("/franka_gripper/stop", StopAction)
         finish(move, MoveGoal(width=0.08, speed=0.1))
@@ -299,7 +299,7 @@ class SimulationTest(unittest.TestCase):
         self.assertFalse(refused.success)
         self.assertIn("pause", refused.error)
 
-    def test_pace_follows_the_factor(self):
+    def test_pace_follows_the_real_time_factor(self):
         set_factor = service("/gazebo/set_real_time_factor", SetRealTimeFactor)
         self.assertFalse(set_factor(-1).success)
         self.assertFalse(set_factor(float("nan")).success)
@@ -313,7 +313,7 @@ class SimulationTest(unittest.TestCase):
         finally:
             self.assertTrue(set_factor(0).success)
 
-    def test_bodies_can_be_asked_for_and_placed(self):
+    def test_bodies_can_be_read_and_placed(self):
         get_pose = service("/gazebo/get_body_pose", GetBodyPose)
         set_pose = service("/gazebo/set_body_pose", SetBodyPose)
         pause()
@@ -332,7 +332,7 @@ class SimulationTest(unittest.TestCase):
             self.assertTrue(answer.error)
         service("/gazebo/reset", Trigger)()
 
-    def test_contacts_hold_the_stone_against_its_weight(self):
+    def test_contact_forces_equal_the_weight_of_the_stone(self):
         service("/gazebo/reset", Trigger)()
         pause()
         self.step(1000)
@@ -341,7 +341,7 @@ class SimulationTest(unittest.TestCase):
         self.assertAlmostEqual(sum(force.z for force in contacts.forces), 0.1024 * 9.81, delta=0.02)
         self.assertFalse(service("/gazebo/get_contacts", GetContacts)("moon", "").success)
 
-    def test_a_picture_is_drawn_and_a_bad_camera_refused(self):
+    def test_a_picture_is_rendered_and_an_unknown_camera_is_refused(self):
         render = service("/gazebo/render_picture", RenderPicture)
         answer = render(Point(1.4, -1.2, 1.2), Point(0, 0, 0.4), 0, 160, 120)
         self.assertTrue(answer.success, answer.error)

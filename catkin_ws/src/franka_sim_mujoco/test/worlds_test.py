@@ -94,7 +94,7 @@ def running(arm):
     try:
         return {c.name for c in controllers().controller if c.state == "running"}
     except rospy.ServiceException:
-        return set()  # asked while it came up
+        return set()  # called during its start
 
 
 class WorldsTest(unittest.TestCase):
@@ -112,14 +112,14 @@ class WorldsTest(unittest.TestCase):
         call("pause_physics", Empty)
 
     def external_torque_after(self, ticks):
-        """Of joint 2 of panda_1, when the world has gone on for so long [Nm]."""
+        """External torque of joint 2 of panda_1 after a time of the simulation [Nm]."""
         heard = []
         topic = "/panda_1/franka_state_controller/franka_states"
         subscriber = rospy.Subscriber(topic, FrankaState, heard.append)
         until(subscriber.get_num_connections, topic)
 
         def heard_of_the_end():
-            # States come at 30 Hz; the last one may be on its way.
+            # States come at 30 Hz; the last one may still be in transit.
             end = call("step", Step, ticks).time
             patience = time.monotonic() + 0.5
             while time.monotonic() < patience:
@@ -151,13 +151,13 @@ class WorldsTest(unittest.TestCase):
         stone = call("get_body_state", GetBodyState, "stone")
         self.assertAlmostEqual(stone.pose.position.x, 0.000286, delta=2e-3)
         self.assertAlmostEqual(stone.pose.position.y, -0.221972, delta=2e-3)
-        # It rests: on the tray, by half its height.
+        # It rests on the tray: its centre is half its height above.
         self.assertAlmostEqual(stone.pose.position.z, 0.419773 + 0.023348 + 0.032, delta=1e-3)
         base = call("get_body_state", GetBodyState, "panda_2_link0").pose
         self.assertAlmostEqual(base.position.x, 0.9, delta=1e-9)
         self.assertAlmostEqual(abs(base.orientation.z), 1, delta=1e-9)
 
-    def test_2_objects_come_fall_and_go(self):
+    def test_2_objects_are_spawned_fall_and_are_removed(self):
         call("spawn_object", SpawnObject, "ball", BALL.format("ball"), at(2, 2, 3))
         before = call("get_body_state", GetBodyState, "ball").pose.position.z
         self.assertAlmostEqual(before, 3)
@@ -176,7 +176,7 @@ class WorldsTest(unittest.TestCase):
         call("delete_object", DeleteObject, "ball")
         self.assertNotIn("ball", call("get_world", GetWorld).bodies)
         self.assertIn("ball", call("delete_object", DeleteObject, "ball", fails=True).error)
-        # The robots never noticed.
+        # The robots raised no error.
         self.assertIn("cartesian_impedance_example_controller", running("panda_1"))
 
     def test_3_gravity_is_what_was_set(self):
@@ -185,14 +185,14 @@ class WorldsTest(unittest.TestCase):
         call("step", Step, 200)
         speed = call("get_body_state", GetBodyState, "moon_ball").twist.linear.z
         self.assertAlmostEqual(speed, -1.62 * 0.2, delta=1e-6)
-        # The arm is pressed up by what it compensates and need not: more than four fifths of its weight.
+        # The compensated but absent gravity pushes the arm up: with more than four fifths of its weight.
         self.assertGreater(abs(self.external_torque_after(200)), 5)
         call("set_gravity", SetGravity, Vector3(0, 0, -9.81))
         self.assertLess(abs(self.external_torque_after(500)), 1)
         self.assertIn("numbers", call("set_gravity", SetGravity, Vector3(0, math.nan, 0), fails=True).error)
         call("delete_object", DeleteObject, "moon_ball")
 
-    def test_4_joints_are_read_and_put_elsewhere(self):
+    def test_4_joints_are_read_and_set(self):
         names = [f"panda_2_joint{i}" for i in range(1, 8)]
         before = call("get_joint_states", GetJointStates, names).state
         self.assertEqual(list(before.name), names)
@@ -216,7 +216,7 @@ class WorldsTest(unittest.TestCase):
         every = call("get_joint_states", GetJointStates, []).state
         self.assertEqual(len(every.name), 18)
 
-    def test_5_a_snapshot_puts_everything_back(self):
+    def test_5_a_snapshot_restores_everything(self):
         call("spawn_object", SpawnObject, "die", BALL.format("die"), at(1.5, 1.5, 0.5))
         call("step", Step, 100)
         first = call("take_snapshot", TakeSnapshot, "here").state_hash
@@ -238,7 +238,7 @@ class WorldsTest(unittest.TestCase):
         self.assertEqual((after.time - before.time).to_nsec(), 10 * 10**6)
         self.assertIn("cartesian_impedance_example_controller", running("panda_1"))
 
-    def test_7_contacts_tell_the_weight_of_what_rests(self):
+    def test_7_contact_forces_equal_the_weight_of_a_resting_object(self):
         call("reset", Trigger)
         call("step", Step, 800)
 
@@ -257,7 +257,7 @@ class WorldsTest(unittest.TestCase):
         topic = "/gazebo/eye/link/cam/"
         frames = []
         listener = rospy.Subscriber("/tf", TFMessage, lambda m: frames.extend(m.transforms))
-        # Paused: one picture a subscriber; the depth comes first so that all are asked for.
+        # Paused: one picture per subscriber; depth subscribes first, so that all are rendered.
         depths, images, infos = [], [], []
         listeners = [
             rospy.Subscriber(topic + "depth/image_raw", Image, depths.append),
@@ -280,7 +280,7 @@ class WorldsTest(unittest.TestCase):
         self.assertGreater(green, 2 * max(red, blue))
         info = infos[-1]
         self.assertAlmostEqual(info.K[0], 40 / math.tan(0.5), delta=1e-9)
-        # The plate's edge stands 0.5 m from the axis.
+        # The plate's edge is 0.5 m from the axis.
         columns = numpy.nonzero(depth[30] < 1.6)[0]
         self.assertAlmostEqual(columns.size, 2 * info.K[0] * 0.5 / 1.49, delta=2)
         self.assertAlmostEqual(transform.transform.translation.z, 2, delta=1e-9)
@@ -288,7 +288,7 @@ class WorldsTest(unittest.TestCase):
         self.assertAlmostEqual(1 - 2 * (q.x**2 + q.y**2), -1, delta=1e-6)  # the optical axis points down
         call("delete_object", DeleteObject, "eye")
 
-    def test_9_spawn_model_takes_sdf_mjcf_and_nonsense(self):
+    def test_9_spawn_model_accepts_sdf_and_mjcf_and_refuses_others(self):
         def spawn(text, *options):
             command = ["rosrun", "gazebo_ros", "spawn_model", "-stdin", *options]
             return subprocess.run(command, input=text, text=True, capture_output=True, timeout=60)
@@ -305,7 +305,7 @@ class WorldsTest(unittest.TestCase):
         self.assertEqual(failed.returncode, 1)
         self.assertIn("<html>", failed.stdout + failed.stderr)
 
-    def test_divergence_pauses_is_told_and_ends_with_a_reset(self):
+    def test_divergence_pauses_is_reported_and_ends_with_a_reset(self):
         call("spawn_object", SpawnObject, "feather", FEATHER, at(3, 3, 3))
         for size, push in ((1e12, (1e12, 0, 0)), (-10001, (0, 0, -10001))):
             order = ("feather", Vector3(*push), NONE, False, Point(), 5)
@@ -322,7 +322,7 @@ class WorldsTest(unittest.TestCase):
         self.assertIn("is 1e+09 m; at most 1000 m", refused.error)
         place = call("get_body_state", GetBodyState, "feather").pose.position
         self.assertEqual((place.x, place.y, place.z), (3, 3, 3), "nothing was half done")
-        # Light as it is, even 10 000 N are too much for it.
+        # It is so light that 10 000 N make it diverge.
         for runs in (False, True):
             if runs:
                 call("unpause_physics", Empty)
@@ -339,7 +339,7 @@ class WorldsTest(unittest.TestCase):
             self.assertEqual(call("get_world", GetWorld).paused, not runs)
         call("delete_object", DeleteObject, "feather")
 
-    def test_an_object_within_a_robot_is_told(self):
+    def test_an_object_inside_a_robot_is_reported(self):
         hand = call("get_body_state", GetBodyState, "panda_1_hand").pose.position
         ball = BALL.format("inside")
         answer = call("spawn_object", SpawnObject, "inside", ball, at(hand.x, hand.y, hand.z))
@@ -350,7 +350,7 @@ class WorldsTest(unittest.TestCase):
         for axis, value in zip("xyz", (x, y, z)):
             self.assertAlmostEqual(getattr(point, axis), value, delta=1e-6)
 
-    def test_gazebo_services_read_what_is_there(self):
+    def test_gazebo_services_read_models_and_links(self):
         names = set(call("get_world_properties", GetWorldProperties).model_names)
         scenery = {"stone", "table", "pick_tray", "place_tray", "ground_plane"}
         self.assertEqual(names, scenery | {"panda_1", "panda_2"})
@@ -359,7 +359,7 @@ class WorldsTest(unittest.TestCase):
             call("get_model_state", GetModelState, "stone", "").pose.position, stone.x, stone.y, stone.z
         )
         seen = call("get_model_state", GetModelState, "stone", "panda_2::panda_2_link0")
-        self.near(seen.pose.position, 0.9 - stone.x, -stone.y, stone.z)  # its base is turned by half a turn
+        self.near(seen.pose.position, 0.9 - stone.x, -stone.y, stone.z)  # its base is rotated by half a turn
         self.assertEqual(seen.header.frame_id, "panda_2::panda_2_link0")
         link = call("get_link_state", GetLinkState, "stone::link", "table").link_state
         self.near(link.pose.position, stone.x - 0.016428, stone.y - 0.000584, stone.z)
@@ -387,9 +387,9 @@ class WorldsTest(unittest.TestCase):
         ):
             self.assertIn("'moon'", call(name, kind, *arguments, fails=True).status_message)
 
-    def test_gazebo_services_and_topics_place_things(self):
+    def test_gazebo_services_and_topics_set_states(self):
         spun = Twist(Vector3(0, 0, 1), Vector3(0, 0, 2))
-        unset = at(2, 2, 1, (0, 0, 0, 0))  # what a message begins with
+        unset = at(2, 2, 1, (0, 0, 0, 0))  # defaults of a message
         call("set_model_state", SetModelState, ModelState("stone", unset, spun, ""))
         state = call("get_model_state", GetModelState, "stone", "world")
         self.near(state.pose.position, 2, 2, 1)
@@ -422,7 +422,7 @@ class WorldsTest(unittest.TestCase):
         self.near(links.pose[links.name.index("panda_1::panda_1_hand")].position, hand.x, hand.y, hand.z)
         self.assertEqual(len(links.name), len(links.twist))
 
-    def test_gazebo_models_come_are_configured_and_go(self):
+    def test_gazebo_models_are_spawned_configured_and_deleted(self):
         ball = BALL.format("marble")
         spawned = call(
             "spawn_sdf_model", SpawnModel, "marble", ball, "", at(0, 0, 1, (0, 0, 0, 0)), "panda_2_link0"
@@ -443,7 +443,7 @@ class WorldsTest(unittest.TestCase):
         answer = call("set_model_configuration", SetModelConfiguration, *configure, [9.0], fails=True)
         self.assertIn("panda_2_joint1", answer.status_message)
 
-    def test_states_are_those_of_both_robots(self):
+    def test_states_come_from_both_robots(self):
         call("unpause_physics", Empty)
         for arm in ("panda_1", "panda_2"):
             state = rospy.wait_for_message(f"/{arm}/franka_state_controller/franka_states", FrankaState, WAIT)

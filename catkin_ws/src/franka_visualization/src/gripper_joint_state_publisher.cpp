@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Publishes the joint states of a hand, and only looks at it.
+// Publishes the joint states of a hand; sends it no commands.
 #include <franka/exception.h>
 #include <franka/gripper.h>
 #include <franka_hw/usage.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr char kUsage[] =
     "usage: rosrun franka_visualization gripper_joint_state_publisher [NAME:=VALUE]...\n\n"
-    "Publishes a hand's ~joint_states (sensor_msgs/JointState) and only looks at it. Parameters:\n"
+    "Publishes a hand's ~joint_states (sensor_msgs/JointState); sends no commands. Parameters:\n"
     "~robot_ip, ~joint_names (two), ~publish_rate [Hz]. franka_visualization.launch sets them.";
 
 }  // namespace

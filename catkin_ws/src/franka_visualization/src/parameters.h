@@ -12,7 +12,7 @@
 
 namespace franka_visualization {
 
-/// What both nodes are told.
+/// Parameters of both nodes.
 struct Parameters {
   std::vector<std::string> joint_names;
   std::string robot_ip;
@@ -20,14 +20,14 @@ struct Parameters {
 };
 
 /// Reads them from the node's namespace. @param joints how many names there must be
-/// @throws std::invalid_argument with a sentence that names the parameter
+/// @throws std::invalid_argument with a message that names the parameter
 Parameters readParameters(const ros::NodeHandle& nh, std::size_t joints);
 
-/// Warns in one sentence of joints that robot_description does not hold: what shows the robot would
-/// wait for them for ever. @returns the description; nothing where there is none, or no such joint
+/// Warns about joints that robot_description lacks, because programs that show the robot would wait
+/// for them forever. @returns the description; empty if there is none or it lacks a joint
 std::optional<urdf::Model> describedBy(const ros::NodeHandle& nh, const Parameters& parameters);
 
-/// What to do where no robot answers, to go after libfranka's sentence.
+/// Advice if no robot answers, appended to libfranka's message.
 extern const char* const kNoRobot;
 
 }  // namespace franka_visualization

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Publishes the joint states of an arm, and only looks at it. The robot accepts one connection at a
-// time: this cannot run beside franka_control_node.
+// Publishes the joint states of an arm; sends it no commands. The robot accepts one connection at a
+// time: this cannot run together with franka_control_node.
 #include <franka/exception.h>
 #include <franka/robot.h>
 #include <franka_hw/resource_helpers.h>
@@ -23,10 +23,10 @@ namespace {
 
 constexpr char kUsage[] =
     "usage: rosrun franka_visualization robot_joint_state_publisher [NAME:=VALUE]...\n\n"
-    "Publishes an arm's ~joint_states (sensor_msgs/JointState) and only looks at it. Parameters:\n"
+    "Publishes an arm's ~joint_states (sensor_msgs/JointState); sends no commands. Parameters:\n"
     "~robot_ip, ~joint_names (seven), ~publish_rate [Hz]. franka_visualization.launch sets them.";
 
-/// Warns where the robot is another one than robot_description says.
+/// Warns if the robot does not match robot_description.
 void compare(const ros::NodeHandle& nh, const franka_visualization::Parameters& parameters,
              unsigned protocol) {
   std::array<std::string, 7> joint_names;
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   ros::NodeHandle nh("~");
   try {
     const auto parameters = franka_visualization::readParameters(nh, 7);
-    // Who only looks needs no real-time priority.
+    // Reading states needs no real-time priority.
     franka::Robot robot(parameters.robot_ip, franka::RealtimeConfig::kIgnore);
     compare(nh, parameters, robot.serverVersion());
     ros::Publisher publisher = nh.advertise<sensor_msgs::JointState>("joint_states", 1);

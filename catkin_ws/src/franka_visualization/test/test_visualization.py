@@ -16,7 +16,7 @@ from franka_sim_mujoco.session import Session
 from PIL import Image
 
 ADDRESS = "127.0.33.1"
-# What the simulated robot starts from (the ready pose), and its hand.
+# Start pose of the simulated robot (the ready pose), and of its hand.
 READY = [0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398]
 
 
@@ -58,7 +58,7 @@ def launch(log, name, *arguments) -> Session:
 
 
 def joint_states(session) -> dict:
-    """The merged joint states, once arm and hand have been heard of."""
+    """The merged joint states, once both arm and hand have published."""
     deadline = time.monotonic() + 120
     while time.monotonic() < deadline:
         session.check()
@@ -66,14 +66,14 @@ def joint_states(session) -> dict:
         message = yaml.safe_load(echo.partition("---")[0])
         names = message["name"]
         states = dict(zip(names, message["position"]))
-        # Until a source speaks its joints stand in the middle of their ranges.
+        # Before its source publishes, a joint is in the middle of its range.
         if abs(states.get(names[3], 0.0) - READY[3]) < 0.01:
             return states
     pytest.fail(f"The arm does not show:\n{echo}\n{session.tail(40)}")
 
 
 @pytest.mark.parametrize("name", ["panda", "fr3"] if os.environ.get("FRANKA_TEST_LONG") else ["panda"])
-def test_arm_and_hand_are_shown_together(screen, tmp_path, name):
+def test_joint_states_hold_arm_and_hand(screen, tmp_path, name):
     rviz = name == "panda"
     robot = simulated(name, ADDRESS, "realtime")
     with robot, launch(tmp_path / "launch.log", name, f"rviz:={str(rviz).lower()}") as session:
@@ -100,7 +100,7 @@ def test_arm_and_hand_are_shown_together(screen, tmp_path, name):
     "address, sentence",
     [("no.such.host.invalid", "no.such.host.invalid"), ("127.0.33.9", "Please install FCI feature")],
 )
-def test_without_a_robot_the_launch_ends_with_a_sentence(tmp_path, address, sentence):
+def test_without_a_robot_the_launch_file_reports_an_error_and_exits(tmp_path, address, sentence):
     log = tmp_path / "launch.log"
     arguments = [f"robot_ip:={address}", "rviz:=false"]
     with Session("franka_visualization", "franka_visualization.launch", *arguments, log=log) as session:
@@ -110,7 +110,7 @@ def test_without_a_robot_the_launch_ends_with_a_sentence(tmp_path, address, sent
             assert time.monotonic() < deadline, session.tail(40)
             time.sleep(0.2)
     text = log.read_text(errors="replace")
-    # The arm's node is required: it may end the launch before the hand's has given up.
+    # The arm's node is required: its exit may end the launch before the hand's node exits.
     errors = re.findall(r"^.*\[ERROR\].*robot_joint_state_publisher: .*$", text, re.M)
     assert len(errors) == 1, text
     assert sentence in errors[0]

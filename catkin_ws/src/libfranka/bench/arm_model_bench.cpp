@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ArmModel::computeDynamics beside KDL's own solvers for the same five results, in one run. KDL's
-// solvers are built once and its payload is part of its chain, so both do nothing but calculate.
-// Closes with one line: the time of one call and the ratio.
+// ArmModel::computeDynamics compared with KDL's solvers for the same five results, in one run.
+// KDL's solvers are built once with the payload in the chain, so that both only compute. Prints one
+// line at the end: the time of one call and the ratio.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -78,7 +78,7 @@ void kdlSolvers(benchmark::State& loop) {
 BENCHMARK(armModel)->Repetitions(5)->ReportAggregatesOnly(true);
 BENCHMARK(kdlSolvers)->Repetitions(5)->ReportAggregatesOnly(true);
 
-// Remembers the medians on their way to the console.
+// Keeps the medians that it passes to the console.
 class RatioReporter : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {

@@ -1,14 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the client costs in one millisecond, for each layout of the protocol:
-//   cycle/<version>: decode the state, call back, filter, limit, encode the command; beside it
-//     copies/<version>, which only copies both datagrams.
-//   roundTrip/<version>: a command over UDP and the state that answers it, through the whole
-//   client;
-//     beside it barePingPong/<version>, plain sockets with datagrams of the same sizes. Counters
-//     p50_us and p999_us are percentiles of single round trips, p50_ratio the client's p50 over
-//     that of the bare sockets.
+// Cost of the client in one millisecond, for each layout of the protocol.
+// cycle/<version>: decode the state, call back, filter, limit, encode the command; compared with
+// copies/<version>, which only copies both datagrams.
+// roundTrip/<version>: a command over UDP and the state that answers it, through the whole client;
+// compared with barePingPong/<version>, plain sockets with datagrams of the same sizes. Counters
+// p50_us and p999_us are percentiles of single round trips, p50_ratio the client's p50 over that of
+// the bare sockets.
 #include <benchmark/benchmark.h>
 #include <franka/active_control_base.h>
 #include <franka/lowpass_filter.h>
@@ -56,7 +55,7 @@ franka::Torques nextTorques(const franka::RobotState& state, franka::Duration) {
   return torques;
 }
 
-// The dearest of the modes: a pose with an elbow, and torques.
+// The most expensive mode: a pose with an elbow, and torques.
 void cycle(benchmark::State& loop) {
   const auto version = static_cast<std::uint16_t>(loop.range(0));
   fci::StateBuffer datagram{};
@@ -113,7 +112,7 @@ class Times {
   std::vector<double> seconds_;
 };
 
-// The scheduler's choice of cores would otherwise decide between 15 and 60 us.
+// Otherwise the scheduler's choice of cores decides between 15 and 60 us.
 void runOnCore(std::size_t core) {
   cpu_set_t cores;
   CPU_ZERO(&cores);
@@ -123,8 +122,8 @@ void runOnCore(std::size_t core) {
 
 enum class Subject { kClient, kBare };
 
-// Both kinds of round trip in turn, so that what else the machine does meets both alike; reports
-// the time of one of them.
+// Alternates both kinds of round trip, so that other load affects both equally; reports the time of
+// one of them.
 void pingPong(benchmark::State& loop, Subject subject) {
   const auto version = static_cast<std::uint16_t>(loop.range(0));
   runOnCore(1);  // inherited by the servers' threads

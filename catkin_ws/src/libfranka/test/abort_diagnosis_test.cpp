@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<double, 16> kNoTurn{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
 
-/// A log of joint positions that stand still, and then break a limit.
+/// A log of constant joint positions followed by a step that violates a limit.
 std::vector<AbortRecord> jointLog(std::size_t flag, const std::array<double, 7>& last_step) {
   std::vector<AbortRecord> log(4);
   for (std::size_t i = 0; i < log.size(); i++) {
@@ -34,13 +34,13 @@ std::vector<AbortRecord> jointLog(std::size_t flag, const std::array<double, 7>&
   return log;
 }
 
-/// Turned about z [rad], and shifted along x [m].
+/// Rotated about z [rad], and shifted along x [m].
 std::array<double, 16> pose(double angle, double x) {
   return {{std::cos(angle), std::sin(angle), 0, 0, -std::sin(angle), std::cos(angle), 0, 0, 0, 0, 1,
            0, x, 0, 0, 1}};
 }
 
-/// A log of poses and elbows, all at rest. The last state is that of a robot that brakes.
+/// A log of poses and elbows, all at rest. In the last state the robot brakes.
 std::vector<AbortRecord> cartesianLog(std::size_t flag) {
   std::vector<AbortRecord> log = jointLog(flag, {});
   for (AbortRecord& record : log) {
@@ -77,13 +77,14 @@ void expectIn(const std::string& text, const std::string& part) {
   EXPECT_NE(std::string::npos, text.find(part)) << text << "\nlacks: " << part;
 }
 
-TEST(AbortDiagnosis, NothingIsSaidAboutNothing) {
+TEST(AbortDiagnosis, AnEmptyLogGivesNoSentence) {
   EXPECT_TRUE(diagnoseAbort({}, 5).empty());
   EXPECT_TRUE(diagnoseAbort(std::vector<AbortRecord>(3), 5).empty());
 }
 
 TEST(AbortDiagnosis, NamesTheJointTheValueAndTheLimit) {
-  // 3 mrad in a millisecond: 3 rad/s, 3000 rad/s^2, 3e6 rad/s^3; Panda's third joint may 2.175.
+  // 3 mrad in a millisecond: 3 rad/s, 3000 rad/s^2, 3e6 rad/s^3; the limit of the Panda's third
+  // joint is 2.175.
   const std::array<double, 7> step{{0, 0, 0.003, 0, 0, 0.001, 0}};
   std::string text = only(diagnoseAbort(jointLog(13, step), 5));
   expectIn(text, "joint_motion_generator_velocity_limits_violation: joint 3");
@@ -95,11 +96,11 @@ TEST(AbortDiagnosis, NamesTheJointTheValueAndTheLimit) {
   expectIn(text, "a jerk of 3e+06 rad/s^3, and 5000 are allowed");
 }
 
-TEST(AbortDiagnosis, TheLimitsAreThoseOfTheRobot) {
+TEST(AbortDiagnosis, UsesTheLimitsOfTheRobot) {
   const std::array<double, 7> step{{0, 0.003, 0, 0, 0, 0, 0}};
   expectIn(only(diagnoseAbort(jointLog(14, step), 5)), "and 7.5 are allowed");
   expectIn(only(diagnoseAbort(jointLog(14, step), 10)), "and 10 are allowed");
-  // An FR3's velocity limit depends on where the joint stands.
+  // An FR3's velocity limit depends on the joint's position.
   const double limit = upperVelocityLimit(kFr3PositionVelocityLimits, 1, 0.2);
   const std::string text = only(diagnoseAbort(jointLog(13, step), 7));
   expectIn(text, "joint 2 was commanded a velocity of 3 rad/s");
@@ -116,14 +117,14 @@ TEST(AbortDiagnosis, PositionsOutsideTheRange) {
   log.back().state.reflex_reason[0] = true;
   log.back().state.q[5] = 4.0;
   expectIn(only(diagnoseAbort(log, 5)), "joint 6 stood at 4 rad");
-  // Newer systems have this flag for commands too.
+  // Newer systems use this flag for commands too.
   log.back().state.q[5] = 1.6;
   expectIn(only(diagnoseAbort(log, 10)), "joint 4 was to go to 0.5 rad");
   expectIn(only(diagnoseAbort(followingLog(0), 10)),
            "joint 4 would have followed the Cartesian command to -0.06781 rad");
 }
 
-TEST(AbortDiagnosis, TargetsWhereNoVelocityLeads) {
+TEST(AbortDiagnosis, UnreachableTargets) {
   // Joint 1 of an FR3 ends at 2.9007 rad; its velocity limit is 0 from 2.8644 rad on.
   const auto log = jointLog(0, {{2.79, 0, 0, 0, 0, 0, 0}});
   expectIn(
@@ -132,20 +133,20 @@ TEST(AbortDiagnosis, TargetsWhereNoVelocityLeads) {
       "its range, is 0 outside of -2.864 to 2.864 rad");
 }
 
-TEST(AbortDiagnosis, PosesThatAreNoTransforms) {
+TEST(AbortDiagnosis, PosesThatAreNotTransforms) {
   auto log = cartesianLog(31);
   log.back().command.O_T_EE_c[3] = 1e-17;
   expectIn(only(diagnoseAbort(log, 5)), "is 1e-17 0 0 1 and must be exactly 0 0 0 1");
 }
 
-TEST(AbortDiagnosis, TorquesThatChangeTooFast) {
+TEST(AbortDiagnosis, TorqueRates) {
   auto log = jointLog(32, {});
   log.back().command.tau_J_d[6] = -1.5;
   expectIn(only(diagnoseAbort(log, 5)),
            "joint 7 was commanded a change of torque of -1500 Nm/s, and 1000 are allowed");
 }
 
-TEST(AbortDiagnosis, PosesThatJump) {
+TEST(AbortDiagnosis, JumpsOfPoses) {
   auto log = jointLog(18, {});
   for (AbortRecord& record : log) {
     record.command.q_c = {};
@@ -154,7 +155,7 @@ TEST(AbortDiagnosis, PosesThatJump) {
   log.back().command.O_T_EE_c[12] = 0.004;  // 4 m/s
   expectIn(only(diagnoseAbort(log, 5)),
            "the translation was commanded a velocity of 4 m/s, and 2 are allowed (at 102 ms)");
-  // Turned by 5 mrad: 5 rad/s, 5000 rad/s^2.
+  // Rotated by 5 mrad: 5 rad/s, 5000 rad/s^2.
   log.back().command.O_T_EE_c = pose(0.005, 0.0);
   expectIn(only(diagnoseAbort(log, 5)),
            "the rotation was commanded a velocity of 5 rad/s, and 2.5 are allowed");
@@ -164,7 +165,7 @@ TEST(AbortDiagnosis, PosesThatJump) {
 }
 
 TEST(AbortDiagnosis, JointsThatFollowACartesianCommand) {
-  // Going on with 1000 rad/s^3: 13 rad/s^2, 2.173 + 0.013 rad/s, -0.07 + 0.002186 rad.
+  // Continued with 1000 rad/s^3: 13 rad/s^2, 2.173 + 0.013 rad/s, -0.07 + 0.002186 rad.
   const std::string text = only(diagnoseAbort(followingLog(28), 5));
   expectIn(text,
            "joint 4 would have followed the Cartesian command with a velocity of 2.186 rad/s, and "
@@ -182,12 +183,12 @@ TEST(AbortDiagnosis, JointsThatFollowACartesianCommand) {
       only(diagnoseAbort(log, 5)),
       "joint 4 would have followed the Cartesian command with a jerk of 7500 rad/s^3, and 6250 "
       "are allowed (at 102 ms)");
-  // Over three milliseconds, two states being lost.
+  // Over three milliseconds, with two states lost.
   log[2].state.message_id = 104;
   expectIn(only(diagnoseAbort(log, 5)), "a jerk of 2500 rad/s^3");
 }
 
-TEST(AbortDiagnosis, NothingIsAllowedAtTheEndOfAnFr3sJoint) {
+TEST(AbortDiagnosis, NoVelocityIsAllowedAtTheEndOfAnFr3sJoint) {
   auto log = jointLog(13, {{0.001, 0, 0, 0, 0, 0, 0}});
   for (AbortRecord& record : log) {
     record.state.q_d[3] = kFr3Limits.q_max[3];
@@ -198,7 +199,7 @@ TEST(AbortDiagnosis, NothingIsAllowedAtTheEndOfAnFr3sJoint) {
            "joint 4 was commanded a velocity of 0.5 rad/s, and 0 are allowed (at 102 ms)");
 }
 
-TEST(AbortDiagnosis, ElbowsThatMoveTooFast) {
+TEST(AbortDiagnosis, ElbowVelocities) {
   auto log = cartesianLog(17);
   for (AbortRecord& record : log) {
     record.state.delbow_c[0] = 1.0;
@@ -210,7 +211,7 @@ TEST(AbortDiagnosis, ElbowsThatMoveTooFast) {
   expectIn(said(0.3025, 5),
            "the elbow (joint 3) was commanded a velocity of 2.5 rad/s, and 2.175 are allowed (at "
            "102 ms)");
-  // The lowest derivative that is too high, as the robot looks at them.
+  // The lowest derivative that is too high, in the robot's order.
   expectIn(said(0.3025, 10), "an acceleration of 1500 rad/s^2, and 10 are allowed");
   expectIn(said(0.30102, 5), "an acceleration of 20 rad/s^2, and 10 are allowed");
   expectIn(said(0.301006, 5), "a jerk of 6000 rad/s^3, and 5000 are allowed");
@@ -220,7 +221,7 @@ TEST(AbortDiagnosis, ElbowsThatMoveTooFast) {
   expectIn(said(0.0, 5), "no command of the log has an elbow");
 }
 
-TEST(AbortDiagnosis, ElbowsOfTheOtherSignOrElsewhere) {
+TEST(AbortDiagnosis, ElbowSignsAndStarts) {
   for (std::size_t flag : {21u, 24u}) {
     auto log = cartesianLog(flag);
     log.back().command.elbow_c[1] = 1.0;
@@ -234,21 +235,21 @@ TEST(AbortDiagnosis, ElbowsOfTheOtherSignOrElsewhere) {
            "the first command put the elbow (joint 3) at 0.9 rad while elbow_c was 0.3 rad");
 }
 
-TEST(AbortDiagnosis, PosesThatStartTurned) {
+TEST(AbortDiagnosis, RotatedStartPoses) {
   auto log = cartesianLog(16);
   log[1].command.O_T_EE_c = pose(0.05235987755982988, 0.002);
   expectIn(only(diagnoseAbort(log, 5)),
            "the first commanded pose was 2 mm and 3 degrees away from O_T_EE_c");
 }
 
-TEST(AbortDiagnosis, TheLastStateCountsWhereItIsMeasured) {
+TEST(AbortDiagnosis, MeasuredValuesIncludeTheLastState) {
   auto log = jointLog(3, {});
   log.back().state.dq[6] = -2.8;
   expectIn(only(diagnoseAbort(log, 5)),
            "joint 7 moved at -2.8 rad/s, and 2.61 are allowed (at 103 ms)");
 }
 
-TEST(AbortDiagnosis, CollisionsWithTheirForces) {
+TEST(AbortDiagnosis, CollisionsNameTheirForces) {
   auto log = jointLog(7, {});
   log.back().state.cartesian_collision[2] = 1.0;
   log.back().state.O_F_ext_hat_K[2] = -31.5;
@@ -268,7 +269,7 @@ TEST(AbortDiagnosis, LostPackets) {
   expectIn(text, "97 % of the commands");
 }
 
-TEST(AbortDiagnosis, StartsElsewhere) {
+TEST(AbortDiagnosis, StartsAtAnotherPosition) {
   auto log = jointLog(11, {});
   log[1].command.q_c[4] = 0.9;
   expectIn(only(diagnoseAbort(log, 5)),
@@ -291,7 +292,7 @@ TEST(AbortDiagnosis, EveryFlagHasASentence) {
   }
 }
 
-TEST(AbortDiagnosis, SaysWhenTheLogDoesNotShowIt) {
+TEST(AbortDiagnosis, ReportsAnIncompleteLog) {
   std::vector<AbortRecord> log(1);
   for (std::size_t flag = 0; flag < kErrorCount; flag++) {
     log.back().state.reflex_reason = {};
@@ -304,7 +305,7 @@ TEST(AbortDiagnosis, SaysWhenTheLogDoesNotShowIt) {
            "the log shows no commands from which a velocity could be computed");
 }
 
-TEST(AbortDiagnosis, ReadsTheLogOfUsersToo) {
+TEST(AbortDiagnosis, ReadsPublicLogs) {
   const auto log = jointLog(14, {{0, 0, 0.003, 0, 0, 0, 0}});
   std::vector<franka::Record> records(log.size());
   for (std::size_t i = 0; i < log.size(); i++) {
@@ -316,7 +317,7 @@ TEST(AbortDiagnosis, ReadsTheLogOfUsersToo) {
   EXPECT_EQ(only(diagnoseAbort(log, 5)), only(diagnoseLog(records, 5)));
 }
 
-TEST(AbortDiagnosis, ReadsTheElbowsOfUsersToo) {
+TEST(AbortDiagnosis, ReadsElbowsOfPublicLogs) {
   auto log = cartesianLog(17);
   log.back().command.elbow_c[0] = 0.301006;
   std::vector<franka::Record> records(log.size());

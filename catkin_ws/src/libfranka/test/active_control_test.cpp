@@ -29,7 +29,7 @@ constexpr std::array<double, 16> kPose{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1,
 
 using Active = EveryVersion;
 
-TEST_P(Active, TorquesGoOutAsTheyAre) {
+TEST_P(Active, TorquesAreSentUnchanged) {
   const auto robot = connect(fake);
   const std::unique_ptr<ActiveControlBase> motion = robot->startTorqueControl();
   uint64_t last = 0;
@@ -51,7 +51,7 @@ TEST_P(Active, TorquesGoOutAsTheyAre) {
   EXPECT_EQ(0, fake.count(Command::kStopMove));
   EXPECT_THROW(motion->readOnce(), ControlException);
   EXPECT_THROW(motion->writeOnce(Torques(kTorques)), ControlException);
-  // The motion has ended, although its object still lives.
+  // The motion has ended, although its object still exists.
   EXPECT_NO_THROW(robot->readOnce());
 }
 
@@ -84,7 +84,7 @@ void expectGenerator(FakeRobot& fake, const Value& value, Start start, Arrives a
   }
 }
 
-TEST_P(Active, GeneratorsGoOutAsTheyAre) {
+TEST_P(Active, GeneratorCommandsAreSentUnchanged) {
   using franka::Robot;
   expectGenerator(
       fake, JointPositions(kJoints),
@@ -104,7 +104,7 @@ TEST_P(Active, GeneratorsGoOutAsTheyAre) {
       [](const auto& c) { return c.O_dP_EE_c == kTwist && !c.valid_elbow; });
 }
 
-TEST_P(Active, AnAbortComesOutOfReadOnce) {
+TEST_P(Active, ReadOnceThrowsAnAbort) {
   const auto robot = connect(fake);
   fake.script([](FakeRobot::Script& s) {
     s.abort_after = 10;
@@ -121,7 +121,7 @@ TEST_P(Active, AnAbortComesOutOfReadOnce) {
                          "libfranka: Move command aborted: motion aborted by reflex! "
                          "[\"communication_constraints_violation\"]\n"))
       << text;
-  // The robot's reply has been read; it is told again at once.
+  // The robot's reply has been read; the error is thrown again at once.
   EXPECT_EQ(text, textOf<ControlException>([&] { motion->readOnce(); }));
   EXPECT_EQ(text, textOf<ControlException>([&] { motion->writeOnce(Torques(kTorques)); }));
   EXPECT_EQ(text, textOf<ControlException>([&] { motion->readOnce(); }));
@@ -131,7 +131,7 @@ TEST_P(Active, AnAbortComesOutOfReadOnce) {
   EXPECT_NO_THROW(robot->readOnce());
 }
 
-TEST_P(Active, AnAbortAtTheEndIsToldAgainToo) {
+TEST_P(Active, AnAbortAtTheEndIsThrownAgain) {
   const auto robot = connect(fake);
   fake.script([](FakeRobot::Script& s) { s.end_at_finish = Status::kReflexAborted; });
   const auto motion = robot->startTorqueControl();
@@ -143,7 +143,7 @@ TEST_P(Active, AnAbortAtTheEndIsToldAgainToo) {
   EXPECT_EQ(text, textOf<ControlException>(finish));
 }
 
-TEST_P(Active, AsynchronousMotionsAreForTheNewestRobots) {
+TEST_P(Active, AsynchronousMotionsNeedVersion10) {
   const auto robot = connect(fake);
   const std::vector<double> velocities(7, 0.5);
   const auto start = [&] {
@@ -160,7 +160,7 @@ TEST_P(Active, AsynchronousMotionsAreForTheNewestRobots) {
   EXPECT_EQ(0.5, move.maximum_velocity[6]);
   motion->readOnce();
   motion->writeOnce(JointPositions(kJoints));
-  // Nothing needs to be said until the next target.
+  // Nothing needs to be sent until the next target.
   for (int i = 0; i < 5; i++) {
     motion->readOnce();
   }
@@ -201,7 +201,7 @@ TEST(ActiveLife, OutlivesTheRobotObject) {
   EXPECT_EQ(5u, fake.exchanges().size());
 }
 
-TEST(ActiveLife, ARefusedStartLeavesTheRobotFree) {
+TEST(ActiveLife, RefusedStartLeavesTheRobotFree) {
   FakeRobot fake(5);
   const auto robot = connect(fake);
   fake.script([](FakeRobot::Script& s) {
@@ -231,7 +231,7 @@ TEST(ActiveForm, MustFitTheMotion) {
   EXPECT_NO_THROW(motion->writeOnce(Torques(kTorques)));
 }
 
-TEST(ActiveFaults, ALostConnectionEndsReadOnceAndTheDestructor) {
+TEST(ActiveFaults, LostConnectionEndsReadOnceAndTheDestructor) {
   const ShortTimeouts timeouts;
   FakeRobot fake(5);
   const auto robot = connect(fake);

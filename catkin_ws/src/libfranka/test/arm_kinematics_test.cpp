@@ -105,7 +105,7 @@ TEST_P(ArmKinematicsTest, JacobiansAreDerivativesOfThePose) {
         const Eigen::Matrix4d slope = (pose(arm_.pose(frame, above, s.F_T_EE, s.EE_T_K)) -
                                        pose(arm_.pose(frame, below, s.F_T_EE, s.EE_T_K))) /
                                       (2.0 * kStep);
-        // The slope of the rotation is the angular velocity's cross matrix times the rotation.
+        // The derivative of the rotation is the angular velocity's cross matrix times the rotation.
         const Eigen::Matrix3d turn =
             slope.topLeftCorner<3, 3>() * here.topLeftCorner<3, 3>().transpose();
         Eigen::Matrix<double, 6, 1> twist;
@@ -124,8 +124,8 @@ TEST_P(ArmKinematicsTest, JacobiansAreDerivativesOfThePose) {
 }
 
 // Franka's published Denavit-Hartenberg table: stretched up, the flange is at 0.088, 0, 0.333 +
-// 0.316 + 0.384 - 0.107 and looks down.
-TEST_P(ArmKinematicsTest, StandsWhereTheDataSheetSays) {
+// 0.316 + 0.384 - 0.107 and points down.
+TEST_P(ArmKinematicsTest, MatchesTheDenavitHartenbergTable) {
   const auto flange = arm_.pose(ArmFrame::kFlange, {});
   EXPECT_NEAR(0.088, flange[12], 1e-15);
   EXPECT_NEAR(0.0, flange[13], 1e-15);

@@ -1,8 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The arm's dynamics against answers found another way: KDL, energy, finite differences, each
-// other.
+// The arm's dynamics against independent results: KDL, energy, finite differences, and each other.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -66,7 +65,7 @@ TEST_P(ArmDynamicsTest, AgreesWithKdl) {
   EXPECT_LT(gravity_error, 1e-12);
 }
 
-TEST_P(ArmDynamicsTest, ComputeDynamicsIsTheSameAsItsParts) {
+TEST_P(ArmDynamicsTest, ComputeDynamicsMatchesItsParts) {
   for (int n = 0; n < kStates; n++) {
     const State s = states_.next();
     const auto frame = static_cast<ArmFrame>(n % 10);
@@ -107,7 +106,7 @@ TEST_P(ArmDynamicsTest, InverseDynamicsIsMassCoriolisAndGravity) {
 }
 
 // c_i = sum_jk (dM_ij/dq_k - 1/2 dM_jk/dq_i) dq_j dq_k: the Coriolis vector follows from the mass
-// matrix alone, which makes the power of the Coriolis forces that of the changing kinetic energy.
+// matrix alone, so that the power of the Coriolis forces equals the change of kinetic energy.
 TEST_P(ArmDynamicsTest, CoriolisFollowsFromTheMassMatrix) {
   constexpr double kStep = 1e-4;
   for (int n = 0; n < 100; n++) {
@@ -119,7 +118,7 @@ TEST_P(ArmDynamicsTest, CoriolisFollowsFromTheMassMatrix) {
         q[k] += step;
         return Matrix7(matrix(arm_.mass(q, s.payload)));
       };
-      // Fourth order, so that the step's error is far below rounding's.
+      // Fourth order, so that the step's error is far below rounding.
       derivative[k] =
           (8.0 * (massAt(kStep) - massAt(-kStep)) - (massAt(2 * kStep) - massAt(-2 * kStep))) /
           (12.0 * kStep);
@@ -152,7 +151,7 @@ double potentialEnergy(const ArmModel& arm, const State& s, const std::array<dou
   return energy;
 }
 
-TEST_P(ArmDynamicsTest, GravityIsTheSlopeOfThePotentialEnergy) {
+TEST_P(ArmDynamicsTest, GravityIsTheGradientOfThePotentialEnergy) {
   constexpr double kStep = 1e-5;
   for (int n = 0; n < 100; n++) {
     const State s = states_.next();
@@ -167,8 +166,8 @@ TEST_P(ArmDynamicsTest, GravityIsTheSlopeOfThePotentialEnergy) {
   }
 }
 
-// The sign, worked out by hand: a weight pulls down joint 2 of an arm stretched forward.
-TEST(ArmDynamics, GravityHoldsALoadUp) {
+// The sign, derived by hand: a weight pulls down joint 2 of an arm stretched forward.
+TEST(ArmDynamics, GravityTorqueHoldsALoad) {
   const ArmModel arm = ArmModel::fromUrdf(readData("panda_hand.urdf"));
   const std::array<double, 7> forward{0.0, 1.5707963267948966, 0.0, -0.07, 0.0, 1.57, 0.0};
   Payload load;
@@ -199,7 +198,7 @@ TEST(Combine, FollowsTheParallelAxisTheorem) {
       1e-16);
 }
 
-TEST(Combine, LeavesOutPartsWithoutMass) {
+TEST(Combine, IgnoresPartsWithoutMass) {
   const Payload hand{0.73, {-0.01, 0.0, 0.03}, {0.001, 0, 0, 0, 0.0025, 0, 0, 0, 0.0017}};
   const Payload nothing{0.0, {1.0, 2.0, 3.0}, {9, 0, 0, 0, 9, 0, 0, 0, 9}};
   for (const Payload& total : {combine(hand, nothing), combine(nothing, hand)}) {
@@ -213,7 +212,7 @@ TEST(Combine, LeavesOutPartsWithoutMass) {
   EXPECT_EQ((std::array<double, 9>{}), none.inertia);
 }
 
-// Mass, Coriolis and gravity do not care whether two bodies are given as one.
+// Mass, Coriolis and gravity are the same for two bodies and for their combination.
 TEST(Combine, GivesTheDynamicsOfBothBodies) {
   const std::string urdf = readData("panda_hand.urdf");
   const ArmModel arm = ArmModel::fromUrdf(urdf);

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The limiter of the robot that was found: whatever is wanted, what comes out stays within that
-// robot's limits (franka_core/limits.h). That the robot never aborts it is shown with the simulated
-// one's validator.
+// The limiter for the connected robot: for any desired motion the output stays within that robot's
+// limits (franka_core/limits.h). Tests of the simulated robot show that it never aborts such a
+// motion.
 #include "franka/arm_rate_limits.h"
 
 #include <franka/rate_limiting.h>
@@ -31,7 +31,7 @@ class RobotOfVersion : public ::testing::TestWithParam<std::uint16_t> {
   const franka_core::ArmLimits& arm() const { return franka_core::limitsOfProtocol(GetParam()); }
   bool isFr3() const { return GetParam() > 5; }
 
-  /// The robot's own limit at q, without any margin.
+  /// The robot's own limit at q, without margin.
   double highest(std::size_t joint, double q) const {
     return limits_.position_velocity
                ? franka_core::upperVelocityLimit(*limits_.position_velocity, joint, q)
@@ -51,8 +51,8 @@ class RobotOfVersion : public ::testing::TestWithParam<std::uint16_t> {
     return q;
   }
 
-  /// A new wish now and then: rest, a little, or far too much.
-  Joints wish(double scale) {
+  /// A random target at some ticks: rest, small, or far too large.
+  Joints randomTarget(double scale) {
     std::uniform_real_distribution<double> anything(-scale, scale);
     Joints result{};
     for (double& value : result) {
@@ -67,13 +67,13 @@ class RobotOfVersion : public ::testing::TestWithParam<std::uint16_t> {
 };
 
 TEST_P(RobotOfVersion, VelocitiesStayWithinAllLimits) {
-  Joints q = middle(), v{}, a{}, wanted{};
+  Joints q = middle(), v{}, a{}, desired{};
   Joints fastest{};
   for (int k = 0; k < 40000; k++) {
     if (k % 900 == 0) {
-      wanted = wish(3.0);
+      desired = randomTarget(3.0);
     }
-    const Joints next = limits_.limitVelocities(q, wanted, v, a);
+    const Joints next = limits_.limitVelocities(q, desired, v, a);
     for (std::size_t i = 0; i < 7; i++) {
       const double next_a = (next[i] - v[i]) / kDeltaT;
       const double next_q = q[i] + next[i] * kDeltaT;
@@ -84,31 +84,31 @@ TEST_P(RobotOfVersion, VelocitiesStayWithinAllLimits) {
       fastest[i] = std::max(fastest[i], std::abs(next[i]));
       a[i] = next_a;
       v[i] = next[i];
-      // The Panda's limiter knows no positions.
+      // The Panda's limiter ignores positions.
       q[i] = isFr3() ? next_q : std::clamp(next_q, arm().q_min[i], arm().q_max[i]);
     }
   }
-  // The test would see a limiter that is too strict, too.
+  // Detects a limiter that is too strict, too.
   for (std::size_t i = 0; i < 7; i++) {
     EXPECT_GT(fastest[i], 0.8 * std::min(arm().dq[i], highest(i, middle()[i]))) << i;
   }
 }
 
-TEST_P(RobotOfVersion, PositionsAreLimitedAsTheirVelocities) {
-  Joints q = middle(), v{}, a{}, wanted = q;
+TEST_P(RobotOfVersion, PositionsAreLimitedLikeVelocities) {
+  Joints q = middle(), v{}, a{}, desired = q;
   for (int k = 0; k < 5000; k++) {
     if (k % 250 == 0) {
-      const Joints away = wish(1.0);
+      const Joints away = randomTarget(1.0);
       for (std::size_t i = 0; i < 7; i++) {
-        wanted[i] = q[i] + away[i];
+        desired[i] = q[i] + away[i];
       }
     }
-    Joints wanted_velocity{};
+    Joints desired_velocity{};
     for (std::size_t i = 0; i < 7; i++) {
-      wanted_velocity[i] = (wanted[i] - q[i]) / kDeltaT;
+      desired_velocity[i] = (desired[i] - q[i]) / kDeltaT;
     }
-    const Joints velocities = limits_.limitVelocities(q, wanted_velocity, v, a);
-    const Joints next = limits_.limitPositions(wanted, q, v, a);
+    const Joints velocities = limits_.limitVelocities(q, desired_velocity, v, a);
+    const Joints next = limits_.limitPositions(desired, q, v, a);
     for (std::size_t i = 0; i < 7; i++) {
       EXPECT_DOUBLE_EQ(q[i] + kDeltaT * velocities[i], next[i]);
       a[i] = (velocities[i] - v[i]) / kDeltaT;
@@ -118,18 +118,18 @@ TEST_P(RobotOfVersion, PositionsAreLimitedAsTheirVelocities) {
   }
 }
 
-TEST_P(RobotOfVersion, AgreesWithTheClassicLimiterWhereThatApplies) {
+TEST_P(RobotOfVersion, AgreesWithTheClassicLimiterForConstantLimits) {
   if (isFr3()) {
     GTEST_SKIP() << "the classic limiter knows no limits that depend on the position";
   }
-  Joints q = middle(), v{}, a{}, wanted{};
+  Joints q = middle(), v{}, a{}, desired{};
   for (int k = 0; k < 20000; k++) {
     if (k % 300 == 0) {
-      wanted = wish(3.0);
+      desired = randomTarget(3.0);
     }
-    const Joints next = limits_.limitVelocities(q, wanted, v, a);
+    const Joints next = limits_.limitVelocities(q, desired, v, a);
     EXPECT_EQ(franka::limitRate(franka::kMaxJointVelocity, franka::kMaxJointAcceleration,
-                                franka::kMaxJointJerk, wanted, v, a),
+                                franka::kMaxJointJerk, desired, v, a),
               next);
     for (std::size_t i = 0; i < 7; i++) {
       a[i] = (next[i] - v[i]) / kDeltaT;
@@ -169,7 +169,7 @@ TEST(VelocityLimits, AreReadFromTheDescription) {
               1e-12);
 }
 
-TEST(VelocityLimits, AreNotGuessed) {
+TEST(VelocityLimits, AreNotReadFromIncompleteDescriptions) {
   EXPECT_FALSE(franka::velocityLimitsFromUrdf(jointsOf(1.5, false)));
   EXPECT_FALSE(franka::velocityLimitsFromUrdf("<robot/>"));
   EXPECT_FALSE(franka::velocityLimitsFromUrdf("no description"));

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reading arms from URDF texts: what is taken, and the sentence when something is wrong.
+// Reading arms from URDF texts: accepted texts, and the sentences for errors.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -56,7 +56,7 @@ const std::string& panda() {
   return text;
 }
 
-// Two arms in one description, the second a copy with another name and another place.
+// Two arms in one description, the second a copy with another name and pose.
 std::string twoArms() {
   const std::string second = std::regex_replace(panda(), std::regex("panda_|world"), "right_arm_");
   const auto bodyOf = [](const std::string& urdf) {
@@ -81,7 +81,7 @@ TEST(FromUrdf, ReadsLinkInertiasAsGiven) {
   EXPECT_EQ(0.107, arm.flange()[14]);
 }
 
-TEST(FromUrdf, FindsTheOneArmAndPicksOneOfTwo) {
+TEST(FromUrdf, FindsASingleArmAndSelectsOneOfTwo) {
   const ArmModel one = ArmModel::fromUrdf(panda());
   const ArmModel right = ArmModel::fromUrdf(twoArms(), "right_arm");
   const std::array<double, 7> q{0.1, -0.2, 0.3, -1.4, 0.5, 1.6, 0.7};
@@ -89,21 +89,21 @@ TEST(FromUrdf, FindsTheOneArmAndPicksOneOfTwo) {
   EXPECT_EQ(one.mass(q, {}), right.mass(q, {}));
 }
 
-TEST(FromUrdf, ReadsAnyPrefixAlsoNone) {
+TEST(FromUrdf, ReadsAnyPrefixIncludingNone) {
   const std::string bare = std::regex_replace(panda(), std::regex("panda_"), "");
   const std::string other = std::regex_replace(panda(), std::regex("panda_"), "arm-7_b_");
   EXPECT_EQ(0.735522, ArmModel::fromUrdf(bare).links()[6].mass);
   EXPECT_EQ(0.735522, ArmModel::fromUrdf(other, "arm-7_b").links()[6].mass);
 }
 
-TEST(FromUrdf, LeavesTheHandToThePayload) {
+TEST(FromUrdf, ExcludesTheHand) {
   const std::string heavy = replaced(panda(), "mass value=\"0.73\"", "mass value=\"73\"");
   EXPECT_EQ(ArmModel::fromUrdf(panda()).mass({}, {}), ArmModel::fromUrdf(heavy).mass({}, {}));
   EXPECT_GT(endEffectorFromUrdf(heavy).mass, 73.0);
 }
 
-// The same body, its inertia given in axes turned by a quarter about z.
-TEST(FromUrdf, TurnsInertiasGivenInOtherAxes) {
+// The same body, with its inertia in axes rotated by a quarter about z.
+TEST(FromUrdf, RotatesInertiasGivenInOtherAxes) {
   const std::string turned = replaced(
       replaced(panda(), "<origin rpy=\"0 0 0\" xyz=\"0.010517 -0.004252 0.061597\" />",
                "<origin rpy=\"0 0 1.5707963267948966\" xyz=\"0.010517 -0.004252 0.061597\" />"),
@@ -117,7 +117,7 @@ TEST(FromUrdf, TurnsInertiasGivenInOtherAxes) {
   }
 }
 
-TEST(FromUrdf, CountsWhatIsFixedToALink) {
+TEST(FromUrdf, IncludesBodiesFixedToALink) {
   const std::string camera = replaced(
       panda(), "</robot>",
       "<link name=\"camera\"><inertial><mass value=\"0.5\"/><origin xyz=\"0 0 0.1\"/>"
@@ -131,7 +131,7 @@ TEST(FromUrdf, CountsWhatIsFixedToALink) {
   EXPECT_NEAR((plain.mass * plain.com[2] + 0.5 * 0.1) / link.mass, link.com[2], 1e-16);
 }
 
-TEST(FromUrdf, SaysWhatIsWrong) {
+TEST(FromUrdf, ReportsErrorsWithTheirCause) {
   expectContains(armRefusal(""), "cannot be read as a robot description");
   expectContains(armRefusal("<robot"), "cannot be read as a robot description");
   expectContains(armRefusal("<robot name=\"r\"><link name=\"base\"/></robot>"),
@@ -168,7 +168,7 @@ TEST(EndEffectorFromUrdf, ComposesHandAndClosedFingers) {
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues().minCoeff(), 0.0);
 }
 
-TEST(EndEffectorFromUrdf, IsNothingForABareArmAndRefusesAHandWithoutMass) {
+TEST(EndEffectorFromUrdf, IsEmptyForABareArmAndRefusesAHandWithoutMass) {
   const std::string bare = std::regex_replace(
       panda(), std::regex("<parent link=\"panda_link8\" />"), "<parent link=\"panda_link0\" />");
   EXPECT_EQ(0.0, endEffectorFromUrdf(bare).mass);

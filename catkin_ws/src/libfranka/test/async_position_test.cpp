@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Targets to which the robot finds its own way.
+// Targets to which the robot plans its own motion.
 #include <cmath>
 #include <franka/async_control/async_position_control_handler.hpp>
 
@@ -20,7 +20,7 @@ std::shared_ptr<franka::Robot> share(const FakeRobot& fake) {
   return std::make_shared<franka::Robot>(fake.address(), franka::RealtimeConfig::kIgnore);
 }
 
-TEST(AsyncPositions, GoFromTargetToTarget) {
+TEST(AsyncPositions, MoveFromTargetToTarget) {
   FakeRobot fake(10);
   const auto robot = share(fake);
   const auto [handler, error] = Handler::configure(robot, {kVelocities});
@@ -29,7 +29,7 @@ TEST(AsyncPositions, GoFromTargetToTarget) {
   const auto first = handler->setJointPositionTarget({kTarget});
   EXPECT_TRUE(first.was_successful);
   EXPECT_EQ(36u, first.motion_uuid.size());
-  // The fake robot jumps, and is at rest only when it is told the same again.
+  // The fake robot jumps, and is at rest only when it receives the same target again.
   while (handler->getTargetFeedback().status != TargetStatus::kExecuting) {
   }
   const auto second = handler->setJointPositionTarget({kTarget});
@@ -64,7 +64,7 @@ TEST(AsyncPositions, AreReachedWithinTheToleranceAndAtRest) {
   EXPECT_EQ(TargetStatus::kExecuting, status());
 }
 
-TEST(AsyncPositions, TellWhatIsWrong) {
+TEST(AsyncPositions, ReportErrors) {
   FakeRobot old(5), fake(10);
   EXPECT_NE(std::string::npos,
             Handler::configure(share(old), {kVelocities}).error_message->find("5.9.0"));
@@ -95,7 +95,7 @@ TEST(AsyncPositions, TellWhatIsWrong) {
 
 class AsyncAbort : public ::testing::Test {
  protected:
-  /// A motion that the robot ends at its first target, which nobody has noticed yet.
+  /// A motion that the robot ends at its first target, before the client has noticed.
   AsyncAbort() {
     fake_.script([](FakeRobot::Script& s) {
       s.abort_after = 1;
@@ -124,14 +124,14 @@ class AsyncAbort : public ::testing::Test {
   std::shared_ptr<Handler> handler_{Handler::configure(robot_, {kVelocities}).handler};
 };
 
-TEST_F(AsyncAbort, TheNextTargetIsNoSuccess) {
+TEST_F(AsyncAbort, NextTargetFails) {
   const auto result = handler_->setJointPositionTarget({kTarget});
   EXPECT_FALSE(result.was_successful);
   EXPECT_EQ("", result.motion_uuid);
   expectAborted(result.error_message);
 }
 
-TEST_F(AsyncAbort, AStateTellsIt) {
+TEST_F(AsyncAbort, StateReportsIt) {
   franka::RobotState state;
   state.robot_mode = franka::RobotMode::kIdle;  // from before the motion
   EXPECT_EQ(TargetStatus::kExecuting, handler_->getTargetFeedback(state).status);

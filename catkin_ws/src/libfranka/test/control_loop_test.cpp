@@ -49,7 +49,7 @@ std::function<Value(const RobotState&, Duration)> constant(Value value, int cycl
 
 using Modes = EveryVersion;
 
-/// What arrives at the robot, once unfiltered and unlimited.
+/// Compares the commands at the robot, without filter and limits.
 template <typename Value>
 void expectUnchanged(FakeRobot& fake, franka::Robot& robot, const Value& value,
                      MotionGeneratorMode generator,
@@ -81,7 +81,7 @@ void expectUnchanged(FakeRobot& fake, franka::Robot& robot, const Value& value,
   EXPECT_TRUE(fake.exchanges().back().command.motion_generation_finished);
 }
 
-TEST_P(Modes, CarryTheirValues) {
+TEST_P(Modes, TransmitTheirValues) {
   const auto robot = connect(fake);
   expectUnchanged(fake, *robot, JointPositions(kJoints), MotionGeneratorMode::kJointPosition,
                   [](const auto& c) { return c.q_c == kJoints && !c.valid_elbow; });
@@ -110,13 +110,13 @@ class Loop : public ::testing::Test {
   std::unique_ptr<franka::Robot> robot{connect(fake)};
 };
 
-// y' = g y + (1 - g) y_last with g = T / (T + 1 / (2 pi f)), against the state that is answered.
+// y' = g y + (1 - g) y_last with g = T / (T + 1 / (2 pi f)), against the answered state.
 double filtered(double value, double last, double frequency) {
   const double gain = 1e-3 / (1e-3 + 1.0 / (2.0 * M_PI * frequency));
   return gain * value + (1.0 - gain) * last;
 }
 
-TEST_F(Loop, FiltersAgainstTheStateThatIsAnswered) {
+TEST_F(Loop, FiltersAgainstTheAnsweredState) {
   robot->control(constant(JointPositions(kJoints), 50), ControllerMode::kJointImpedance, false);
   for (const auto& exchange : fake.exchanges()) {
     for (std::size_t i = 0; i < 7; i++) {
@@ -127,7 +127,7 @@ TEST_F(Loop, FiltersAgainstTheStateThatIsAnswered) {
   robot->control(constant(Torques(kTorques), 50), constant(JointVelocities(kJoints), 50), false,
                  20.0);
   auto exchanges = fake.exchanges();
-  // The value that ends the motion goes with the torques of the cycle before.
+  // The value that ends the motion is sent with the torques of the cycle before.
   EXPECT_EQ(exchanges[48].command.tau_J_d, exchanges[49].command.tau_J_d);
   exchanges.pop_back();
   for (const auto& exchange : exchanges) {
@@ -164,7 +164,7 @@ class Jumps {
   std::mt19937_64 engine_{7};
 };
 
-/// Largest first and second difference quotients of what one joint was commanded.
+/// Largest first and second difference quotients of one joint's commands.
 struct Peaks {
   double first{0.0}, second{0.0}, third{0.0};
 };
@@ -191,7 +191,7 @@ std::vector<double> series(const FakeRobot& fake, Pick pick) {
   return values;
 }
 
-/// Whatever a callback asks for, what arrives keeps the limits of the robot that was found.
+/// For any callback, the sent commands are within the limits of the connected robot.
 class Limited : public ::testing::TestWithParam<std::uint16_t> {};
 
 TEST_P(Limited, JointsKeepTheLimitsOfTheArm) {
@@ -211,7 +211,7 @@ TEST_P(Limited, JointsKeepTheLimitsOfTheArm) {
     const Peaks peaks = peaksOf(commands);
     EXPECT_LT(peaks.first, limits.ddq[i]) << i;
     EXPECT_LT(peaks.second, limits.dddq[i]) << i;
-    // The limiter works: the limits are reached to within a hair.
+    // Shows that the limiter is not too strict: the limits are almost reached.
     EXPECT_GT(peaks.second, 0.99 * limits.dddq[i]) << i;
     EXPECT_LT(*std::max_element(commands.begin(), commands.end()), limits.dq[i]) << i;
   }
@@ -235,8 +235,8 @@ TEST_P(Limited, PositionsReachTheirTarget) {
   std::array<double, 7> target = start;
   target[0] += 0.1;
   target[6] -= 0.2;
-  // A velocity that is proportional to the way left is what the limiter smooths; a bare jump to the
-  // target would make it overshoot.
+  // The limiter smooths a velocity proportional to the remaining distance; a jump to the target
+  // would overshoot.
   int cycles = 0;
   robot->control([&](const RobotState& state, Duration) {
     std::array<double, 7> q = state.q_d;
@@ -278,14 +278,14 @@ TEST_P(Limited, CartesianVelocitiesKeepTheLimitsOfTheArm) {
   }
 }
 
-// Version 10 echoes in single precision, whose rounding is larger than a jerk: there the robot's
-// own second history is the bound (decision 14), tested on the simulated robot.
+// Version 10 echoes in single precision, whose rounding is larger than a jerk: there the bound is
+// the robot's own second history (decision 14), tested on the simulated robot.
 INSTANTIATE_TEST_SUITE_P(DoublePrecision, Limited,
                          ::testing::Values(std::uint16_t{3}, std::uint16_t{5}, std::uint16_t{6},
                                            std::uint16_t{9}),
                          versionName);
 
-TEST(LimitedNearTheEnd, AnFr3SlowsDown) {
+TEST(LimitedNearTheEnd, Fr3SlowsDown) {
   FakeRobot fake(7);
   fake.change([](franka_core::RobotState& s) { s.q_d[0] = 2.5; });
   const auto robot = connect(fake);
@@ -298,15 +298,15 @@ TEST(LimitedNearTheEnd, AnFr3SlowsDown) {
       ControllerMode::kJointImpedance, true, kMaxCutoffFrequency);
   for (const auto& exchange : fake.exchanges()) {
     const double limit = -0.30 + std::sqrt(std::max(0.0, 12.0 * (2.7501 - exchange.state.q_d[0])));
-    // The limiter closes half of the distance to the limit a cycle, while the limit falls by the
+    // The limiter halves the distance to the limit each cycle, while the limit falls by the
     // deceleration of 6 rad/s^2.
     EXPECT_LT(exchange.command.dq_c[0], std::max(0.0, limit) + 2.0 * 6.0 * 1e-3);
   }
-  // It stands where the limit is zero: sqrt(12 (2.7501 - q)) = 0.3.
+  // It stops where the limit is zero: sqrt(12 (2.7501 - q)) = 0.3.
   EXPECT_NEAR(2.7501 - 0.09 / 12.0, fake.exchanges().back().state.q_d[0], 2e-3);
 }
 
-TEST_F(Loop, CallsTheMotionFirstUnlessAsked) {
+TEST_F(Loop, CallsTheMotionFirstByDefault) {
   for (bool control_first : {false, true}) {
     franka::ControlOptions options;
     if (control_first) {
@@ -324,19 +324,19 @@ TEST_F(Loop, CallsTheMotionFirstUnlessAsked) {
           const JointPositions q(state.q_d);
           return order.size() >= 7 ? franka::MotionFinished(q) : q;
         });
-    // The torques that go with the last value are those of the cycle before.
+    // The torques sent with the last value are those of the cycle before.
     EXPECT_EQ(control_first ? "cmcmcmcm" : "mcmcmcm", order);
   }
 }
 
-TEST_F(Loop, ATorqueCallbackMayEndTheMotionToo) {
+TEST_F(Loop, TorqueCallbackMayEndTheMotion) {
   robot->control(constant(Torques(kTorques), 4),
                  constant(JointVelocities({0, 0, 0, 0, 0, 0, 0}), 100));
   EXPECT_EQ(4u, fake.exchanges().size());
   EXPECT_TRUE(fake.exchanges().back().command.motion_generation_finished);
 }
 
-TEST_F(Loop, TheFirstValueMayStandForItself) {
+TEST_F(Loop, FirstValueMayBeItsOwnReference) {
   const std::array<double, 7> start = fake.state().q_d;
   std::array<double, 7> q = start;
   q[0] += 1e-4;
@@ -354,7 +354,7 @@ TEST_F(Loop, TheFirstValueMayStandForItself) {
   }
 }
 
-TEST_F(Loop, BadValuesStopTheRobot) {
+TEST_F(Loop, InvalidValuesStopTheRobot) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const std::function<void()> bad[] = {
@@ -383,7 +383,7 @@ TEST_F(Loop, BadValuesStopTheRobot) {
   }
 }
 
-TEST_F(Loop, BadSettingsDoNotStartAMotion) {
+TEST_F(Loop, InvalidSettingsDoNotStartAMotion) {
   using ControlCallback = std::function<Torques(const RobotState&, Duration)>;
   using MotionCallback = std::function<JointPositions(const RobotState&, Duration)>;
   const auto torques = constant(Torques(kTorques));
@@ -398,8 +398,8 @@ TEST_F(Loop, BadSettingsDoNotStartAMotion) {
   EXPECT_EQ(0, fake.count(Command::kMove));
 }
 
-// A busy robot says so, whatever else is wrong with a call.
-TEST_F(Loop, WhetherTheRobotIsBusyIsCheckedFirst) {
+// A busy robot is reported before other errors of a call.
+TEST_F(Loop, BusyRobotIsReportedFirst) {
   const Callback<Torques> no_torques;
   const Callback<JointPositions> no_positions;
   const Callback<JointVelocities> no_velocities;
@@ -433,7 +433,7 @@ TEST_F(Loop, WhetherTheRobotIsBusyIsCheckedFirst) {
   }
 }
 
-/// Sets FRANKA_REALTIME for a while; null: not set.
+/// Sets FRANKA_REALTIME for its lifetime; null: not set.
 class RealtimeVariable {
  public:
   explicit RealtimeVariable(const char* value) {
@@ -446,7 +446,7 @@ class RealtimeVariable {
   ~RealtimeVariable() { unsetenv("FRANKA_REALTIME"); }
 };
 
-/// A motion and a motion that the program drives itself, of a robot on a loopback address.
+/// A motion with callbacks and one driven by the program, of a robot on a loopback address.
 class SimulatedRobot {
  public:
   void move() { robot_.control(constant(Torques(kTorques))); }
@@ -459,7 +459,7 @@ class SimulatedRobot {
   franka::Robot robot_{fake_.address(), franka::RealtimeConfig::kEnforce};
 };
 
-/// What the library warns of: to a sink, not to the terminal.
+/// Collects the library's warnings instead of printing them.
 class Warnings : public franka::LoggingSinkInterface {
  public:
   std::string getName() const override { return "Warnings"; }
@@ -477,7 +477,7 @@ class LoopRealtime : public ::testing::Test {
   const std::shared_ptr<Warnings> warnings_ = std::make_shared<Warnings>();
 };
 
-TEST_F(LoopRealtime, SimulatedRobotsNeedNoRealtimeKernelWhichIsSaidOnce) {
+TEST_F(LoopRealtime, SimulatedRobotsNeedNoRealtimeKernelAndWarnOnce) {
   const RealtimeVariable variable(nullptr);
   if (franka::hasRealtimeKernel()) {
     GTEST_SKIP() << "this kernel has real-time support";
@@ -495,7 +495,7 @@ TEST_F(LoopRealtime, SimulatedRobotsNeedNoRealtimeKernelWhichIsSaidOnce) {
                          "a loopback address"));
 }
 
-TEST_F(LoopRealtime, TheEnvironmentCanEnforceIt) {
+TEST_F(LoopRealtime, EnvironmentVariableEnforcesIt) {
   const RealtimeVariable variable("enforce");
   if (franka::hasRealtimeKernel()) {
     GTEST_SKIP() << "this kernel has real-time support";
@@ -506,18 +506,18 @@ TEST_F(LoopRealtime, TheEnvironmentCanEnforceIt) {
   EXPECT_TRUE(startsWith(textOf<franka::RealtimeException>([&] { robot.drive(); }), refusal));
   EXPECT_EQ(0, robot.motions());
   EXPECT_TRUE(warnings_->texts.empty());
-  // Reading asks for nothing.
+  // Reading has no requirement.
   EXPECT_NO_THROW(robot.readOnce());
 }
 
-TEST_F(LoopRealtime, TheEnvironmentCanIgnoreItInSilence) {
+TEST_F(LoopRealtime, EnvironmentVariableIgnoresItSilently) {
   const RealtimeVariable variable("ignore");
   SimulatedRobot robot;
   robot.move();
   EXPECT_TRUE(warnings_->texts.empty());
 }
 
-TEST_F(LoopRealtime, AnotherWordInTheEnvironmentIsRefused) {
+TEST_F(LoopRealtime, OtherValuesOfTheVariableAreRefused) {
   const RealtimeVariable variable("perhaps");
   SimulatedRobot robot;
   const std::string text = textOf<franka::RealtimeException>([&] { robot.move(); });
@@ -546,7 +546,7 @@ TEST(LoopLog, MayBeEmpty) {
 }
 
 // Record i holds the command that was sent just before state i.
-TEST(LoopLog, PairsAStateWithTheCommandBeforeIt) {
+TEST(LoopLog, PairsEachStateWithTheCommandBeforeIt) {
   FakeRobot fake(5);
   fake.script([](FakeRobot::Script& s) { s.abort_after = 40; });
   const auto robot = connect(fake, 10);

@@ -9,7 +9,7 @@ namespace {
 
 const std::array<double, 16> kPose{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.3, 0.4, 0.5, 1};
 
-TEST(ControlTools, AnElbowsSignIsExactlyOne) {
+TEST(ControlTools, ElbowSignMustBeExactlyOne) {
   EXPECT_TRUE(franka::isValidElbow({0.0, 1.0}));
   EXPECT_TRUE(franka::isValidElbow({0.0, -1.0}));
   for (double sign : {0.0, 0.999, -1.0000001, std::numeric_limits<double>::quiet_NaN()}) {
@@ -17,7 +17,7 @@ TEST(ControlTools, AnElbowsSignIsExactlyOne) {
   }
 }
 
-TEST(ControlTools, KnowsAHomogeneousTransformation) {
+TEST(ControlTools, RecognisesHomogeneousTransformations) {
   EXPECT_TRUE(franka::isHomogeneousTransformation(kPose));
   EXPECT_FALSE(franka::isHomogeneousTransformation({}));
   for (std::size_t i : {3, 7, 11, 15}) {
@@ -42,7 +42,7 @@ TEST(ControlTools, ToleratesRoundingOfUnitLength) {
   EXPECT_FALSE(franka::isHomogeneousTransformation(pose));
 }
 
-TEST(ControlTools, SaysWhyThereIsNoRealtimePriority) {
+TEST(ControlTools, ReportsWhyRealtimePriorityFailed) {
   std::string message;
   if (!franka::setCurrentThreadToHighestSchedulerPriority(&message)) {
     EXPECT_NE(std::string::npos, message.find("rtprio")) << message;

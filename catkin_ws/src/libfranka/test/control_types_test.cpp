@@ -13,7 +13,7 @@ void expectRefused(std::initializer_list<double> values) {
   EXPECT_THROW(Type{values}, std::invalid_argument);
 }
 
-TEST(ControlTypes, TakeArraysAndLists) {
+TEST(ControlTypes, AcceptArraysAndLists) {
   const std::array<double, 7> seven{1, 2, 3, 4, 5, 6, 7};
   EXPECT_EQ(seven, franka::Torques(seven).tau_J);
   EXPECT_EQ(seven, (franka::Torques{1, 2, 3, 4, 5, 6, 7}.tau_J));
@@ -48,7 +48,7 @@ TEST(ControlTypes, RefuseListsOfTheWrongSize) {
   }
 }
 
-TEST(ControlTypes, KnowWhetherAnElbowIsCommanded) {
+TEST(ControlTypes, DetectACommandedElbow) {
   const std::array<double, 16> pose{};
   const std::array<double, 6> twist{};
   EXPECT_FALSE(franka::CartesianPose(pose).hasElbow());

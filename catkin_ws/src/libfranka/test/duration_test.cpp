@@ -18,7 +18,7 @@ TEST(Duration, ConvertsBothWays) {
   EXPECT_EQ(Duration(17), Duration(chrono));
 }
 
-TEST(Duration, Calculates) {
+TEST(Duration, SupportsArithmetic) {
   const Duration seven(7), three(3);
   EXPECT_EQ(Duration(10), seven + three);
   EXPECT_EQ(Duration(4), seven - three);
@@ -30,7 +30,7 @@ TEST(Duration, Calculates) {
   EXPECT_EQ(Duration(1), seven % 3);
 }
 
-TEST(Duration, CalculatesInPlace) {
+TEST(Duration, SupportsArithmeticInPlace) {
   Duration d(7);
   EXPECT_EQ(Duration(10), d += Duration(3));
   EXPECT_EQ(Duration(8), d -= Duration(2));

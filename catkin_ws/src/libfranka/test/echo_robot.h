@@ -16,7 +16,7 @@
 
 namespace franka_bench {
 
-/// A socket on 127.0.0.1 whose reads give up after a time.
+/// A socket on 127.0.0.1 whose reads time out.
 class Socket {
  public:
   explicit Socket(int type, int timeout_ms = 100) : fd_(socket(AF_INET, type, 0)) {
@@ -43,8 +43,7 @@ class Socket {
   sockaddr_in address_{};
 };
 
-/// The least that a UDP peer can do: answers each datagram at once by one whose first eight bytes
-/// count up.
+/// The minimal UDP peer: answers each datagram at once by one whose first eight bytes count up.
 class Echo {
  public:
   /// Waits for a datagram, answers it. @returns false if none came.
@@ -77,7 +76,7 @@ class Echo {
   std::uint64_t id_{0};
 };
 
-/// A bare UDP echo on a thread of its own.
+/// A bare UDP echo in its own thread.
 class EchoServer {
  public:
   explicit EchoServer(std::size_t answer_size)
@@ -99,8 +98,7 @@ class EchoServer {
   std::thread thread_;
 };
 
-/// A robot reduced to the same echo: once its motion runs, each command draws the next state, and
-/// nothing else is done.
+/// A robot reduced to the same echo: during a motion it only sends the next state for each command.
 class EchoRobot {
  public:
   explicit EchoRobot(std::uint16_t version);

@@ -75,7 +75,7 @@ std::array<bool, 41> only(std::size_t index) {
   return flags;
 }
 
-TEST(Errors, EachFlagHasItsMemberAndItsName) {
+TEST(Errors, EachFlagHasAMemberAndAName) {
   ASSERT_EQ(41u, std::size(kMembers));
   std::set<std::string> names;
   for (std::size_t i = 0; i < 41; i++) {
@@ -109,7 +109,7 @@ TEST(Errors, ListSeveralInOrder) {
             text.str());
 }
 
-TEST(Errors, CopiesLookAtTheirOwnFlags) {
+TEST(Errors, CopiesReferToTheirOwnFlags) {
   Errors copy;
   {
     const Errors errors(only(6));

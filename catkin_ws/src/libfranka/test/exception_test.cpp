@@ -17,7 +17,7 @@ void expectOneOfTheFamily() {
   }
 }
 
-TEST(Exception, IsOneFamily) {
+TEST(Exception, HasOneBaseClass) {
   expectOneOfTheFamily<franka::ModelException>();
   expectOneOfTheFamily<franka::NetworkException>();
   expectOneOfTheFamily<franka::ProtocolException>();
@@ -27,7 +27,7 @@ TEST(Exception, IsOneFamily) {
   expectOneOfTheFamily<franka::ControlException>();
 }
 
-TEST(Exception, AVersionMismatchNamesBothVersions) {
+TEST(Exception, VersionMismatchNamesBothVersions) {
   const franka::IncompatibleVersionException error(5, 10);
   EXPECT_EQ(5, error.server_version);
   EXPECT_EQ(10, error.library_version);
@@ -35,19 +35,19 @@ TEST(Exception, AVersionMismatchNamesBothVersions) {
             std::string(error.what()).find("(server version: 5, library version: 10)"));
 }
 
-TEST(Exception, AVersionMismatchSaysWhichRobotAndWhatToDo) {
+TEST(Exception, VersionMismatchNamesTheRobotAndGivesAdvice) {
   const std::string panda = franka::IncompatibleVersionException(5, 10).what();
   EXPECT_NE(std::string::npos, panda.find("a Panda with system 4.2.1")) << panda;
   const std::string newer = franka::IncompatibleVersionException(12, 10).what();
   EXPECT_NE(std::string::npos, newer.find("update this library")) << newer;
   const std::string older = franka::IncompatibleVersionException(1, 10).what();
   EXPECT_NE(std::string::npos, older.find("at least to 1.3 or later on a Panda")) << older;
-  // A gripper's numbers are others.
+  // A gripper has other version numbers.
   const std::string gripper = franka::IncompatibleVersionException(5, 3).what();
   EXPECT_EQ(std::string::npos, gripper.find("Panda")) << gripper;
 }
 
-TEST(Exception, AControlExceptionKeepsTheLog) {
+TEST(Exception, ControlExceptionKeepsTheLog) {
   std::vector<franka::Record> log(2);
   log[1].state.time = franka::Duration(17);
   const franka::ControlException error("aborted", log);

@@ -23,8 +23,8 @@
 
 namespace franka_test {
 
-/// A gripper for tests: real sockets on 127.0.0.1, port 0. It answers requests as it is told and
-/// sends a state every 5 ms. Of either kind: the framing and Connect are the same.
+/// A gripper for tests: real sockets on 127.0.0.1, port 0. It answers requests as scripted and
+/// sends a state every 5 ms. For both grippers: framing and Connect are the same.
 class FakeGripper {
  public:
   using Header = franka_core::fci::gripper::Header;
@@ -58,15 +58,15 @@ class FakeGripper {
   std::atomic<Status> answer{Status::kSuccess};
   std::atomic<bool> answers{true};  ///< else requests other than Connect and Stop wait
   std::atomic<bool> sends_states{true};
-  std::atomic<bool> closes{false};  ///< closes the connection in the place of a reply
+  std::atomic<bool> closes{false};  ///< closes the connection instead of replying
   std::atomic<std::uint16_t> stop_command{4};
 
-  /// What it sends from now on.
+  /// The state that it sends from now on.
   void show(Bytes state) {
     const std::lock_guard<std::mutex> lock(mutex_);
     state_ = std::move(state);
   }
-  /// The requests it got, Connect left out.
+  /// The received requests, except Connect.
   std::vector<Bytes> requests() {
     const std::lock_guard<std::mutex> lock(mutex_);
     return requests_;
@@ -122,9 +122,9 @@ class FakeGripper {
 
   bool handle(int client, const Header& header, const Bytes& request) {
     if (header.command == 0) {
-      const auto wanted = static_cast<std::uint16_t>(request[10] | request[11] << 8);
+      const auto requested = static_cast<std::uint16_t>(request[10] | request[11] << 8);
       udp_port_ = static_cast<std::uint16_t>(request[12] | request[13] << 8);
-      const bool agrees = wanted == version_;
+      const bool agrees = requested == version_;
       reply(client, header, agrees ? 0 : 1, true);
       return agrees;
     }

@@ -25,8 +25,8 @@ using franka_core::RobotMode;
 
 constexpr double kDeltaT = 1e-3;
 constexpr std::chrono::milliseconds kPace{1};
-constexpr std::chrono::milliseconds kPatience{50};
-constexpr std::chrono::milliseconds kPatienceAfterAbort{500};
+constexpr std::chrono::milliseconds kAnswerTimeout{50};
+constexpr std::chrono::milliseconds kAnswerTimeoutAfterAbort{500};
 
 sockaddr_in loopback(std::uint16_t port) {
   sockaddr_in address{};
@@ -49,11 +49,11 @@ int boundSocket(int type, std::uint16_t* port) {
 }
 
 template <std::size_t kSize>
-void follow(const std::array<double, kSize>& wanted, std::array<double, kSize>& value,
+void follow(const std::array<double, kSize>& target, std::array<double, kSize>& value,
             std::array<double, kSize>& derivative) {
   for (std::size_t i = 0; i < kSize; i++) {
-    derivative[i] = (wanted[i] - value[i]) / kDeltaT;
-    value[i] = wanted[i];
+    derivative[i] = (target[i] - value[i]) / kDeltaT;
+    value[i] = target[i];
   }
 }
 
@@ -194,7 +194,7 @@ void FakeRobot::readRequests() {
         fci::decodeRequest(version_, {stream_.data(), header.size}, header, request);
     stream_.erase(stream_.begin(), stream_.begin() + header.size);
     if (error != fci::CodecError::kNone) {
-      closeClient();  // a test that lets the client send nonsense sees it as a lost connection
+      closeClient();  // a test whose client sends invalid data sees a lost connection
       return;
     }
     requests_.push_back(request);
@@ -335,7 +335,7 @@ void FakeRobot::readCommands() {
     franka_core::RobotCommand command;
     const bool valid = fci::decodeCommand(version_, {buffer, static_cast<std::size_t>(size)},
                                           command) == fci::CodecError::kNone;
-    // However late: a machine that stands still for a while is no fault of the client.
+    // However late: a pause of the machine is not the client's fault.
     if (valid && move_id_ && command.message_id <= state_.message_id &&
         command.message_id > answered_id_) {
       obey(command);
@@ -443,8 +443,8 @@ bool FakeRobot::isTimeForState() const {
     return false;
   }
   const bool answered = was_answered_ && answered_id_ >= state_.message_id;
-  const auto patience = awaits_request_ ? kPatienceAfterAbort : kPatience;
-  const auto wait = awaits_request_ || (move_id_ && was_answered_) ? patience : kPace;
+  const auto timeout = awaits_request_ ? kAnswerTimeoutAfterAbort : kAnswerTimeout;
+  const auto wait = awaits_request_ || (move_id_ && was_answered_) ? timeout : kPace;
   return (move_id_ && answered) || Clock::now() - last_state_at_ >= wait;
 }
 

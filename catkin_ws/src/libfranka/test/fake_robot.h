@@ -21,40 +21,38 @@
 
 namespace franka_test {
 
-/// A robot for tests: real sockets on 127.0.0.1, port 0, any protocol version, and every misconduct
-/// one can ask for.
+/// A robot for tests: real sockets on 127.0.0.1, port 0, any protocol version, and scripted
+/// misbehaviour.
 ///
-/// A motion runs in lock-step: from the first answered state on, the next one goes out as soon as
-/// the answer has come (or 50 ms have passed); else states go out every millisecond. An answer
-/// counts however late it comes. After an abort that it replies to, the state that shows it is the
-/// last one until the client's next request (or half a second has passed): a client finds it
-/// however late it looks. What it is commanded it does at once and exactly: q_d, dq_d, ddq_d,
-/// O_T_EE_c, ... are the commands and their backward differences. Serves one client after the
-/// other.
+/// A motion runs in lock-step: from the first answered state on, the next one is sent once the
+/// answer has arrived (or 50 ms have passed); otherwise states are sent every millisecond. Late
+/// answers count. After an abort that it replies to, the state that shows it is the last one until
+/// the client's next request (or for half a second), so that a slow client finds it. It executes
+/// commands at once and exactly: q_d, dq_d, ddq_d, O_T_EE_c, ... are the commands and their
+/// backward differences. Serves one client after another.
 class FakeRobot {
  public:
   using Command = franka_core::fci::Command;
   using Status = franka_core::fci::Status;
   using Datagram = std::vector<std::uint8_t>;
 
-  /// What it does otherwise than a well-behaved robot. `*_after` count commands of a motion; -1:
-  /// never.
+  /// Deviations from a well-behaved robot. `*_after` count commands of a motion; -1: never.
   struct Script {
-    std::map<Command, Status> replies;  ///< in the place of success (Move: of MotionStarted)
+    std::map<Command, Status> replies;  ///< instead of success (Move: of MotionStarted)
     std::set<Command> unanswered;       ///< requests that get no reply
     std::set<Command> fatal;            ///< requests that make it close the connection
-    std::set<Command> garbled;          ///< requests answered by a reply that is a byte too short
+    std::set<Command> garbled;          ///< requests with a reply that is one byte too short
     std::size_t connect_excess{0};      ///< bytes by which the answer to Connect is too long
-    std::map<Command, int> repeated;    ///< how often the (first) reply is sent besides
+    std::map<Command, int> repeated;    ///< number of repetitions of the (first) reply
     std::vector<std::uint8_t> urdf, library;
     std::optional<std::uint16_t> reported_version;  ///< in the reply to Connect
 
     bool shows_motion{true};              ///< states change when a motion starts
     std::optional<Status> end_at_start;   ///< second reply to Move, right after the first
-    std::optional<Status> end_at_finish;  ///< second reply in the place of success
+    std::optional<Status> end_at_finish;  ///< second reply instead of success
     bool answers_finish{true};            ///< sends the second reply when a motion is finished
     bool ends_at_finish{true};            ///< stops moving when a motion is finished
-    bool closes_at_finish{false};         ///< closes the connection in the place of the reply
+    bool closes_at_finish{false};         ///< closes the connection instead of replying
     int abort_after{-1};                  ///< ends the motion ...
     Status abort_status{Status::kReflexAborted};
     franka_core::RobotMode abort_mode{franka_core::RobotMode::kReflex};
@@ -68,7 +66,7 @@ class FakeRobot {
     std::uint64_t skip{0};
     bool sends_states{true};
     double success_rate{1.0};
-    /// What goes over the wire in the place of a state's datagram.
+    /// Datagrams sent instead of a state's datagram.
     std::function<std::vector<Datagram>(const Datagram&)> transmit;
   };
 
@@ -82,7 +80,7 @@ class FakeRobot {
 
   /// Changes the script between two actions.
   void script(const std::function<void(Script&)>& change);
-  /// Changes what the next state says.
+  /// Changes the next state.
   void change(const std::function<void(franka_core::RobotState&)>& change);
   franka_core::RobotState state() const;
 
@@ -137,7 +135,7 @@ class FakeRobot {
   franka_core::RobotState state_;
   Clock::time_point last_state_at_;
   bool was_answered_{false};
-  std::uint64_t answered_id_{0};  // of the newest state that was, or of the last before the motion
+  std::uint64_t answered_id_{0};  // of the newest answered state, or of the last before the motion
   bool awaits_request_{false};
   bool silent_{false};
   std::optional<std::uint32_t> move_id_;

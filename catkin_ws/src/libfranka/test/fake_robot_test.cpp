@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The robot for tests, seen through plain sockets and bytes typed by hand.
+// The fake robot, tested with plain sockets and hand-written bytes.
 #include "fake_robot.h"
 
 #include <arpa/inet.h>
@@ -144,7 +144,7 @@ TEST(FakeRobot, RunsAMotionInLockStep) {
   EXPECT_EQ(100u, robot.exchanges().size());
 }
 
-TEST(FakeRobot, MisbehavesAsAsked) {
+TEST(FakeRobot, MisbehavesAsScripted) {
   FakeRobot robot(5);
   robot.script([](FakeRobot::Script& s) {
     s.abort_after = 1;

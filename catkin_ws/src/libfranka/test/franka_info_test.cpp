@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command line tool franka_info, run as it is, and the numbers behind its verdict.
+// The command line tool franka_info, run unchanged, and the numbers behind its verdict.
 #include <sys/wait.h>
 
 #include <array>
@@ -35,7 +35,7 @@ void expectIn(const std::string& text, const std::string& part) {
   EXPECT_NE(std::string::npos, text.find(part)) << text << "\nlacks: " << part;
 }
 
-TEST(FrankaInfo, TellsWhatARobotIs) {
+TEST(FrankaInfo, DescribesTheRobot) {
   FakeRobot panda(5);
   const Output output = info(panda.address() + " 0.2");
   expectIn(output.text, "Panda, control interface version 5 (system 4.2.1 or later");
@@ -49,7 +49,7 @@ TEST(FrankaInfo, TellsWhatARobotIs) {
 
 using FrankaInfoRoundTrips = EveryVersion;
 
-TEST_P(FrankaInfoRoundTrips, AreThoseOfACommandThatChangesNothing) {
+TEST_P(FrankaInfoRoundTrips, UseACommandThatChangesNothing) {
   const std::array<double, 16> EE_T_K{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1};
   fake.change([&](franka_core::RobotState& state) { state.EE_T_K = EE_T_K; });
   const Output output = info(fake.address() + " 0.5");
@@ -85,7 +85,7 @@ TEST(FrankaInfo, ChangesNothingInARobotThatIsNotIdle) {
   EXPECT_EQ(0, robot.count(Command::kSetEEToK));
 }
 
-TEST(FrankaInfo, CountsARefusalAsAnAnswer) {
+TEST(FrankaInfo, CountsARefusalAsAReply) {
   FakeRobot robot(5);
   robot.script([](FakeRobot::Script& script) {
     script.replies[Command::kGetCartesianLimit] = Status::kCommandNotPossibleRejected;
@@ -93,7 +93,7 @@ TEST(FrankaInfo, CountsARefusalAsAnAnswer) {
   expectIn(info(robot.address() + " 0.1").text, "times getVirtualWall and its answer)");
 }
 
-TEST(FrankaInfo, SaysWhatIsInTheWay) {
+TEST(FrankaInfo, ReportsWhyARobotIsNotReady) {
   FakeRobot robot(5);
   const auto expectObstacle = [&](franka_core::RobotMode mode, const std::string& text) {
     robot.change([mode](franka_core::RobotState& state) { state.robot_mode = mode; });
@@ -107,19 +107,19 @@ TEST(FrankaInfo, SaysWhatIsInTheWay) {
   expectObstacle(franka_core::RobotMode::kGuiding, "it is being guided by hand");
 }
 
-TEST(FrankaInfo, RefusesWhatMakesNoSense) {
+TEST(FrankaInfo, RefusesInvalidArguments) {
   for (const char* const arguments : {"", "--quick", "a b c", "localhost soon", "localhost -1",
                                       "localhost nan", "localhost 99999"}) {
     const Output output = info(arguments);
     EXPECT_EQ(3, output.status) << arguments;
     expectIn(output.text, "usage: franka_info ADDRESS [SECONDS]");
   }
-  const Output nobody = info("127.0.0.1:1");
-  EXPECT_EQ(2, nobody.status);
-  expectIn(nobody.text, "Connection to FCI refused");
+  const Output refused = info("127.0.0.1:1");
+  EXPECT_EQ(2, refused.status);
+  expectIn(refused.text, "Connection to FCI refused");
 }
 
-TEST(ConnectionStatistics, CountsWhatIsLostAndHowLateTheRestIs) {
+TEST(ConnectionStatistics, MeasuresLossAndLateness) {
   franka_info::ConnectionStatistics statistics;
   const auto begin = franka_info::ConnectionStatistics::Clock::now();
   // 1 to 100 ms, without 11 to 15 and 40; each tenth is 3 ms late.
@@ -139,7 +139,7 @@ TEST(ConnectionStatistics, CountsWhatIsLostAndHowLateTheRestIs) {
   EXPECT_NEAR(3.0, statistics.lateness(0.99), 1e-6);
 }
 
-TEST(ConnectionStatistics, TellARobotThatFollowsTheClockFromOneThatDoesNot) {
+TEST(ConnectionStatistics, DetectsARobotThatDoesNotFollowTheClock) {
   const auto begin = franka_info::ConnectionStatistics::Clock::now();
   const auto paceOf = [begin](double factor) {
     franka_info::ConnectionStatistics statistics;

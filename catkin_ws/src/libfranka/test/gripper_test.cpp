@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The hand and the vacuum gripper against a gripper of the test's own, over real sockets.
+// The hand and the vacuum gripper against a fake gripper, over real sockets.
 #include <franka/gripper.h>
 #include <franka/vacuum_gripper.h>
 
@@ -51,7 +51,7 @@ TEST(Gripper, StepsDownToAnOlderHand) {
   EXPECT_EQ(2, franka::Gripper(fake.address()).serverVersion());
 }
 
-TEST(Gripper, SaysWhichVersionItFound) {
+TEST(Gripper, ReportsTheVersionItFound) {
   FakeGripper fake(7);
   try {
     const franka::Gripper gripper(fake.address());
@@ -62,7 +62,7 @@ TEST(Gripper, SaysWhichVersionItFound) {
   }
 }
 
-TEST_F(GripperTest, SendsWhatItIsAsked) {
+TEST_F(GripperTest, SendsRequestsWithTheirArguments) {
   const franka::Gripper gripper(fake_.address());
   EXPECT_TRUE(gripper.homing());
   EXPECT_TRUE(gripper.move(0.05, 0.1));
@@ -82,7 +82,7 @@ TEST_F(GripperTest, SendsWhatItIsAsked) {
   EXPECT_EQ(0.002, grasp.epsilon_outer);
 }
 
-TEST_F(GripperTest, TellsEachAnswerApart) {
+TEST_F(GripperTest, DistinguishesAllReplies) {
   const franka::Gripper gripper(fake_.address());
   fake_.answer = FakeGripper::Status::kUnsuccessful;
   EXPECT_FALSE(gripper.move(0.01, 0.1));
@@ -108,7 +108,7 @@ TEST_F(GripperTest, AnotherThreadCanStopIt) {
   EXPECT_EQ("libfranka gripper: Command aborted!", moving.get());
 }
 
-TEST_F(GripperTest, NothingHangs) {
+TEST_F(GripperTest, EveryWaitTimesOut) {
   const ShortTimeouts timeouts;
   const franka::Gripper gripper(fake_.address());
   fake_.answers = false;
@@ -116,7 +116,7 @@ TEST_F(GripperTest, NothingHangs) {
                          "libfranka: Connection timeout."));
   fake_.sends_states = false;
   EXPECT_EQ("libfranka: UDP receive: Timeout", textOf<franka::NetworkException>([&] {
-              for (int i = 0; i < 3; i++) {  // one may be on its way still
+              for (int i = 0; i < 3; i++) {  // one may still be in transit
                 gripper.readOnce();
               }
             }));
@@ -125,7 +125,7 @@ TEST_F(GripperTest, NothingHangs) {
             textOf<franka::NetworkException>([&] { gripper.move(0.01, 0.1); }));
 }
 
-TEST_F(GripperTest, AStateOfAnotherSizeIsNone) {
+TEST_F(GripperTest, RefusesAStateOfAnotherSize) {
   FakeGripper::Bytes too_short = handState();
   too_short.pop_back();
   fake_.show(too_short);
@@ -134,7 +134,7 @@ TEST_F(GripperTest, AStateOfAnotherSizeIsNone) {
             textOf<franka::ProtocolException>([&] { gripper.readOnce(); }));
 }
 
-TEST(Gripper, ConnectsAgainAndAgain) {
+TEST(Gripper, ReconnectsRepeatedly) {
   FakeGripper fake(3);
   fake.show(handState());
   for (int i = 0; i < 100; i++) {
@@ -143,7 +143,7 @@ TEST(Gripper, ConnectsAgainAndAgain) {
   }
 }
 
-TEST(VacuumGripper, DoesItsWork) {
+TEST(VacuumGripper, SendsRequestsAndReadsStates) {
   FakeGripper fake(1);
   fake.stop_command = 3;
   vacuum::State sent;
@@ -167,10 +167,10 @@ TEST(VacuumGripper, DoesItsWork) {
   vacuum::Request request;
   ASSERT_EQ(franka_core::fci::CodecError::kNone,
             vacuum::decodeRequest({requests[0].data(), requests[0].size()}, header, request));
-  const auto& asked = std::get<vacuum::VacuumRequest>(request);
-  EXPECT_EQ(60, asked.vacuum);
-  EXPECT_EQ(vacuum::Profile::kP2, asked.profile);
-  EXPECT_EQ(1500, asked.timeout_ms);
+  const auto& received = std::get<vacuum::VacuumRequest>(request);
+  EXPECT_EQ(60, received.vacuum);
+  EXPECT_EQ(vacuum::Profile::kP2, received.profile);
+  EXPECT_EQ(1500, received.timeout_ms);
 
   const franka::VacuumGripperState state = gripper.readOnce();
   EXPECT_TRUE(state.part_present);

@@ -29,8 +29,8 @@ inline KDL::Frame toKdl(const urdf::Pose& pose) {
           KDL::Vector(pose.position.x, pose.position.y, pose.position.z)};
 }
 
-/// The arm as KDL sees it, read from the URDF without ArmModel: segment i moves link i, the last
-/// segment is the flange. `count` moving segments, then the flange where count is 7.
+/// The arm in KDL, read from the URDF without ArmModel: segment i moves link i, the last segment is
+/// the flange. `count` moving segments, then the flange if count is 7.
 inline KDL::Chain kdlArm(const std::string& text, const std::string& arm_id,
                          std::size_t count = 7) {
   const auto model = urdf::parseURDF(text);
@@ -59,7 +59,7 @@ inline KDL::Chain kdlArm(const std::string& text, const std::string& arm_id,
   return chain;
 }
 
-/// The payload as one more body fixed to the flange.
+/// The payload as another body fixed to the flange.
 inline void addPayload(KDL::Chain& chain, const franka_core::Payload& payload) {
   chain.addSegment(KDL::Segment(
       KDL::Joint(KDL::Joint::Fixed), KDL::Frame::Identity(),

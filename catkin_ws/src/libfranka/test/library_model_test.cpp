@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The model that a robot of protocol 3 to 9 sends as a shared object: which of its functions
-// answers for which frame, with which arguments, and what happens when it is not what it should be.
-// What a genuine one computes is compared with KDL and MuJoCo where the simulated robot serves it.
+// The model that a robot of protocol 3 to 9 sends as a shared object: the function used for each
+// frame, its arguments, and errors of invalid libraries. Results of a genuine one are compared with
+// KDL and MuJoCo in the tests of the simulated robot.
 #include <elf.h>
 #include <franka/model.h>
 
@@ -37,7 +37,7 @@ Bytes stubLibrary(const char* path = LIBFRANKA_MODEL_STUB) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// The library without a function: wherever its name stands, another does.
+/// The library without a function: its name is replaced everywhere.
 Bytes without(Bytes library, const std::string& name) {
   const std::string whole = '\0' + name + '\0';
   std::size_t found = 0;
@@ -78,7 +78,7 @@ class LibraryModel : public ::testing::Test {
 
   FakeRobot fake_{5};
   std::array<double, 7> q_{}, dq_{};
-  // A quarter turn about z and a shift; a shift along the turned axes.
+  // A quarter rotation about z and a shift; a shift along the rotated axes.
   const std::array<double, 16> F_T_EE_{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1};
   const std::array<double, 16> EE_T_K_{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.01, 0.02, 0.03, 1};
   const std::array<double, 16> F_T_K_{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.08, 0.21, 0.33, 1};
@@ -86,7 +86,7 @@ class LibraryModel : public ::testing::Test {
   const std::array<double, 3> com_{0.01, -0.02, 0.05};
 };
 
-TEST_F(LibraryModel, AsksTheFunctionOfEachFrame) {
+TEST_F(LibraryModel, CallsTheFunctionOfEachFrame) {
   const franka::Model model = load(stubLibrary());
   for (int i = 0; i <= static_cast<int>(Frame::kStiffness); i++) {
     const Frame frame = static_cast<Frame>(i);
@@ -110,7 +110,7 @@ TEST_F(LibraryModel, AsksTheFunctionOfEachFrame) {
   EXPECT_THROW(model.pose(static_cast<Frame>(10), q_, F_T_EE_, EE_T_K_), std::invalid_argument);
 }
 
-TEST_F(LibraryModel, HandsTheLoadOverInItsOrder) {
+TEST_F(LibraryModel, PassesTheLoadInOrder) {
   const franka::Model model = load(stubLibrary());
   const double m = 1.25;
   const double q = sum(q_.data(), 7), inertia = sum(inertia_.data(), 9), com = sum(com_.data(), 3);
@@ -128,7 +128,7 @@ TEST_F(LibraryModel, HandsTheLoadOverInItsOrder) {
   }
 }
 
-TEST_F(LibraryModel, NamesTheFunctionThatIsMissing) {
+TEST_F(LibraryModel, NamesAMissingFunction) {
   const Bytes library = stubLibrary();
   ASSERT_EQ(30u, functions().size());
   for (const std::string& name : functions()) {
@@ -136,12 +136,12 @@ TEST_F(LibraryModel, NamesTheFunctionThatIsMissing) {
   }
 }
 
-TEST_F(LibraryModel, SaysThatALibraryIsNotForThisMachine) {
+TEST_F(LibraryModel, RefusesALibraryForAnotherMachine) {
   Bytes library = stubLibrary();
   Bytes long_table = library;
   reinterpret_cast<Elf64_Ehdr*>(long_table.data())->e_phnum = 0xfff0;
   std::vector<Bytes> all_broken{Bytes(library.begin() + 1, library.end()), long_table};
-  // Whatever is missing at the end, nothing beyond it is touched.
+  // Wherever it is truncated, nothing beyond the end is accessed.
   for (std::size_t size : {0u, 100u, 1000u, 5000u, 9000u, 12000u}) {
     ASSERT_LT(size, library.size());
     all_broken.emplace_back(library.begin(), library.begin() + size);
@@ -172,7 +172,7 @@ TEST_F(LibraryModel, TwoRobotsHaveTwoModels) {
     EXPECT_EQ(1108, flange(second));
     EXPECT_EQ(108, flange(third));
   }
-  // The other one is still loaded, and the number of its file free.
+  // The other one is still loaded, and its file number is free.
   EXPECT_EQ(108, flange(load(one)));
   EXPECT_EQ(1108, flange(load(other)));
 }

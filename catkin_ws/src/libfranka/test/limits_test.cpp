@@ -14,7 +14,7 @@ using franka_core::kFr3Limits;
 using franka_core::kFr3LimitsBefore59;
 using franka_core::kFr3PositionVelocityLimits;
 
-TEST(Limits, AreInOrder) {
+TEST(Limits, LowerBoundsAreBelowUpperBounds) {
   for (const ArmLimits* limits : {&kFerLimits, &kFr3Limits, &kFr3LimitsBefore59}) {
     for (std::size_t i = 0; i < 7; i++) {
       EXPECT_LT(limits->q_min[i], limits->q_max[i]);
@@ -25,14 +25,14 @@ TEST(Limits, AreInOrder) {
 }
 
 // FR3's ranges grew with system 5.9, in every joint.
-TEST(Limits, GrewWithTheSystem) {
+TEST(Limits, RangesOfAnFr3GrowWithSystem59) {
   for (std::size_t i = 0; i < 7; i++) {
     EXPECT_LE(kFr3Limits.q_min[i], kFr3LimitsBefore59.q_min[i]);
     EXPECT_GE(kFr3Limits.q_max[i], kFr3LimitsBefore59.q_max[i]);
   }
 }
 
-TEST(Limits, FollowTheProtocol) {
+TEST(Limits, DependOnTheProtocol) {
   EXPECT_EQ(&kFerLimits, &franka_core::limitsOfProtocol(3));
   EXPECT_EQ(&kFerLimits, &franka_core::limitsOfProtocol(5));
   EXPECT_EQ(&kFr3LimitsBefore59, &franka_core::limitsOfProtocol(6));
@@ -40,8 +40,8 @@ TEST(Limits, FollowTheProtocol) {
   EXPECT_EQ(&kFr3Limits, &franka_core::limitsOfProtocol(10));
 }
 
-// Worked by hand from the published rule: L - 0.001, V - 0.001 - 3 * 0.001 * (A - 0.001).
-TEST(Limits, TheClientKeepsAMargin) {
+// Computed by hand from the published rule: L - 0.001, V - 0.001 - 3 * 0.001 * (A - 0.001).
+TEST(Limits, ClientLimitsHaveAMargin) {
   EXPECT_DOUBLE_EQ(999.999, franka::kMaxTorqueRate[6]);
   EXPECT_DOUBLE_EQ(3749.999, franka::kMaxJointJerk[1]);
   EXPECT_DOUBLE_EQ(14.999, franka::kMaxJointAcceleration[0]);

@@ -17,7 +17,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-TEST(Log, IsEmptyTextWhenEmpty) { EXPECT_EQ("", franka::logToCSV({})); }
+TEST(Log, EmptyLogGivesEmptyText) { EXPECT_EQ("", franka::logToCSV({})); }
 
 TEST(Log, HasAColumnForEachValue) {
   franka::Record record;

@@ -27,7 +27,7 @@ class Sink : public franka::LoggingSinkInterface {
   std::string name_;
 };
 
-/// Holds back what is written to a stream.
+/// Captures the output of a stream.
 class Captured {
  public:
   explicit Captured(std::ostream& stream) : stream_(stream), before_(stream.rdbuf(text_.rdbuf())) {}
@@ -74,7 +74,7 @@ TEST_F(Logger, KeepsTheFirstSinkOfAName) {
   EXPECT_THROW(logging::addLogger(nullptr), std::invalid_argument);
 }
 
-TEST_F(Logger, PutsValuesIntoThePlaceholders) {
+TEST_F(Logger, FillsPlaceholdersWithValues) {
   const auto sink = std::make_shared<Sink>("sink");
   logging::addLogger(sink);
   logging::logInfo("{} of {} rad", 1, 0.5);

@@ -24,7 +24,7 @@ std::array<double, 16> poseAt(double angle, const Eigen::Vector3d& axis, const E
   return pose;
 }
 
-TEST(LowpassFilter, KeepsWhatStandsStill) {
+TEST(LowpassFilter, KeepsConstantValues) {
   EXPECT_DOUBLE_EQ(1.5, franka::lowpassFilter(0.001, 1.5, 1.5, 100.0));
 }
 
@@ -35,7 +35,7 @@ TEST(LowpassFilter, MovesByItsGain) {
   EXPECT_EQ(2.0, franka::lowpassFilter(0.0, 1.0, 2.0, 100.0));
 }
 
-TEST(LowpassFilter, RefusesWhatMakesNoSense) {
+TEST(LowpassFilter, RefusesInvalidArguments) {
   for (double time : {-0.001, kNan, kInfinity}) {
     EXPECT_THROW(franka::lowpassFilter(time, 1.0, 1.0, 100.0), std::invalid_argument);
   }
@@ -52,20 +52,20 @@ TEST(LowpassFilter, RefusesWhatMakesNoSense) {
   EXPECT_THROW(franka::cartesianLowpassFilter(0.001, pose, pose, 0.0), std::invalid_argument);
 }
 
-TEST(CartesianLowpassFilter, TurnsAboutTheSameAxisByItsGain) {
+TEST(CartesianLowpassFilter, RotatesAboutTheSameAxisByItsGain) {
   const Eigen::Vector3d axis(0.3, -0.5, 0.8);
   const double gain = 0.38586954509503757;
   const auto last = poseAt(0.2, axis, {0.0, 0.1, 0.2});
-  const auto wanted = poseAt(1.2, axis, {1.0, 0.1, -0.2});
+  const auto target = poseAt(1.2, axis, {1.0, 0.1, -0.2});
   const auto expected = poseAt(0.2 + gain, axis, {gain, 0.1, 0.2 - 0.4 * gain});
-  const auto filtered = franka::cartesianLowpassFilter(0.001, wanted, last, 100.0);
+  const auto filtered = franka::cartesianLowpassFilter(0.001, target, last, 100.0);
   for (std::size_t i = 0; i < 16; i++) {
     EXPECT_NEAR(expected[i], filtered[i], 1e-15) << i;
   }
 }
 
-// 170 degrees one way and 170 the other: the short way leads over 180.
-TEST(CartesianLowpassFilter, TakesTheShortWay) {
+// 170 degrees in either direction: the shorter arc crosses 180.
+TEST(CartesianLowpassFilter, TakesTheShortestArc) {
   const double angle = 170.0 / 180.0 * M_PI;
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
   const auto filtered = franka::cartesianLowpassFilter(0.001, poseAt(-angle, z, origin),
@@ -75,17 +75,17 @@ TEST(CartesianLowpassFilter, TakesTheShortWay) {
   EXPECT_NEAR(std::sin(expected), filtered[1], 1e-14);
 }
 
-// Matrices that are not quite orthogonal count as the nearest rotation, which libfranka 0.9.2 and
-// 0.21.2 were seen to take; the rotation of their normalised quaternion is up to 9e-6 rad off.
+// Matrices that are not quite orthogonal count as the nearest rotation, as observed with libfranka
+// 0.9.2 and 0.21.2; the rotation of their normalised quaternion differs by up to 9e-6 rad.
 TEST(CartesianLowpassFilter, TakesTheNearestRotationOfBothPoses) {
   OffRotations off(1e-5);
   for (int i = 0; i < 100; i++) {
     const auto last = off.pose();
-    const auto wanted = off.pose();
+    const auto target = off.pose();
     const auto still = franka::cartesianLowpassFilter(0.001, last, last, 100.0);
     EXPECT_LT(distance(polarFactor(last), still), 1e-13) << i;
-    const auto moved = franka::cartesianLowpassFilter(0.001, wanted, last, 1e12);
-    EXPECT_LT(distance(polarFactor(wanted), moved), 1e-8) << i;
+    const auto moved = franka::cartesianLowpassFilter(0.001, target, last, 1e12);
+    EXPECT_LT(distance(polarFactor(target), moved), 1e-8) << i;
   }
 }
 

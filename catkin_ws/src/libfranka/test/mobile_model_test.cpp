@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A mobile base with two drive modules: the description of one, and what a robot that is none says.
+// A mobile base with two drive modules: its description, and errors of other robots.
 #include <franka/mobile_model.h>
 #include <franka/model.h>
 
@@ -35,8 +35,8 @@ std::string baseWith(const std::string& last_joint) {
 
 const std::string kBase = baseWith(joint(3, "c", "d", "xyz='0 0 -0.05'", "0 1 0"));
 
-// The poses by hand; libfranka 0.21.2 returned the same to the four digits that were printed.
-TEST(MobileModel, TurnsItsDriveModules) {
+// Poses computed by hand; libfranka 0.21.2 printed the same four digits.
+TEST(MobileModel, ComputesPosesOfItsDriveModules) {
   const MobileModel base(kBase);
   for (int module : {0, 1}) {
     const double sign = module == 0 ? 1.0 : -1.0;
@@ -72,7 +72,7 @@ TEST(MobileModel, RefusesOtherDescriptionsWithASentence) {
   }
 }
 
-TEST(MobileModel, IsOfARobotThatSaysSo) {
+TEST(MobileModel, IsDetectedByTheNameOfTheRobot) {
   FakeRobot fake(10);
   fake.script([](FakeRobot::Script& s) { s.urdf.assign(kBase.begin(), kBase.end()); });
   const auto robot = connect(fake);

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A robot's model library that does not compute: each function answers with its own number first,
-// then with the sums of what it was given, so that a test sees which one was called and with what.
-// The functions of a second library (FRANKA_TEST_FIRST_NUMBER 1000) have other numbers.
+// A model library that does not compute: each function returns its own number first, then sums of
+// its arguments, so that a test can check which one was called with what. A second library
+// (FRANKA_TEST_FIRST_NUMBER 1000) has other numbers.
 #include <cstddef>
 
 #ifndef FRANKA_TEST_FIRST_NUMBER

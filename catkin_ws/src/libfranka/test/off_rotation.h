@@ -7,7 +7,7 @@
 #include <random>
 
 /// Poses (4x4, column-major) with random rotations that are not quite orthogonal: each of the nine
-/// entries is off by up to a bound. The same ones in every run.
+/// entries deviates by up to a bound. Repeatable.
 class OffRotations {
  public:
   explicit OffRotations(double bound) : off_(-bound, bound) {}
@@ -32,7 +32,7 @@ class OffRotations {
   std::uniform_real_distribution<double> off_;
 };
 
-/// The nearest rotation in another way than the code under test: R (R^T R)^(-1/2).
+/// The nearest rotation by another formula than the tested code: R (R^T R)^(-1/2).
 inline Eigen::Matrix3d polarFactor(const std::array<double, 16>& pose) {
   const Eigen::Matrix3d R = Eigen::Matrix4d::Map(pose.data()).topLeftCorner<3, 3>();
   return R *

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Programs as users write them, built against the public headers alone and run as they are. An
-// address with a port is all that tells them that the robot is none.
+// Typical user programs, built against the public headers alone and run unchanged. Only the port in
+// the address shows that the robot is a fake.
 #include <franka_core/fci/gripper_codec.h>
 
 #include <cstdlib>
@@ -19,7 +19,7 @@ class Programs : public ::testing::TestWithParam<const char*> {};
 TEST_P(Programs, RunUnchanged) {
   for (std::uint16_t version : {std::uint16_t{5}, std::uint16_t{8}, std::uint16_t{10}}) {
     const std::string program = GetParam();
-    // The Panda gives its model as a library, which this robot has none of.
+    // The Panda sends its model as a library, which this robot does not have.
     if (version == 5 && program == "impedance_with_motion") {
       continue;
     }
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(All, Programs,
                                            "impedance_with_motion", "active_control"),
                          [](const auto& info) { return std::string(info.param); });
 
-/// The arm of the FR3 with the velocity limits that its robot states.
+/// The arm of the FR3 with its robot's velocity limits.
 std::string descriptionOfFr3() {
   std::string urdf = readData("fr3_hand.urdf");
   const std::string limits =
@@ -53,7 +53,7 @@ std::string descriptionOfFr3() {
   return urdf;
 }
 
-/// Programs for interfaces that libfranka has had since 0.18 to 0.21. @returns the exit status
+/// Runs programs for interfaces added in libfranka 0.18 to 0.21. @returns the exit status
 int runNewest(const std::string& program, FakeRobot& fake) {
   const std::string urdf = descriptionOfFr3();
   fake.script([&urdf](FakeRobot::Script& s) { s.urdf.assign(urdf.begin(), urdf.end()); });
@@ -70,18 +70,18 @@ TEST(NewestPrograms, ReachAsynchronousTargetsAndLogThem) {
   EXPECT_EQ(1, runNewest("asynchronous_targets", without));
 }
 
-TEST(NewestPrograms, KeepVelocityLimitsThatDependOnThePosition) {
+TEST(NewestPrograms, ApplyVelocityLimitsThatDependOnThePosition) {
   FakeRobot fake(10);
   EXPECT_EQ(0, runNewest("velocity_limits", fake));
   EXPECT_EQ(franka_core::RobotMode::kIdle, fake.state().robot_mode);
 }
 
-TEST(NewestPrograms, HearThatAnArmIsNoMobileBase) {
+TEST(NewestPrograms, DetectThatAnArmIsNoMobileBase) {
   FakeRobot fake(10);
   EXPECT_EQ(1, runNewest("mobile_base", fake));
 }
 
-/// Runs the program of the hand. @returns its exit status
+/// Runs the program for the hand. @returns its exit status
 int graspAndLetGo(const FakeGripper& fake, const std::string& homing, const std::string& width) {
   const std::string command = std::string(LIBFRANKA_TEST_PROGRAMS) + "/libfranka_program_gripper " +
                               fake.address() + " " + homing + " " + width + " > /dev/null 2>&1";

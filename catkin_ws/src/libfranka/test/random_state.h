@@ -28,7 +28,7 @@ inline std::string readData(const std::string& name) {
   return text.str();
 }
 
-/// One state of an arm with everything its model takes.
+/// A state with all inputs of the arm's model.
 struct State {
   std::array<double, 7> q, dq, ddq;
   std::array<double, 16> F_T_EE, EE_T_K;
@@ -36,7 +36,7 @@ struct State {
   std::array<double, 3> gravity_earth;
 };
 
-/// The same states on every run.
+/// Repeatable random states.
 class StateSource {
  public:
   explicit StateSource(const franka_core::ArmLimits& limits) : limits_(limits) {}
@@ -86,7 +86,7 @@ class StateSource {
   std::mt19937_64 engine_{20261121};
 };
 
-/// An arm to test with.
+/// An arm under test.
 struct Arm {
   const char* name;
   const char* file;

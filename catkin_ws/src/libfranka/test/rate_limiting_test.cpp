@@ -40,17 +40,17 @@ TEST(LimitRate, TorquesChangeNoFasterThanAllowed) {
   EXPECT_THROW(limitRate(rates, Seven{0, 0, 0, kNan, 0, 0, 0}, last), std::invalid_argument);
 }
 
-TEST(LimitRate, LeavesAllowedVelocitiesAlone) {
+TEST(LimitRate, KeepsAllowedVelocities) {
   EXPECT_NEAR(0.004, limitRate(kV, kA, kJ, 0.004, 0.0, 0.0), 1e-17);
 }
 
-// A step to a velocity beyond the limit: jerk, then acceleration, then velocity bound the way
-// there, and the limit is reached without overshoot.
+// A step to a velocity beyond the limit: first jerk, then acceleration, then velocity limits apply,
+// and the limit is reached without overshoot.
 TEST(LimitRate, FollowsAStepWithinAllDerivatives) {
-  for (double wanted : {5.0, -5.0, 1.0}) {
+  for (double desired : {5.0, -5.0, 1.0}) {
     double v = 0.0, a = 0.0;
     for (int k = 0; k < 2000; k++) {
-      const double next = limitRate(kV, kA, kJ, wanted, v, a);
+      const double next = limitRate(kV, kA, kJ, desired, v, a);
       const double next_a = (next - v) / kDeltaT;
       EXPECT_LE(std::abs(next), kV + 1e-12);
       EXPECT_LE(std::abs(next_a), kA + kRounding);
@@ -58,7 +58,7 @@ TEST(LimitRate, FollowsAStepWithinAllDerivatives) {
       v = next;
       a = next_a;
     }
-    EXPECT_NEAR(std::max(-kV, std::min(kV, wanted)), v, 1e-6);
+    EXPECT_NEAR(std::max(-kV, std::min(kV, desired)), v, 1e-6);
   }
 }
 
@@ -82,24 +82,24 @@ TEST(LimitRate, JointsAreLimitedOneByOne) {
   a.fill(kA);
   j.fill(kJ);
   v[3] = 1e-4;
-  const Seven wanted{5, -5, 0.001, 5, 0, 0.01, -0.01};
-  const Seven limited = limitRate(v, a, j, wanted, zero, zero);
+  const Seven desired{5, -5, 0.001, 5, 0, 0.01, -0.01};
+  const Seven limited = limitRate(v, a, j, desired, zero, zero);
   for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_EQ(limitRate(v[i], a[i], j[i], wanted[i], 0.0, 0.0), limited[i]);
+    EXPECT_EQ(limitRate(v[i], a[i], j[i], desired[i], 0.0, 0.0), limited[i]);
   }
   EXPECT_LE(limited[3], 1e-4);
-  const Seven positions = limitRate(v, a, j, wanted, zero, zero, zero);
+  const Seven positions = limitRate(v, a, j, desired, zero, zero, zero);
   for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_EQ(limitRate(v[i], a[i], j[i], wanted[i], 0.0, 0.0, 0.0), positions[i]);
+    EXPECT_EQ(limitRate(v[i], a[i], j[i], desired[i], 0.0, 0.0, 0.0), positions[i]);
   }
 }
 
 // Linear and angular part each along its own line, bounded by norm.
 TEST(LimitRate, TwistsAreBoundedByNorm) {
-  const Six wanted{3.0, 4.0, 0.0, 0.0, -6.0, 8.0};
+  const Six desired{3.0, 4.0, 0.0, 0.0, -6.0, 8.0};
   Six v{}, a{};
   for (int k = 0; k < 2000; k++) {
-    const Six next = limitRate(kV, kA, kJ, 1.0, 20.0, 8000.0, wanted, v, a);
+    const Six next = limitRate(kV, kA, kJ, 1.0, 20.0, 8000.0, desired, v, a);
     Six next_a, jerk;
     for (std::size_t i = 0; i < 6; i++) {
       next_a[i] = (next[i] - v[i]) / kDeltaT;
@@ -127,15 +127,15 @@ TEST(LimitRate, TwistsAreBoundedByNorm) {
 }
 
 TEST(LimitRate, PosesFollowAtTheAllowedTwist) {
-  Pose wanted = identity();
-  Eigen::Map<Eigen::Matrix4d> target(wanted.data());
+  Pose desired = identity();
+  Eigen::Map<Eigen::Matrix4d> target(desired.data());
   target.topLeftCorner<3, 3>() =
       Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 2) / 3.0).toRotationMatrix();
   target.topRightCorner<3, 1>() << 10.0, 0.0, 0.0;
   Pose pose = identity();
   Six v{}, a{};
   for (int k = 0; k < 600; k++) {
-    const Pose next = limitRate(kV, kA, kJ, 1.0, 20.0, 8000.0, wanted, pose, v, a);
+    const Pose next = limitRate(kV, kA, kJ, 1.0, 20.0, 8000.0, desired, pose, v, a);
     const Eigen::Map<const Eigen::Matrix4d> from(pose.data()), to(next.data());
     const Eigen::AngleAxisd step(
         Eigen::Matrix3d(to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose()));
@@ -149,7 +149,7 @@ TEST(LimitRate, PosesFollowAtTheAllowedTwist) {
     EXPECT_LE(w.norm(), 0.99 * 1.0 + kRounding);
   }
   EXPECT_NEAR(kV, v[0], 1e-6);
-  // At full speed about the wanted axis, at 99 % of the rotational limit.
+  // At full speed about the desired axis, at 99 % of the rotational limit.
   EXPECT_NEAR(0.99 / 3.0, v[3], 1e-6);
   EXPECT_NEAR(0.99 * 2.0 / 3.0, v[4], 1e-6);
   const Eigen::Map<const Eigen::Matrix4d> end(pose.data());
@@ -159,7 +159,7 @@ TEST(LimitRate, PosesFollowAtTheAllowedTwist) {
             1e-12);
 }
 
-TEST(LimitRate, RefusesPosesThatAreNone) {
+TEST(LimitRate, RefusesInvalidPoses) {
   Pose wrong = identity();
   wrong[0] = 1.1;
   EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, wrong, identity(), Six{}, Six{}),
@@ -170,35 +170,35 @@ TEST(LimitRate, RefusesPosesThatAreNone) {
   EXPECT_EQ(identity(), limitRate(kV, kA, kJ, kV, kA, kJ, identity(), identity(), Six{}, Six{}));
 }
 
-// The functions of libfranka 0.11 and later, which have lower velocity limits of their own; the
-// numbers are what 0.21.2 returned for these arguments.
-TEST(LimitRate, VelocitiesAndPositionsKeepBetweenTwoVelocityLimits) {
+// The functions of libfranka 0.11 and later, which have separate lower velocity limits; the numbers
+// are results of 0.21.2 for these arguments.
+TEST(LimitRate, VelocitiesAndPositionsStayBetweenTwoVelocityLimits) {
   EXPECT_DOUBLE_EQ(-0.948001, limitRate(2.0, -1.0, 9.9, 4999.0, -0.5, -0.95, -3.0));
   EXPECT_DOUBLE_EQ(0.409042001, limitRate(2.0, -1.0, 9.9, 4999.0, 0.4, 0.41, -0.95, -3.0));
-  // Beyond a joint's lower end the lower limit is the margin alone.
+  // Beyond a joint's lower end the lower limit is only the margin.
   EXPECT_DOUBLE_EQ(-0.098505151515151518, limitRate(2.0, 0.001, 9.9, 4999.0, -0.5, -0.2, 0.0));
   EXPECT_THROW(limitRate(2.0, -1.0, 9.9, 4999.0, kNan, 0.0, 0.0), std::invalid_argument);
   EXPECT_THROW(limitRate(2.0, -1.0, 9.9, 4999.0, kNan, 0.0, 0.0, 0.0), std::invalid_argument);
 }
 
-TEST(LimitRate, SevenJointsKeepBetweenTwoVelocityLimits) {
+TEST(LimitRate, SevenJointsStayBetweenTwoVelocityLimits) {
   const Seven q{2.8, 0.0, 0.0, -1.5,
                 0.0, 0.5, 0.0};  // joint 1 near its upper, 6 beyond its lower end
   const Seven upper = franka::computeUpperLimitsJointVelocity(q);
   const Seven lower = franka::computeLowerLimitsJointVelocity(q);
   const Seven acceleration = {9.9, 9.9, 9.9, 9.9, 9.9, 9.9, 9.9};
   const Seven jerk = {4999, 4999, 4999, 4999, 4999, 4999, 4999};
-  const Seven wanted{1.0, -1.0, 0.1, -0.1, 5.0, -5.0, 0.0};
+  const Seven desired{1.0, -1.0, 0.1, -0.1, 5.0, -5.0, 0.0};
   const Seven last{0.1, -0.2, 0.1, -0.1, 1.0, -0.2, 0.3};
   const Seven last_a{1.0, -1.0, 0.0, 0.5, 0.0, 0.0, -2.0};
-  const Seven velocities = limitRate(upper, lower, acceleration, jerk, wanted, last, last_a);
+  const Seven velocities = limitRate(upper, lower, acceleration, jerk, desired, last, last_a);
   Seven positions{};
   for (std::size_t i = 0; i < 7; i++) {
-    positions[i] = q[i] + wanted[i] * kDeltaT;
+    positions[i] = q[i] + desired[i] * kDeltaT;
   }
   const Seven limited = limitRate(upper, lower, acceleration, jerk, positions, q, last, last_a);
   for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_EQ(limitRate(upper[i], lower[i], 9.9, 4999.0, wanted[i], last[i], last_a[i]),
+    EXPECT_EQ(limitRate(upper[i], lower[i], 9.9, 4999.0, desired[i], last[i], last_a[i]),
               velocities[i])
         << i;
     EXPECT_NEAR(q[i] + velocities[i] * kDeltaT, limited[i], 1e-15) << i;
@@ -225,7 +225,7 @@ TEST(JointVelocityLimits, OfAnFr3ShrinkTowardsTheEnds) {
   EXPECT_NEAR(0.35 - std::sqrt(11.0 * (0.6 - 0.54092)) + 0.001, lower[5], 1e-12);
 }
 
-// The numbers are what libfranka 0.21.2 returned for the limits of the public tables.
+// Numbers are results of libfranka 0.21.2 for the limits of the public tables.
 TEST(JointVelocityLimits, AreReadFromADescription) {
   const Seven velocity{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26};
   const Seven offset{0.6599, 0.2517, 0.2, 0.3533, 0.5757, 0.4878, 0.4628};
@@ -257,7 +257,7 @@ TEST(JointVelocityLimits, AreReadFromADescription) {
   EXPECT_EQ(upper, limits.getUpperJointVelocityLimits({2.8, 1.8, 2.85, -0.13, 2.8, 4.6, 3.0}));
 }
 
-// As libfranka 0.9.2 and 0.21.2 were seen to do, also where nothing turns.
+// As observed with libfranka 0.9.2 and 0.21.2, also without rotation.
 TEST(LimitRate, PosesCountAsTheirNearestRotation) {
   OffRotations off(5e-6);
   const Six rest{};
@@ -265,9 +265,9 @@ TEST(LimitRate, PosesCountAsTheirNearestRotation) {
     const Pose last = off.pose();
     const Pose still = limitRate(3.0, 9.0, 4500.0, 2.5, 17.0, 8500.0, last, last, rest, rest);
     EXPECT_LT(distance(polarFactor(last), still), 1e-13) << i;
-    const Pose wanted = off.pose();
-    const Pose there = limitRate(1e9, 1e12, 1e15, 1e9, 1e12, 1e15, wanted, last, rest, rest);
-    EXPECT_LT(distance(polarFactor(wanted), there), 1e-12) << i;
+    const Pose desired = off.pose();
+    const Pose there = limitRate(1e9, 1e12, 1e15, 1e9, 1e12, 1e15, desired, last, rest, rest);
+    EXPECT_LT(distance(polarFactor(desired), there), 1e-12) << i;
   }
 }
 

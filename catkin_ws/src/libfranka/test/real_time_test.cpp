@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the 1 kHz loop calls neither allocates nor locks.
+// Functions for the 1 kHz loop neither allocate nor lock.
 #include <franka/lowpass_filter.h>
 #include <franka/rate_limiting.h>
 #include <franka_core/to_franka.h>
@@ -19,7 +19,7 @@ namespace {
 using franka_core::ArmFrame;
 using franka_core::ArmModel;
 
-TEST(RealTime, TheGuardSeesAnAllocation) {
+TEST(RealTime, GuardDetectsAnAllocation) {
   if (!rt_guard::kActive) {
     GTEST_SKIP() << "a sanitizer owns malloc";
   }
@@ -28,7 +28,7 @@ TEST(RealTime, TheGuardSeesAnAllocation) {
   EXPECT_EQ(1u, scope.allocations());
 }
 
-TEST(RealTime, ArmModel) {
+TEST(RealTime, ArmModelNeitherAllocatesNorLocks) {
   const ArmModel arm = ArmModel::fromUrdf(readData("panda_hand.urdf"));
   const State s = StateSource(franka_core::kFerLimits).next();
   franka_core::ArmDynamics dynamics;
@@ -49,7 +49,7 @@ TEST(RealTime, ArmModel) {
   EXPECT_TRUE(std::isfinite(sum));
 }
 
-TEST(RealTime, StatesFiltersAndLimits) {
+TEST(RealTime, StatesFiltersAndLimitsNeitherAllocateNorLock) {
   franka_core::RobotState from;
   franka::RobotState to;
   const State s = StateSource(franka_core::kFerLimits).next();

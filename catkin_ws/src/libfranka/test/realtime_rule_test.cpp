@@ -12,7 +12,7 @@ namespace {
 using franka_core::isLoopback;
 using franka_core::realtimeRule;
 
-TEST(IsLoopback, KnowsAllLoopbackAddressesAndNamesWithAndWithoutPorts) {
+TEST(IsLoopback, RecognisesAddressesAndNamesWithAndWithoutPorts) {
   for (const char* address :
        {"127.0.0.1", "127.0.0.1:1340", "127.1.2.3", "127.255.255.254:1337", "localhost",
         "localhost:4711", "::1", "[::1]", "[::1]:1337", "::ffff:127.0.0.1", "0.0.0.0"}) {
@@ -25,7 +25,7 @@ TEST(IsLoopback, KnowsAllLoopbackAddressesAndNamesWithAndWithoutPorts) {
   }
 }
 
-TEST(IsLoopback, KnowsTheAddressOfASocket) {
+TEST(IsLoopback, RecognisesTheAddressOfASocket) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(0x7f010203);  // 127.1.2.3
@@ -42,7 +42,7 @@ class RealtimeRule : public ::testing::Test {
   ~RealtimeRule() override { unsetenv("FRANKA_REALTIME"); }
 };
 
-TEST_F(RealtimeRule, LiftsEnforcementForSimulatedRobotsOnOrdinaryKernelsOnly) {
+TEST_F(RealtimeRule, LiftsEnforcementOnlyForSimulatedRobotsOnOrdinaryKernels) {
   for (const char* variable : {"", "enforce", "ignore", "nonsense"}) {
     setenv("FRANKA_REALTIME", variable, 1);
     for (bool has_kernel : {false, true}) {
@@ -58,7 +58,7 @@ TEST_F(RealtimeRule, LiftsEnforcementForSimulatedRobotsOnOrdinaryKernelsOnly) {
   EXPECT_NE("", realtimeRule(true, true, false).warning);
 }
 
-TEST_F(RealtimeRule, FollowsTheEnvironment) {
+TEST_F(RealtimeRule, FollowsTheEnvironmentVariable) {
   setenv("FRANKA_REALTIME", "enforce", 1);
   EXPECT_TRUE(realtimeRule(true, true, false).enforce);
   setenv("FRANKA_REALTIME", "ignore", 1);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every command with every status a robot of every version can answer it with.
+// Every command with every status in the reply of a robot of every version.
 #include <franka_core/fci/reply_codec.h>
 
 #include <atomic>
@@ -20,7 +20,7 @@ constexpr std::array<double, 16> kPose{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1,
 constexpr std::array<double, 7> kSeven{1, 2, 3, 4, 5, 6, 7};
 constexpr std::array<double, 6> kSix{1, 2, 3, 4, 5, 6};
 
-/// A command, how it is called, and its name in the texts (protocol 3.4).
+/// A command, the function that sends it, and its name in the texts (protocol 3.4).
 struct Call {
   Command command;
   const char* name;
@@ -51,7 +51,7 @@ const Call kCalls[] = {
     {Command::kGetRobotModel, "Get Robot Model", 8, 10, [](Robot& r) { r.getRobotModel(); }},
 };
 
-/// What follows the name, as typed from the table.
+/// The text after the name, typed from the table.
 std::string endingOf(Command command, Status status) {
   const bool is_setter = command != Command::kStopMove &&
                          command != Command::kAutomaticErrorRecovery &&
@@ -88,7 +88,7 @@ std::string endingOf(Command command, Status status) {
 
 using Commands = EveryVersion;
 
-TEST_P(Commands, EachStatusBecomesItsText) {
+TEST_P(Commands, EachStatusGivesItsText) {
   const auto robot = connect(fake);
   int cases = 0;
   for (const Call& call : kCalls) {
@@ -113,7 +113,7 @@ TEST_P(Commands, EachStatusBecomesItsText) {
   EXPECT_GT(cases, 35);
 }
 
-TEST_P(Commands, ThatTheVersionLacksAreRefusedHere) {
+TEST_P(Commands, MissingInTheVersionAreRefusedByTheClient) {
   const auto robot = connect(fake);
   const std::size_t before = fake.requests().size();
   for (const Call& call : kCalls) {
@@ -126,7 +126,7 @@ TEST_P(Commands, ThatTheVersionLacksAreRefusedHere) {
   EXPECT_EQ(before, fake.requests().size());
 }
 
-TEST_P(Commands, CarryTheirArguments) {
+TEST_P(Commands, TransmitTheirArguments) {
   const auto robot = connect(fake);
   const std::size_t before = fake.requests().size();
   robot->setCollisionBehavior({1}, {2}, {3}, {4}, {5}, {6}, {7}, {8});
@@ -166,7 +166,7 @@ TEST_P(Commands, CarryTheirArguments) {
 
 INSTANTIATE_TEST_SUITE_P(All, Commands, ::testing::ValuesIn(kVersions), versionName);
 
-TEST(CommandText, NamesTheModeAndAsksForTheBrakes) {
+TEST(CommandText, NamesTheModeAndMentionsTheBrakes) {
   FakeRobot fake(5);
   const auto robot = connect(fake);
   fake.script([](FakeRobot::Script& s) {
@@ -191,7 +191,7 @@ TEST(CommandText, NamesTheModeAndAsksForTheBrakes) {
   }
 }
 
-TEST(CommandFaults, ARobotThatDoesNotAnswerOrAnswersNonsense) {
+TEST(CommandFaults, MissingAndInvalidRepliesThrow) {
   const ShortTimeouts timeouts;
   FakeRobot fake(5);
   auto robot = connect(fake);
@@ -205,7 +205,7 @@ TEST(CommandFaults, ARobotThatDoesNotAnswerOrAnswersNonsense) {
   EXPECT_NE(std::string::npos, text.find("Set Load within 0.2 s")) << text;
   EXPECT_TRUE(startsWith(textOf<franka::ProtocolException>([&] { robot->setK(kPose); }),
                          "libfranka: Unexpected response while handling Set EE to K command!"));
-  // The connection goes on, and replies that come twice disturb nobody.
+  // The connection continues, and repeated replies have no effect.
   EXPECT_NO_THROW(robot->setEE(kPose));
   EXPECT_NO_THROW(robot->setJointImpedance(kSeven));
   EXPECT_NO_THROW(robot->setEE(kPose));
@@ -231,7 +231,7 @@ TEST(CommandReply, MayBeLarge) {
   EXPECT_EQ(std::string(3 << 20, 'x'), robot->getRobotModel());
 }
 
-TEST(CommandThreads, SettersFromManyThreadsGetTheirOwnAnswers) {
+TEST(CommandThreads, SettersFromManyThreadsGetTheirOwnReplies) {
   FakeRobot fake(5);
   const auto robot = connect(fake);
   fake.script([](FakeRobot::Script& s) {

@@ -21,7 +21,7 @@ using Connect = EveryVersion;
 TEST_P(Connect, StepsDownToTheRobotsVersion) {
   const auto robot = connect(fake);
   EXPECT_EQ(GetParam(), robot->serverVersion());
-  // The newest version is offered first; what the robot names second.
+  // The newest version is offered first, then the robot's own.
   const auto requests = fake.requests();
   const auto& first = std::get<franka_core::fci::ConnectRequest>(requests[0]);
   EXPECT_EQ(10, first.version);
@@ -29,7 +29,7 @@ TEST_P(Connect, StepsDownToTheRobotsVersion) {
   EXPECT_EQ(GetParam() == 10 ? 1 : 0, fake.count(Command::kGetRobotModel));
 }
 
-TEST_P(Connect, ReadsStatesAsTheRobotHasThem) {
+TEST_P(Connect, ReadsStatesOfTheRobot) {
   fake.change([](franka_core::RobotState& s) {
     s.q = {0.5, -0.25, 1.5, -2.0, 0.125, 2.5, -0.75};
     s.m_ee = 0.75;
@@ -59,7 +59,7 @@ TEST_P(Connect, ReadsStatesAsTheRobotHasThem) {
 
 INSTANTIATE_TEST_SUITE_P(All, Connect, ::testing::ValuesIn(kVersions), versionName);
 
-TEST(ConnectVersion, OutsideOfTheTableIsRefusedInWords) {
+TEST(ConnectVersion, UnknownOnesAreRefusedWithASentence) {
   for (std::uint16_t version : {std::uint16_t{2}, std::uint16_t{11}}) {
     FakeRobot fake(5);
     fake.script([version](FakeRobot::Script& s) { s.reported_version = version; });
@@ -79,7 +79,7 @@ TEST(ConnectVersion, OutsideOfTheTableIsRefusedInWords) {
   }
 }
 
-TEST(ConnectVersion, ARobotThatRefusesItsOwnVersionIsNotAskedForEver) {
+TEST(ConnectVersion, ARefusalOfTheRobotsOwnVersionEndsTheAttempt) {
   FakeRobot fake(7);
   fake.script([](FakeRobot::Script& s) {
     s.replies[Command::kConnect] = Status::kIncompatibleLibraryVersion;
@@ -89,7 +89,7 @@ TEST(ConnectVersion, ARobotThatRefusesItsOwnVersionIsNotAskedForEver) {
   EXPECT_EQ(2, fake.connections());
 }
 
-TEST(ConnectVersion, TheTableIsWhole) {
+TEST(ConnectVersion, TableHasEveryVersion) {
   for (std::uint16_t version : kVersions) {
     ASSERT_NE(nullptr, franka_core::findRobotVersion(version));
     EXPECT_EQ(std::string(version <= 5 ? "Panda" : "FR3"),
@@ -99,7 +99,7 @@ TEST(ConnectVersion, TheTableIsWhole) {
   EXPECT_EQ(nullptr, franka_core::findRobotVersion(11));
 }
 
-TEST(ConnectAddress, IsTakenApart) {
+TEST(ConnectAddress, IsParsed) {
   using franka::network::parseEndpoint;
   EXPECT_EQ("10.0.0.1", parseEndpoint("10.0.0.1", 1337).host);
   EXPECT_EQ(1337, parseEndpoint("10.0.0.1", 1337).port);
@@ -112,7 +112,7 @@ TEST(ConnectAddress, IsTakenApart) {
   EXPECT_THROW(Robot("no.such.host.invalid", franka::RealtimeConfig::kIgnore), NetworkException);
 }
 
-TEST(ConnectNetwork, RefusedSaysSo) {
+TEST(ConnectNetwork, RefusedConnectionIsReported) {
   std::string address;
   {
     FakeRobot fake(5);
@@ -124,8 +124,8 @@ TEST(ConnectNetwork, RefusedSaysSo) {
       textOf<NetworkException>([&] { Robot(address, franka::RealtimeConfig::kIgnore); }));
 }
 
-// A robot that is busy with another client: the connection waits in the queue.
-TEST(ConnectNetwork, ARobotThatDoesNotAnswerTimesOut) {
+// A robot that serves another client: the connection waits in the queue.
+TEST(ConnectNetwork, SilentRobotTimesOut) {
   const ShortTimeouts timeouts;
   FakeRobot fake(5);
   const auto robot = connect(fake);
@@ -137,7 +137,7 @@ TEST(ConnectNetwork, ARobotThatDoesNotAnswerTimesOut) {
   EXPECT_NE(std::string::npos, text.find("no other program")) << text;
 }
 
-TEST(ConnectNetwork, DeathAtEveryStep) {
+TEST(ConnectNetwork, LossAtEveryStepIsReported) {
   const ShortTimeouts timeouts;
   for (std::uint16_t version : {std::uint16_t{5}, std::uint16_t{10}}) {
     FakeRobot fake(version);
@@ -164,8 +164,8 @@ TEST(ConnectNetwork, DeathAtEveryStep) {
   EXPECT_EQ(10, connect(fake)->serverVersion());
 }
 
-// As some servers answer; genuine clients read what they know and leave the rest.
-TEST(ConnectNetwork, ALongerAnswerIsTaken) {
+// Some servers do this; genuine clients ignore the rest.
+TEST(ConnectNetwork, LongerReplyIsAccepted) {
   FakeRobot fake(10);
   fake.script([](FakeRobot::Script& s) { s.connect_excess = 5; });
   const auto robot = connect(fake);
@@ -173,7 +173,7 @@ TEST(ConnectNetwork, ALongerAnswerIsTaken) {
   EXPECT_NO_THROW(robot->readOnce());
 }
 
-TEST(ConnectNetwork, AThousandTimes) {
+TEST(ConnectNetwork, ConnectsAThousandTimes) {
   FakeRobot fake(10);
   for (int i = 0; i < 1000; i++) {
     ASSERT_EQ(10, connect(fake)->serverVersion()) << i;
@@ -181,7 +181,7 @@ TEST(ConnectNetwork, AThousandTimes) {
   EXPECT_EQ(1000, fake.connections());
 }
 
-TEST(ConnectObject, MovesAndStaysConnected) {
+TEST(ConnectObject, StaysConnectedWhenMoved) {
   FakeRobot fake(5), other(10);
   Robot robot(fake.address(), franka::RealtimeConfig::kIgnore);
   Robot moved(std::move(robot));
@@ -217,7 +217,7 @@ std::vector<std::uint8_t> urdf(bool with_extension) {
   return {text.begin(), text.end()};
 }
 
-TEST(ConnectLimits, FollowTheRobot) {
+TEST(ConnectLimits, DependOnTheRobot) {
   const std::array<double, 7> q{};
   FakeRobot panda(5), fr3(7);
   // 2.175 - 1e-3 - 3 ms * (15 - 1e-3), typed from the table of the classic client.
@@ -243,7 +243,7 @@ TEST(ConnectLimits, ComeFromTheDescriptionOfVersion10) {
   EXPECT_EQ(std::string(text.begin(), text.end()), robot->getRobotModel());
 }
 
-TEST(ConnectLimits, ADescriptionWithoutLimitsLeavesThePublishedOnes) {
+TEST(ConnectLimits, DescriptionWithoutLimitsKeepsThePublishedOnes) {
   FakeRobot fake(10), refuses(10);
   fake.script([](FakeRobot::Script& s) { s.urdf = urdf(false); });
   refuses.script([](FakeRobot::Script& s) {

@@ -19,7 +19,7 @@ using franka_core::fci::Status;
 
 constexpr std::array<std::uint16_t, 8> kVersions{3, 4, 5, 6, 7, 8, 9, 10};
 
-/// Waits that fit a robot that answers within a millisecond or never; restored at the end.
+/// Sets timeouts for a robot that answers within a millisecond or never; restores them at the end.
 class ShortTimeouts {
  public:
   ShortTimeouts() : before_(franka::timeouts()) {
@@ -42,7 +42,7 @@ inline std::unique_ptr<franka::Robot> connect(const FakeRobot& robot, std::size_
                                          log_size);
 }
 
-/// Runs something that throws one kind of exception, and returns its text.
+/// Runs a function that throws an exception of this type, and returns its text.
 template <typename Exception, typename Function>
 std::string textOf(Function function) {
   try {
@@ -65,7 +65,7 @@ inline std::string versionName(const ::testing::TestParamInfo<std::uint16_t>& in
   return "Version" + std::to_string(info.param);
 }
 
-/// Tests that hold for robots of every version.
+/// Tests for robots of every version.
 class EveryVersion : public ::testing::TestWithParam<std::uint16_t> {
  protected:
   FakeRobot fake{GetParam()};

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The model that comes with the connection; what it computes is tested without a robot.
+// The model from the connection; its results are tested without a robot.
 #include <franka/model.h>
 
 #include "random_state.h"
@@ -28,7 +28,7 @@ TEST(RobotModel, ComesFromTheDescription) {
   }
 }
 
-TEST(RobotModel, IsAskedForWhereTheVersionHasIt) {
+TEST(RobotModel, IsRequestedIfTheVersionHasIt) {
   for (std::uint16_t version : kVersions) {
     FakeRobot fake(version);
     fake.script([](FakeRobot::Script& s) {

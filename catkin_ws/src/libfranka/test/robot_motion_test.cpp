@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The life of a motion: start, lock-step, finish, abort, stop, and a robot that misbehaves.
+// Motions: start, lock-step, finish, abort, stop, and a misbehaving robot.
 #include <franka/active_control_base.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ TEST_P(Motion, RefusedBeforeItStarts) {
     EXPECT_EQ(std::string("libfranka: Move") + ending,
               textOf<CommandException>([&] { robot->control(endlessTorques()); }));
   }
-  // Nothing has moved, so nothing is stopped; and the next one runs.
+  // Nothing moved, so nothing is stopped; and the next motion runs.
   EXPECT_EQ(0, fake.count(Command::kStopMove));
   fake.script([](FakeRobot::Script& s) { s.replies.clear(); });
   EXPECT_NO_THROW(robot->control(zeroTorques(3)));
@@ -128,12 +128,12 @@ TEST_P(Motion, AbortsWithTheTextOfTheirStatus) {
       const int stops = fake.count(Command::kStopMove);
       EXPECT_EQ(std::string("libfranka: Move") + ending,
                 textOf<ControlException>([&] { robot->control(endlessTorques()); }));
-      EXPECT_EQ(stops + 1, fake.count(Command::kStopMove));  // as the genuine client
+      EXPECT_EQ(stops + 1, fake.count(Command::kStopMove));  // like the genuine client
     }
   }
 }
 
-// Text of an abort by reflex, as the genuine client gives it (protocol 3.4).
+// Text of an abort by reflex, as in the genuine client (protocol 3.4).
 TEST_P(Motion, AbortsByReflexWithErrorsRateAndLog) {
   const auto robot = connect(fake, 5);
   fake.script([](FakeRobot::Script& s) {
@@ -152,7 +152,7 @@ TEST_P(Motion, AbortsByReflexWithErrorsRateAndLog) {
         "0.96875"))
         << error.what();
     EXPECT_EQ(std::string::npos, std::string(error.what()).find("packets lost"));
-    // What the log tells about each flag follows on lines of its own.
+    // The causes found in the log follow on separate lines.
     const std::string text = error.what();
     EXPECT_EQ(3, std::count(text.begin(), text.end(), '\n')) << text;
     EXPECT_NE(std::string::npos, text.find("\ncartesian_reflex")) << text;
@@ -195,7 +195,7 @@ TEST_P(Motion, FinishedButStillMoving) {
             textOf<ControlException>([&] { robot->control(zeroTorques(5)); }));
 }
 
-TEST_P(Motion, StopFromAnotherThread) {
+TEST_P(Motion, CanBeStoppedFromAnotherThread) {
   const auto robot = connect(fake);
   std::atomic<int> cycles{0};
   std::thread other([&] {
@@ -214,7 +214,7 @@ TEST_P(Motion, StopFromAnotherThread) {
   EXPECT_NO_THROW(robot->control(zeroTorques(3)));
 }
 
-TEST_P(Motion, WhatACallbackThrowsStopsTheRobotAndComesOut) {
+TEST_P(Motion, CallbackExceptionStopsTheRobotAndPropagates) {
   const auto robot = connect(fake);
   for (bool preempts : {true, false}) {
     fake.script([preempts](FakeRobot::Script& s) { s.preempts = preempts; });
@@ -231,7 +231,7 @@ TEST_P(Motion, WhatACallbackThrowsStopsTheRobotAndComesOut) {
 
 INSTANTIATE_TEST_SUITE_P(All, Motion, ::testing::ValuesIn(kVersions), versionName);
 
-TEST(MotionOrder, ASecondMotionIsRefusedHere) {
+TEST(MotionOrder, SecondMotionIsRefusedByTheClient) {
   FakeRobot fake(5);
   const auto robot = connect(fake);
   fake.change([](franka_core::RobotState& s) {
@@ -244,7 +244,7 @@ TEST(MotionOrder, ASecondMotionIsRefusedHere) {
   EXPECT_EQ(0, fake.count(Command::kMove));
 }
 
-TEST(MotionOrder, TwoOperationsAtOnce) {
+TEST(MotionOrder, SecondOperationIsRefused) {
   FakeRobot fake(5);
   const auto robot = connect(fake);
   const std::string busy =
@@ -260,7 +260,7 @@ TEST(MotionOrder, TwoOperationsAtOnce) {
           [&] { robot->read([](const RobotState&) { return false; }); }));
       texts.push_back(textOf<InvalidOperationException>([&] { robot->control(endlessTorques()); }));
       texts.push_back(textOf<InvalidOperationException>([&] { robot->startTorqueControl(); }));
-      robot->setJointImpedance({});  // settings are the robot's business
+      robot->setJointImpedance({});  // settings are the robot's responsibility
     }
     return cycles == 10 ? franka::MotionFinished(Torques(kZero)) : Torques(kZero);
   });
@@ -268,7 +268,7 @@ TEST(MotionOrder, TwoOperationsAtOnce) {
   EXPECT_NO_THROW(robot->readOnce());
 }
 
-TEST(MotionReplies, RepeatedOnesDoNoHarm) {
+TEST(MotionReplies, RepeatedOnesAreIgnored) {
   FakeRobot fake(6);
   const auto robot = connect(fake);
   fake.script([](FakeRobot::Script& s) { s.repeated[Command::kMove] = 1; });
@@ -280,7 +280,7 @@ TEST(MotionReplies, RepeatedOnesDoNoHarm) {
                          "libfranka: Move command aborted: motion aborted by reflex!"));
 }
 
-TEST(MotionReplies, StopMoveIsToleratedWithAnyAnswer) {
+TEST(MotionReplies, AnyReplyToStopMoveIsAccepted) {
   for (Status status : {Status::kCommandNotPossibleRejected, Status::kAborted,
                         Status::kReflexAborted, Status::kEmergencyAborted}) {
     FakeRobot fake(5);
@@ -294,7 +294,7 @@ TEST(MotionReplies, StopMoveIsToleratedWithAnyAnswer) {
   }
 }
 
-/// Whatever a robot fails to do, and what the program hears of it in the end.
+/// A failure of the robot, and the resulting exception in the program.
 struct Fault {
   const char* name;
   std::function<void(FakeRobot::Script&)> script;
@@ -360,14 +360,14 @@ TEST(MotionFaultsAtStop, EndInTheFirstException) {
   }
 }
 
-/// Datagrams that networks mistreat.
+/// Datagrams that the network repeats, delays or loses.
 class Datagrams : public ::testing::Test {
  protected:
   using Datagram = FakeRobot::Datagram;
   FakeRobot fake{5};
   std::unique_ptr<Robot> robot{connect(fake)};
 
-  /// Ids of the states a motion of 100 cycles has seen.
+  /// Ids of the states that a motion of 100 cycles has received.
   std::vector<uint64_t> runMotion() {
     std::vector<uint64_t> ids;
     robot->control([&](const RobotState& state, Duration) {
@@ -383,7 +383,7 @@ class Datagrams : public ::testing::Test {
   }
 };
 
-TEST_F(Datagrams, RepeatedOnesAreSeenOnce) {
+TEST_F(Datagrams, RepeatedOnesCountOnce) {
   fake.script([](FakeRobot::Script& s) {
     s.transmit = [](const Datagram& d) { return std::vector<Datagram>{d, d, d}; };
   });
@@ -395,7 +395,7 @@ TEST_F(Datagrams, LateOnesAreDropped) {
     s.transmit = [last = Datagram()](const Datagram& d) mutable {
       std::vector<Datagram> sent{d};
       if (!last.empty()) {
-        sent.push_back(last);  // the one before comes once more, behind its successor
+        sent.push_back(last);  // sends the previous one again, after its successor
       }
       last = d;
       return sent;
@@ -449,7 +449,7 @@ TEST_F(Datagrams, WithUnknownModesAreAnError) {
                          "libfranka: "));
 }
 
-TEST_F(Datagrams, OneThatIsNoStateStopsTheMotion) {
+TEST_F(Datagrams, InvalidOneStopsTheMotion) {
   fake.script([](FakeRobot::Script& s) {
     s.transmit = [n = 0](Datagram d) mutable {
       if (++n == 50) {
@@ -463,7 +463,7 @@ TEST_F(Datagrams, OneThatIsNoStateStopsTheMotion) {
   EXPECT_EQ(franka_core::RobotMode::kIdle, fake.state().robot_mode);
 }
 
-TEST_F(Datagrams, OneThatIsNoStateStopsAMotionThatBegins) {
+TEST_F(Datagrams, InvalidOneStopsAMotionThatStarts) {
   fake.script([this](FakeRobot::Script& s) {
     s.shows_motion = false;
     s.transmit = [this](Datagram d) {
@@ -478,7 +478,7 @@ TEST_F(Datagrams, OneThatIsNoStateStopsAMotionThatBegins) {
   EXPECT_NO_THROW(robot->readOnce());
 }
 
-TEST_F(Datagrams, StatesThatStopAreNoticed) {
+TEST_F(Datagrams, MissingStatesAreDetected) {
   const ShortTimeouts timeouts;
   const auto client = std::make_unique<FakeRobot>(10);
   const auto reader = connect(*client);

@@ -17,8 +17,8 @@ using franka::RobotState;
 
 constexpr int kFirst = 10, kLast = 210;
 
-/// Counts from one callback to another: what happens in the callbacks is the user's, and is
-/// nothing here.
+/// Counts from one callback to the next; operations inside the callbacks are the user's and not
+/// counted.
 class Window {
  public:
   void tick() {
@@ -101,8 +101,8 @@ TEST_P(RealTime, ActiveControlNeitherAllocatesNorLocks) {
   }
 }
 
-// The count would show it.
-TEST(RealTimeWindow, SeesWhatACallbackAllocates) {
+// Shows that the count works.
+TEST(RealTimeWindow, DetectsAllocationsOfACallback) {
   if (!rt_guard::kActive) {
     GTEST_SKIP() << "a sanitizer owns malloc";
   }

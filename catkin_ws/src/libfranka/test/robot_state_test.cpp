@@ -98,12 +98,12 @@ TEST(RobotState, WritesValues) {
   }
 }
 
-TEST(RobotState, StartsUserStopped) {
+TEST(RobotState, DefaultModeIsUserStopped) {
   EXPECT_EQ(franka::RobotMode::kUserStopped, franka::RobotState().robot_mode);
   EXPECT_EQ("\"User stopped\"", textOf(franka::RobotState().robot_mode));
 }
 
-TEST(RobotState, KeepsTheWiresNumbersOfModes) {
+TEST(RobotState, ModesHaveTheNumbersOfTheProtocol) {
   const char* names[] = {"\"Other\"",
                          "\"Idle\"",
                          "\"Move\"",

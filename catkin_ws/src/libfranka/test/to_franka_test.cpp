@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every field of the control unit's state arrives in the public one. Each is given a value of its
-// own, so that a field that is left out or taken from elsewhere shows.
+// Every field of the control unit's state is copied to the public one. Each has a different value,
+// so that a missing or mixed-up field is detected.
 #include <franka_core/to_franka.h>
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ void forEachField(State& state, Visit visit) {
   visit(state.dtheta);
 }
 
-TEST(ToFranka, CarriesEveryField) {
+TEST(ToFranka, CopiesEveryField) {
   franka_core::RobotState from;
   franka::RobotState to, expected;
   double next = 1.0;
@@ -81,7 +81,7 @@ TEST(ToFranka, CarriesEveryField) {
 
   franka_core::toFranka(from, to);
 
-  std::vector<std::vector<double>> arrived, wanted;
+  std::vector<std::vector<double>> arrived, sent;
   const auto collectInto = [](std::vector<std::vector<double>>& list) {
     return [&list](const auto& field) {
       const double* begin = reinterpret_cast<const double*>(&field);
@@ -89,8 +89,8 @@ TEST(ToFranka, CarriesEveryField) {
     };
   };
   forEachField(to, collectInto(arrived));
-  forEachField(expected, collectInto(wanted));
-  EXPECT_EQ(wanted, arrived);
+  forEachField(expected, collectInto(sent));
+  EXPECT_EQ(sent, arrived);
   EXPECT_EQ(987654321u, to.time.toMSec());
   EXPECT_EQ("[\"joint_velocity_violation\"]", static_cast<std::string>(to.current_errors));
   EXPECT_EQ("[\"base_acceleration_invalid_reading\"]",
@@ -98,7 +98,7 @@ TEST(ToFranka, CarriesEveryField) {
   EXPECT_EQ(franka::RobotMode::kGuiding, to.robot_mode);
 }
 
-TEST(ToFranka, NamesEveryMode) {
+TEST(ToFranka, ConvertsEveryMode) {
   for (int i = 0; i < 7; i++) {
     EXPECT_EQ(static_cast<franka::RobotMode>(i),
               franka_core::toFranka(static_cast<franka_core::RobotMode>(i)));

@@ -9,7 +9,8 @@
 namespace franka_info {
 
 namespace {
-// Clocks differ by less than 0.1 %; a robot in lock-step is 5 % slow or more (our choice).
+// Clocks differ by less than 0.1 %; a robot in lock-step is slower by 5 % or more. Chosen here
+// between both.
 constexpr double kSamePace = 0.01;
 }  // namespace
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Says what a robot is, how it does, and whether the connection is good enough to control it.
+// Reports a robot's state and whether the connection is good enough to control it.
 #include <franka/control_tools.h>
 #include <franka/exception.h>
 #include <franka/gripper.h>
@@ -48,7 +48,7 @@ const char* modeName(franka::RobotMode mode) {
   return franka_core::fci::modeName(static_cast<franka_core::RobotMode>(mode));
 }
 
-/// What has to be done before this robot can be controlled; empty: nothing.
+/// What the user must do before this robot can be controlled; empty: nothing.
 std::string obstacle(const franka::RobotState& state) {
   switch (state.robot_mode) {
     case franka::RobotMode::kIdle:
@@ -96,7 +96,7 @@ void printState(const franka::RobotState& state) {
 }
 
 void printGripper(const std::string& address) {
-  // A port belongs to the robot; the hand has one of its own.
+  // The port is that of the robot; the hand has its own.
   const std::string host = address.substr(0, address.find(':'));
   try {
     const franka::Gripper gripper(host);

@@ -10,7 +10,7 @@
 namespace franka_info {
 
 namespace {
-// Often enough for statistics, seldom enough not to be a load of its own.
+// Short enough for statistics, long enough not to be a load itself.
 constexpr std::chrono::milliseconds kPause{25};
 }  // namespace
 
@@ -45,7 +45,7 @@ void RoundTrips::repeat() {
     try {
       ask_();
     } catch (const franka::CommandException&) {
-      // An answer, too.
+      // A refusal is an answer, too.
     } catch (const std::exception& error) {
       error_ = error.what();
       return;

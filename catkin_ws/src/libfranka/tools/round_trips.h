@@ -13,27 +13,27 @@
 
 namespace franka_info {
 
-/// Asks a robot again and again, from a thread of its own, for something that changes nothing, and
-/// takes the time until the answer: that of the command channel, over TCP.
+/// Repeats a request that changes nothing, from its own thread, and measures the time until the
+/// reply over the TCP command channel.
 ///
-/// Asked for is a virtual wall (protocol 3 to 5) or the robot's description (8 to 10). Between
-/// these versions there is no question; a robot in Idle is told to keep the stiffness frame that it
-/// has, bit for bit. An answer counts also where it is a refusal.
+/// The request is for a virtual wall (protocol 3 to 5) or the robot's description (8 to 10).
+/// Between these versions no such request exists; a robot in Idle then gets its own stiffness frame
+/// again, bit for bit. A refusal counts as a reply.
 class RoundTrips {
  public:
-  /// Begins. @param state of the robot now
+  /// Starts. @param state of the robot now
   RoundTrips(franka::Robot& robot, const franka::RobotState& state);
   ~RoundTrips();
   RoundTrips(const RoundTrips&) = delete;
   RoundTrips& operator=(const RoundTrips&) = delete;
 
-  /// Waits for the answer under way. After this the others may be called.
+  /// Waits for the pending reply. Call it before the functions below.
   void stop();
   /// Name of the command.
   const char* command() const { return command_; }
-  /// Of each round trip [ms].
+  /// Times of all round trips [ms].
   const std::vector<double>& times() const { return times_; }
-  /// Why no more could be measured; empty otherwise.
+  /// Why measuring stopped; empty otherwise.
   const std::string& error() const { return error_; }
 
  private:

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The order of news that loses a publisher in rospy, and does not after init_node()."""
+"""The order of updates that loses a publisher in rospy, but not after init_node()."""
 
 import threading
 
@@ -13,7 +13,7 @@ TOPIC, PUBLISHER, OTHER = "/grasp/result", "http://hand:1", "http://hand:2"
 
 
 class Handler:
-    """In the place of the node: remembers what it is told to connect to, and ends after `connections`."""
+    """Replaces the node: records connections, and ends after `connections`."""
 
     def __init__(self):
         self.connected = []
@@ -28,7 +28,7 @@ class Handler:
 
 
 def connections(*updates: list[str], expected: int) -> set:
-    """What a node connects to which hears of all these publishers before it can look."""
+    """Connections of a node that gets updates about all these publishers before it reads one."""
     handler = Handler()
     manager = RegManager(handler)
     for uris in updates:
@@ -49,8 +49,8 @@ def mended(monkeypatch):
     rospy_connections.init_node("any")
 
 
-def test_rospy_itself_loses_a_publisher_whose_news_overtook_the_masters_answer():
-    """When this fails, Debian has mended rospy, and this package has done its duty."""
+def test_plain_rospy_loses_a_publisher_announced_before_the_masters_answer():
+    """If this fails, Debian has fixed rospy, and this package is no longer needed."""
     assert connections([PUBLISHER], [], expected=0) == set()
 
 
@@ -69,7 +69,7 @@ def test_no_publisher_is_lost(mended, updates, expected):
     assert connections(*updates, expected=len(expected)) == expected
 
 
-def test_init_node_hands_on_its_arguments(monkeypatch):
+def test_init_node_passes_its_arguments_on(monkeypatch):
     monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
     calls = []
     monkeypatch.setattr(rospy, "init_node", lambda *arguments, **options: calls.append((arguments, options)))

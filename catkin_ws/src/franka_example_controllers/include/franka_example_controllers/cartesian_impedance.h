@@ -10,20 +10,20 @@
 
 namespace franka_example_controllers {
 
-/// How stiffly an arm is held.
+/// Stiffness parameters.
 struct Compliance {
   double translational_stiffness{0.0};  ///< [N/m]
   double rotational_stiffness{0.0};     ///< [Nm/rad]
   double nullspace_stiffness{0.0};      ///< [Nm/rad]
 };
 
-/// Damping of the inverse that splits off the null space. The projection stays bounded whatever it
-/// is, but a direction of singular value s lets s_d^2 / (s^2 + s_d^2) of the null-space torque
-/// through to the end effector: with the 0.2 that pseudoInverse() takes, a null-space stiffness of
-/// 10 Nm/rad drew the end effector 5 cm off its equilibrium.
+/// Damping of the inverse for the null space projection. The projection is always bounded, but
+/// along a direction with singular value s the share s_d^2 / (s^2 + s_d^2) of the null-space torque
+/// acts on the end effector: with the 0.2 of pseudoInverse(), a null-space stiffness of 10 Nm/rad
+/// displaced the end effector by 5 cm from its equilibrium.
 constexpr double kNullSpaceDamping = 2e-3;
 
-/// How an orientation error becomes a vector.
+/// Representation of an orientation error as a vector.
 enum class RotationError {
   kQuaternion,  ///< vector part of the unit quaternion: for small angles half of the rotation
                 ///< vector
@@ -32,10 +32,9 @@ enum class RotationError {
 
 /// A Cartesian impedance with a null-space impedance for one seven-joint arm.
 ///
-/// The end effector is drawn to an equilibrium pose by springs and critical dampers (2 sqrt(K)),
-/// the elbow to its start configuration in the null space. Stiffness, damping and equilibrium
-/// approach what they are set to by 0.5 % per update, so that nothing jumps. Gravity is left to the
-/// robot.
+/// Springs and critical dampers (2 sqrt(K)) pull the end effector to an equilibrium pose, and the
+/// elbow to its start configuration in the null space. Stiffness, damping and equilibrium approach
+/// their targets by 0.5 % per update, without jumps. The robot compensates gravity.
 ///
 /// One thread, 1 kHz: no allocation, no lock, no exception. Frame O, units [m] [rad] [N] [Nm].
 class CartesianImpedance {
@@ -45,7 +44,7 @@ class CartesianImpedance {
   explicit CartesianImpedance(RotationError rotation_error = RotationError::kQuaternion)
       : rotation_error_(rotation_error) {}
 
-  /// What the law needs to know of the arm in one cycle.
+  /// Input of the law in one cycle.
   struct Arm {
     std::array<double, 16> O_T_EE;         ///< 4x4 column-major
     std::array<double, 42> zero_jacobian;  ///< of the end effector, 6x7 column-major
@@ -55,12 +54,12 @@ class CartesianImpedance {
     std::array<double, 7> tau_J_d;  ///< torque commanded in the last cycle, without gravity
   };
 
-  /// Begins at a pose and a configuration, which become the equilibrium. Springs and dampers of the
-  /// end effector grow from zero; the null-space stiffness is as set at once.
+  /// Starts at a pose and a configuration, which become the equilibrium. Springs and dampers of the
+  /// end effector grow from zero; the null-space stiffness applies at once.
   void start(const std::array<double, 16>& O_T_EE, const std::array<double, 7>& q,
              double nullspace_stiffness) noexcept;
 
-  /// Where the end effector is to be drawn. @param orientation a unit quaternion
+  /// Sets the equilibrium pose. @param orientation a unit quaternion
   void setEquilibrium(const Eigen::Vector3d& position,
                       const Eigen::Quaterniond& orientation) noexcept;
 

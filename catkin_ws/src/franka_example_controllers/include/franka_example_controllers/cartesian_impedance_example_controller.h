@@ -23,22 +23,22 @@
 
 namespace franka_example_controllers {
 
-/// Draws the end effector to an equilibrium pose as springs and dampers would.
+/// Pulls the end effector to an equilibrium pose by virtual springs and dampers.
 ///
-/// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven). Topic there:
-/// `equilibrium_pose` (geometry_msgs/PoseStamped, in O; the frame id is not looked at). Stiffness
-/// is set by dynamic_reconfigure at `dynamic_reconfigure_compliance_param_node` in that namespace.
+/// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven). Topic in the same
+/// namespace: `equilibrium_pose` (geometry_msgs/PoseStamped, in O; the frame id is ignored).
+/// dynamic_reconfigure at `dynamic_reconfigure_compliance_param_node` there sets the stiffness.
 ///
 /// starting() and update() run in the 1 kHz loop without allocation or lock; poses and stiffness
-/// reach it from other threads through real-time buffers. Each start begins at the pose the arm is
-/// in: equilibrium poses sent before it are forgotten.
+/// come from other threads through real-time buffers. Each start begins at the arm's present pose:
+/// earlier equilibrium poses are dropped.
 class CartesianImpedanceExampleController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaModelInterface, hardware_interface::EffortJointInterface,
           franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the
-  /// robot lacks a handle.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong or the robot
+  /// lacks a handle.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;
@@ -47,7 +47,7 @@ class CartesianImpedanceExampleController
   struct Equilibrium {
     Eigen::Vector3d position{Eigen::Vector3d::Zero()};
     Eigen::Quaterniond orientation{Eigen::Quaterniond::Identity()};
-    std::uint64_t number{0};  ///< counts the poses received, so that a new one is known as such
+    std::uint64_t number{0};  ///< counts the received poses, to detect a new one
   };
 
   bool takeHandles(hardware_interface::RobotHW* robot_hw, const std::string& arm_id,
@@ -66,7 +66,7 @@ class CartesianImpedanceExampleController
   compliance_paramConfig accepted_compliance_;
   realtime_tools::RealtimeBuffer<Equilibrium> equilibrium_;
   realtime_tools::RealtimeBuffer<Compliance> compliance_;
-  // Last, so that their callbacks end before anything they touch goes.
+  // Last, so that their callbacks end before the members that they use.
   std::unique_ptr<dynamic_reconfigure::Server<compliance_paramConfig>> compliance_server_;
   ros::Subscriber equilibrium_subscriber_;
 };

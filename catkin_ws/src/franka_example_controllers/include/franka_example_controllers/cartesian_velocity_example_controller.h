@@ -16,17 +16,17 @@
 
 namespace franka_example_controllers {
 
-/// Moves the end effector back and forth along a line that falls by 45 degrees: 4 s one way, 4 s
-/// back, 0.05 m/s at most.
+/// Moves the end effector back and forth along a line with a downward slope of 45 degrees: 4 s
+/// forth, 4 s back, 0.05 m/s at most.
 ///
-/// Parameter in the controller's namespace: `arm_id`. stopping() leaves the last velocity: a jump
-/// to zero would be a discontinuity; the robot brakes by itself.
+/// Parameter in the controller's namespace: `arm_id`. stopping() keeps the last velocity: a jump to
+/// zero would be a discontinuity; the robot brakes by itself.
 class CartesianVelocityExampleController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaVelocityCartesianInterface, franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong, the robot
-  /// lacks a handle or does not stand where the motion begins.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong, the robot
+  /// lacks a handle or is not at the start of the motion.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;

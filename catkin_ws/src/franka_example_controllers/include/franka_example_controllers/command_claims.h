@@ -9,20 +9,20 @@
 
 namespace franka_example_controllers {
 
-/// What a list of command interfaces amounts to on one arm.
+/// Meaning of a list of command interfaces for one arm.
 struct CommandClaims {
-  /// None when the list is refused.
+  /// None if the list is refused.
   franka_hw::ControlMode mode{franka_hw::ControlMode::None};
-  /// Why, as a sentence; empty when the list is allowed.
+  /// The reason, as a sentence; empty if the list is allowed.
   std::string refusal;
 };
 
 /// Checks names of command interfaces: `joint_position`, `joint_velocity`, `cartesian_pose`,
-/// `cartesian_velocity` and `effort`. What may stand together is decided by franka_hw's own rules.
-/// Not for the loop.
+/// `cartesian_velocity` and `effort`. franka_hw's own rules define allowed combinations. Not for
+/// the loop.
 CommandClaims checkCommandClaims(const std::vector<std::string>& names);
 
-/// Whether a mode has any of some bits.
+/// Whether a mode contains one of these bits.
 constexpr bool commands(franka_hw::ControlMode mode, franka_hw::ControlMode bits) {
   return (mode & bits) != franka_hw::ControlMode::None;
 }

@@ -10,17 +10,17 @@
 namespace franka_example_controllers {
 
 /// Reads the name of the arm from `arm_id` in a controller's namespace.
-/// @param controller class name that begins the sentence in the log when this fails
-/// @returns false when it is missing, empty or no string
+/// @param controller class name, for the sentence in the log
+/// @returns false if it is missing, empty or not a string
 bool readArmId(const char* controller, const ros::NodeHandle& node_handle, std::string& arm_id);
 
 /// Reads the arm's seven joint names from `joint_names` in a controller's namespace.
-/// @returns false, after one sentence in the log, when there are not seven
+/// @returns false, after one sentence in the log, unless there are seven
 bool readJointNames(const char* controller, const ros::NodeHandle& node_handle,
                     std::vector<std::string>& joint_names);
 
-/// Reads seven numbers, one for each joint, from a parameter in a controller's namespace.
-/// @returns false, after one sentence in the log, when there are not seven finite ones
+/// Reads seven numbers, one per joint, from a parameter in a controller's namespace.
+/// @returns false, after one sentence in the log, unless there are seven finite ones
 bool readGains(const char* controller, const ros::NodeHandle& node_handle, const std::string& name,
                std::vector<double>& gains);
 

@@ -25,7 +25,7 @@
 
 namespace franka_example_controllers {
 
-/// One of the two arms.
+/// Data of one arm.
 struct FrankaDataContainer {
   std::string arm_id;
   std::unique_ptr<franka_hw::FrankaStateHandle> state_handle;
@@ -34,21 +34,21 @@ struct FrankaDataContainer {
   CartesianImpedance impedance{RotationError::kAxisAngle};
 };
 
-/// Draws two end effectors to equilibrium poses that keep their pose relative to each other: both
-/// follow a centering frame C half way between them.
+/// Pulls two end effectors to equilibrium poses that keep their relative pose: both follow a
+/// centering frame C half way between them.
 ///
 /// Parameters in the controller's namespace: `left/arm_id`, `left/joint_names` and the same for
-/// `right`. Topics there: `centering_frame_target_pose` (geometry_msgs/PoseStamped in the left
-/// arm's link0) leads C, `centering_frame` (30 Hz, latched) shows where it is. Stiffness is set by
-/// dynamic_reconfigure at `dynamic_reconfigure_compliance_param_node`, beside the controllers.
-/// Where the arms stand to each other comes from tf, once.
+/// `right`. Topics in the same namespace: `centering_frame_target_pose` (geometry_msgs/PoseStamped
+/// in the left arm's link0) moves C, `centering_frame` (30 Hz, latched) shows its pose.
+/// dynamic_reconfigure at `dynamic_reconfigure_compliance_param_node`, beside the controllers, sets
+/// the stiffness. The relative pose of the arms is read from tf, once.
 class DualArmCartesianImpedanceExampleController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaModelInterface, hardware_interface::EffortJointInterface,
           franka_hw::FrankaStateInterface> {
  public:
-  /// Waits up to 4 s for tf. @returns false, after one sentence in the log, when a parameter is
-  /// missing or wrong, the robot lacks a handle, or tf does not know both arms.
+  /// Waits up to 4 s for tf. @returns false, after one sentence in the log, if a parameter is
+  /// missing or wrong, the robot lacks a handle, or tf lacks one of the arms.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;
@@ -58,7 +58,7 @@ class DualArmCartesianImpedanceExampleController
 
   struct Target {
     Eigen::Affine3d Ol_T_C{Eigen::Affine3d::Identity()};
-    std::uint64_t number{0};  ///< counts the poses received
+    std::uint64_t number{0};  ///< counts the received poses
   };
   struct Stiffness {
     Compliance left, right;
@@ -84,7 +84,7 @@ class DualArmCartesianImpedanceExampleController
   realtime_tools::RealtimePublisher<geometry_msgs::PoseStamped> publisher_;
   realtime_tools::RealtimeBuffer<Target> target_;
   realtime_tools::RealtimeBuffer<Stiffness> stiffness_;
-  // Last, so that their callbacks end before anything they touch goes.
+  // Last, so that their callbacks end before the members that they use.
   std::unique_ptr<dynamic_reconfigure::Server<Config>> compliance_server_;
   ros::Subscriber target_subscriber_;
 };

@@ -16,15 +16,15 @@
 
 namespace franka_example_controllers {
 
-/// Swings the elbow by up to 0.2 pi rad while the end effector stays where it is.
+/// Moves the elbow by up to 0.2 pi rad while the end effector stays at its pose.
 ///
 /// Parameter in the controller's namespace: `arm_id`.
 class ElbowExampleController
     : public controller_interface::MultiInterfaceController<franka_hw::FrankaPoseCartesianInterface,
                                                             franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong, the robot
-  /// lacks a handle or does not stand where the motion begins.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong, the robot
+  /// lacks a handle or is not at the start of the motion.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;

@@ -20,19 +20,18 @@
 
 namespace franka_example_controllers {
 
-/// Presses down as if a mass lay on the end effector: a PI controller of the force along z of O.
-/// The end effector must be in contact with something horizontal.
+/// Presses down with the weight of a virtual mass: a PI controller of the force along z of O. The
+/// end effector must touch a horizontal surface.
 ///
-/// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven). Mass and gains are
-/// set by dynamic_reconfigure at `dynamic_reconfigure_desired_mass_param_node`, beside the
-/// controllers.
+/// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven). dynamic_reconfigure
+/// at `dynamic_reconfigure_desired_mass_param_node`, beside the controllers, sets mass and gains.
 class ForceExampleController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaModelInterface, hardware_interface::EffortJointInterface,
           franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the
-  /// robot lacks a handle.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong or the robot
+  /// lacks a handle.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;
@@ -50,11 +49,11 @@ class ForceExampleController
   std::unique_ptr<franka_hw::FrankaStateHandle> state_handle_;
   std::vector<hardware_interface::JointHandle> joint_handles_;
 
-  Target target_;  // approached, so that nothing jumps
+  Target target_;  // approached gradually, without jumps
   std::array<double, 7> tau_ext_initial_{};
   std::array<double, 7> integral_{};
 
-  realtime_tools::RealtimeBuffer<Target> wanted_;
+  realtime_tools::RealtimeBuffer<Target> configured_;
   std::unique_ptr<dynamic_reconfigure::Server<desired_mass_paramConfig>> mass_server_;  // last
 };
 

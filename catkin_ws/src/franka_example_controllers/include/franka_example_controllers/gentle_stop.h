@@ -9,9 +9,9 @@
 
 namespace franka_example_controllers {
 
-/// Brings velocities to rest without a jump: each follows the cubic that begins with the velocity
-/// and acceleration it had and ends at zero with zero acceleration. All take equally long.
-/// Real-time safe. Units: any, per second.
+/// Brings velocities to rest without a jump: each follows the cubic from the present velocity and
+/// acceleration to zero velocity and acceleration. All take equally long. Real-time safe. Units:
+/// any, per second.
 template <std::size_t size>
 class GentleStop {
  public:
@@ -19,19 +19,19 @@ class GentleStop {
 
   GentleStop() = default;
 
-  /// @param deceleration the largest to be used for the velocities themselves; the accelerations
-  /// fade in the same time
+  /// @param deceleration largest one of the velocities themselves; accelerations fade in the same
+  /// time
   GentleStop(const Values& velocity, const Values& acceleration, double deceleration)
       : velocity_(velocity), acceleration_(acceleration) {
     double fastest = 0.0;
     for (const double value : velocity) {
       fastest = std::max(fastest, std::abs(value));
     }
-    // The cubic's steepest descent is 3/2 of the mean.
+    // The cubic's steepest slope is 3/2 of the mean.
     duration_ = std::clamp(1.5 * fastest / deceleration, kLeastDuration, kGreatestDuration);
   }
 
-  /// @param time since the beginning [s]; after `duration` the velocities are zero
+  /// @param time since the start [s]; after `duration` the velocities are zero
   Values velocity(double time) const {
     Values values{};
     const double s = std::max(time, 0.0) / duration_;
@@ -62,7 +62,7 @@ class Differences {
  public:
   using Values = std::array<double, size>;
 
-  /// Forgets what was before. @param sample that stands still
+  /// Resets the history. @param sample at rest
   void reset(const Values& sample) { samples_ = {sample, sample, sample}; }
 
   void add(const Values& sample, double period) {

@@ -20,20 +20,20 @@
 
 namespace franka_example_controllers {
 
-/// Leads the end effector along a circle by its pose, and follows with a joint impedance of its
-/// own: torques and a motion generator at once.
+/// Moves the end effector along a circle by its pose, and follows with its own joint impedance:
+/// torques and a motion generator together.
 ///
 /// Parameters in the controller's namespace: `arm_id`, `joint_names`, `k_gains` [Nm/rad] and
 /// `d_gains` [Nm s/rad] (seven each); `radius` of the circle [m], `vel_max` along it [m/s],
 /// `acceleration_time` to reach it [s], `coriolis_factor`, and `publish_rate` [Hz] of the topic
-/// `torque_comparison` (JointTorqueComparison) there.
+/// `torque_comparison` (JointTorqueComparison) in the same namespace.
 class JointImpedanceExampleController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaModelInterface, hardware_interface::EffortJointInterface,
           franka_hw::FrankaPoseCartesianInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the
-  /// robot lacks a handle.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong or the robot
+  /// lacks a handle.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;
@@ -58,7 +58,7 @@ class JointImpedanceExampleController
   double velocity_{0.0};  // along it [m/s]
   std::array<double, 16> O_T_EE_start_{};
   std::array<double, 7> dq_filtered_{};
-  std::array<double, 7> last_tau_{};  // commanded in the cycle before [Nm]
+  std::array<double, 7> last_tau_{};  // command of the last cycle [Nm]
 
   franka_hw::TriggerRate rate_{30.0, ros::Time(0.0)};
   double publish_rate_{30.0};

@@ -15,15 +15,15 @@
 
 namespace franka_example_controllers {
 
-/// Swings all joints by up to 0.04 pi rad from where they start, the fifth the other way, with a
-/// period of 10 s.
+/// Moves all joints by up to 0.04 pi rad from their start positions, the fifth in the opposite
+/// direction, with a period of 10 s.
 ///
 /// Parameter in the controller's namespace: `joint_names` (seven).
 class JointPositionExampleController : public controller_interface::MultiInterfaceController<
                                            hardware_interface::PositionJointInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong, the robot
-  /// lacks a handle or does not stand where the motion begins.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong, the robot
+  /// lacks a handle or is not at the start of the motion.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;

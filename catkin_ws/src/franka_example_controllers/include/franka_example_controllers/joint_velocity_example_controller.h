@@ -16,16 +16,16 @@
 
 namespace franka_example_controllers {
 
-/// Moves all joints back and forth by smooth velocities: 8 s one way, 8 s back, 0.1 rad/s at most.
+/// Moves all joints back and forth by smooth velocities: 8 s forth, 8 s back, 0.1 rad/s at most.
 ///
-/// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven). stopping() leaves the
+/// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven). stopping() keeps the
 /// last velocity: a jump to zero would be a discontinuity; the robot brakes by itself.
 class JointVelocityExampleController
     : public controller_interface::MultiInterfaceController<
           hardware_interface::VelocityJointInterface, franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong, the robot
-  /// lacks a handle or does not stand where the motion begins.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong, the robot
+  /// lacks a handle or is not at the start of the motion.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;

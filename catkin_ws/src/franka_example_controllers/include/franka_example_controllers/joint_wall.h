@@ -9,32 +9,31 @@
 
 namespace franka_example_controllers {
 
-/// Keeps a joint away from the ends of its range by a torque, as a padded wall would.
+/// Keeps a joint away from the ends of its range by a torque, like a padded wall.
 ///
-/// Before each soft limit lie two zones: next to it one with spring and damper, before that one
-/// with a damper only. A joint that stands in a zone when this begins is not pushed out: the zones
-/// shrink to where it stands and grow back as it leaves. One thread; real-time safe but for the
-/// throw.
+/// Before each soft limit are two zones: the inner one with spring and damper, the outer one with a
+/// damper only. A joint that is in a zone at the start is not pushed out: the zones shrink to its
+/// position and grow back as it leaves. One thread; real-time safe except when it throws.
 class JointWall {
  public:
   /// @param soft_upper_joint_position_limit, @param soft_lower_joint_position_limit [rad]
   /// @param PD_zone_width, @param D_zone_width [rad] @param PD_zone_stiffness [Nm/rad]
   /// @param PD_zone_damping, @param D_zone_damping [Nm s/rad]
-  /// Widths, stiffness and damping below zero are taken as positive, with a warning.
+  /// Negative widths, stiffness and damping are taken as positive, with a warning.
   JointWall(double soft_upper_joint_position_limit, double soft_lower_joint_position_limit,
             double PD_zone_width, double D_zone_width, double PD_zone_stiffness,
             double PD_zone_damping, double D_zone_damping);
   JointWall() = delete;
 
   /// Torque against the wall [Nm]. @param q [rad] @param dq [rad/s]
-  /// @throws std::runtime_error when the first q after a reset lies outside the soft limits
+  /// @throws std::runtime_error if the first q after a reset is outside the soft limits
   double computeTorque(double q, double dq);
 
-  /// Forgets where the joint was.
+  /// Resets the zones.
   void reset();
 
  private:
-  /// How deep q stands in the zones of the nearer limit: 0 outside, 1 at the limit.
+  /// Depth of q in the zones of the nearer limit: 0 outside, 1 at the limit.
   double depth(double q) const noexcept;
   void begin(double q);
 
@@ -45,11 +44,11 @@ class JointWall {
   double scale_{1.0};  // of the zones' widths
 };
 
-/// One wall for each joint.
+/// One wall per joint.
 template <std::size_t num_dof>
 class JointWallContainer {
  public:
-  /// As JointWall, for each joint.
+  /// Like JointWall, for each joint.
   JointWallContainer(const std::array<double, num_dof>& soft_upper_joint_position_limits,
                      const std::array<double, num_dof>& soft_lower_joint_position_limits,
                      const std::array<double, num_dof>& PD_zone_widths,

@@ -19,15 +19,15 @@
 
 namespace franka_example_controllers {
 
-/// Shows how to ask the model: once a second mass, Coriolis and gravity, the pose and body Jacobian
-/// of joint 4 and the zero Jacobian of the end effector appear in the log.
+/// Shows how to use the model: logs mass, Coriolis and gravity, the pose and body Jacobian of joint
+/// 4 and the zero Jacobian of the end effector once a second.
 ///
 /// Parameter in the controller's namespace: `arm_id`. The loop only computes; a timer prints.
 class ModelExampleController
     : public controller_interface::MultiInterfaceController<franka_hw::FrankaModelInterface,
                                                             franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when arm_id or a handle is missing.
+  /// @returns false, after one sentence in the log, if arm_id or a handle is missing.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;
@@ -49,7 +49,7 @@ class ModelExampleController
   Answers computed_;
   std::uint64_t printed_{0};
   franka_hw::Latest<Answers> answers_;
-  ros::WallTimer timer_;  // last, so that it ends before what it prints
+  ros::WallTimer timer_;  // last, so that it ends before the data that it prints
 };
 
 }  // namespace franka_example_controllers

@@ -8,13 +8,13 @@
 
 namespace franka_example_controllers {
 
-/// How strongly damped inverses avoid large values near singularities; the original's constant.
+/// Damping of inverses near singularities; the original's constant.
 constexpr double kPseudoInverseDamping = 0.2;
 
-/// Pseudo-inverse of any matrix by singular values, each one inverted to s / (s^2 + damping^2).
+/// Pseudo-inverse of any matrix by singular values, each inverted to s / (s^2 + damping^2).
 ///
 /// Without damping, singular values that are zero within rounding stay zero. Allocates: not for the
-/// 1 kHz loop, where dampedPseudoInverse() gives the same answer (decision 41).
+/// 1 kHz loop, where dampedPseudoInverse() gives the same result (decision 41).
 inline void pseudoInverse(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse,
                           bool damped = true) {
   const double damping = damped ? kPseudoInverseDamping : 0.0;
@@ -27,8 +27,8 @@ inline void pseudoInverse(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& invers
   inverse = svd.matrixV() * inverted.asDiagonal() * svd.matrixU().transpose();
 }
 
-/// Damped pseudo-inverse of a matrix of fixed size: M^T (M M^T + damping^2 I)^-1, or the same from
-/// the other side, whichever has less to solve. Real-time safe: no allocation.
+/// Damped pseudo-inverse of a matrix of fixed size: M^T (M M^T + damping^2 I)^-1, or the equivalent
+/// with the smaller matrix to solve. Real-time safe: no allocation.
 template <int Rows, int Columns>
 Eigen::Matrix<double, Columns, Rows> dampedPseudoInverse(
     const Eigen::Matrix<double, Rows, Columns>& matrix, double damping = kPseudoInverseDamping) {

@@ -21,24 +21,24 @@ class ScriptRunner;
 class SelfStop;
 
 /// Runs a Python class as a controller: `starting(state, model)`, then in every cycle
-/// `update(state, model, period) -> command`, and `stopping()` if it has one. The page
-/// docs/write_your_own.md describes what scripts get and return.
+/// `update(state, model, period) -> command`, and optionally `stopping()`. docs/write_your_own.md
+/// describes arguments and results of scripts.
 ///
 /// Parameters in the controller's namespace: `script` (path of a file) or `module` (importable
 /// name), `class`, `arm_id`, `joint_names` (seven), `command` (a list of joint_position,
-/// joint_velocity, cartesian_pose, cartesian_velocity, effort, as franka_hw allows them together);
-/// `max_update_time` and `max_starting_time` [s] the loop waits for the script, `load_timeout` [s],
-/// `fallback_controllers` to start when the script fails. All of them are handed to the class's
-/// constructor as a dict if it takes an argument.
+/// joint_velocity, cartesian_pose, cartesian_velocity, effort, in combinations that franka_hw
+/// allows); `max_update_time` and `max_starting_time` [s] that the loop waits for the script,
+/// `load_timeout` [s], `fallback_controllers` to start if the script fails. The class's constructor
+/// gets all of them as a dict if it has an argument.
 ///
-/// A script that raises, returns anything but a finite command of the right shape, or is late is
-/// not asked again. The controller brings the arm to rest by itself (motions along a smooth curve,
-/// torques as damping), reports the traceback, and has itself stopped by its controller manager.
-/// Other controllers go on. Started again, it begins with the script's `starting`.
+/// A script that raises, returns no finite command of the right shape, or is late is not called
+/// again. The controller brings the arm to rest by itself (motions along a smooth curve, torques as
+/// damping), reports the traceback, and has itself stopped by its controller manager. Other
+/// controllers continue. After a restart, it begins with the script's `starting`.
 ///
-/// The script runs in a thread of its own, with the loop's priority; the loop waits for it, but
-/// allocates nothing and never takes Python's lock. Python itself is not real-time safe: what a
-/// script takes is part of the cycle.
+/// The script runs in its own thread, with the loop's priority; the loop waits for it, but
+/// allocates nothing and never takes Python's lock. Python itself is not real-time safe: the
+/// script's time is part of the cycle.
 class PythonController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaModelInterface, franka_hw::FrankaStateInterface,
@@ -49,7 +49,7 @@ class PythonController
   PythonController();
   ~PythonController() override;
 
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong, the robot
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong, the robot
   /// lacks a handle, or the script cannot be loaded
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh,
             ros::NodeHandle& controller_nh) override;
@@ -70,7 +70,7 @@ class PythonController
   std::unique_ptr<franka_hw::FrankaStateHandle> state_handle_;
   std::unique_ptr<ArmCommander> commander_;
   std::unique_ptr<ScriptRunner> runner_;
-  std::unique_ptr<SelfStop> self_stop_;  // goes first, since it reports what the runner says
+  std::unique_ptr<SelfStop> self_stop_;  // destroyed first, because it reports the runner's result
 
   enum class Phase { kRunning, kComingToRest, kResting };
   Phase phase_{Phase::kResting};

@@ -16,8 +16,8 @@
 
 namespace franka_example_controllers {
 
-/// The handle of a resource. While controllers are initialised, not in the loop.
-/// @throws hardware_interface::HardwareInterfaceException with a sentence when the robot lacks it
+/// The handle of a resource. For the initialisation of controllers, not for the loop.
+/// @throws hardware_interface::HardwareInterfaceException with a sentence if the robot lacks it
 template <typename Interface>
 auto takeHandle(hardware_interface::RobotHW* robot_hw, const std::string& resource) {
   auto* interface = robot_hw->get<Interface>();
@@ -29,7 +29,7 @@ auto takeHandle(hardware_interface::RobotHW* robot_hw, const std::string& resour
   return interface->getHandle(resource);
 }
 
-/// The handles of several joints, in order. @throws as takeHandle
+/// The handles of several joints, in order. @throws like takeHandle
 template <typename Interface>
 std::vector<hardware_interface::JointHandle> takeJoints(hardware_interface::RobotHW* robot_hw,
                                                         const std::vector<std::string>& names) {
@@ -41,8 +41,8 @@ std::vector<hardware_interface::JointHandle> takeJoints(hardware_interface::Robo
   return handles;
 }
 
-/// Runs `take`, which takes handles of an arm.
-/// @returns false, after one sentence in the log, when the robot lacks one of them
+/// Runs `take`, which gets handles of an arm.
+/// @returns false, after one sentence in the log, if the robot lacks one of them
 template <typename Take>
 bool takeHandles(const char* controller, const std::string& arm_id, Take take) {
   try {
@@ -57,8 +57,8 @@ bool takeHandles(const char* controller, const std::string& arm_id, Take take) {
   }
 }
 
-/// Whether every joint stands within 0.1 rad of where the example motions begin.
-/// @returns false after one sentence in the log that says how to get there
+/// Whether every joint is within 0.1 rad of the start of the example motions.
+/// @returns false after one sentence in the log with a way to get there
 bool isAtStartPose(const char* controller, const std::array<double, 7>& q);
 
 }  // namespace franka_example_controllers

@@ -24,7 +24,7 @@ struct TeleopParameters {
   double follower_contact_force_threshold{5.0};
 };
 
-/// What the law needs to know of one arm in a cycle.
+/// Input of the law for one arm in a cycle.
 struct TeleopArm {
   Vector7d q, dq;
   Vector7d tau_ext;           ///< estimated external torque [Nm]
@@ -32,19 +32,19 @@ struct TeleopArm {
   bool has_error{false};
 };
 
-/// A value that passes smoothly from `pos_x_value` (far below the shift) to `neg_x_value` (far
-/// above): 0.5 (pos + neg - (pos - neg) tanh(increase (x - shift))).
+/// Smooth transition from `pos_x_value` (far below the shift) to `neg_x_value` (far above): 0.5
+/// (pos + neg - (pos - neg) tanh(increase (x - shift))).
 double rampParameter(double x, double neg_x_value, double pos_x_value, double shift_along_x,
                      double increase) noexcept;
 
-/// The law by which one arm follows another, and the other feels what it touches.
+/// Law by which one arm follows another, with feedback of its contacts.
 ///
-/// It first aligns: the follower moves slowly to the leader, which is held where it is. Once all
-/// joints agree within 0.01 rad it tracks: the leader is free, damped when fast, and feels the
-/// follower's contacts. One thread, 1 kHz: no allocation, no lock, no exception.
+/// It first aligns: the follower moves slowly to the leader, which is held in place. Once all
+/// joints agree within 0.01 rad it tracks: the leader moves freely, is damped at high speed, and
+/// feels the follower's contacts. One thread, 1 kHz: no allocation, no lock, no exception.
 class TeleopFollow {
  public:
-  /// Where the arms stand.
+  /// Starts at the arms' present positions.
   void start(const TeleopArm& leader, const TeleopArm& follower) noexcept;
 
   /// One cycle. @param dt [s]
@@ -58,8 +58,8 @@ class TeleopFollow {
   bool isTracking() const noexcept { return tracking_; }
   const Vector7d& target() const noexcept { return q_target_; }           ///< of the follower [rad]
   const Vector7d& targetVelocity() const noexcept { return dq_target_; }  ///< [rad/s]
-  double leaderContact() const noexcept { return leader_contact_; }       ///< 0 none, 1 guided
-  double followerContact() const noexcept { return follower_contact_; }   ///< 0 none, 1 in contact
+  double leaderContact() const noexcept { return leader_contact_; }  ///< 0 not touched, 1 guided
+  double followerContact() const noexcept { return follower_contact_; }  ///< 0 none, 1 in contact
 
  private:
   void advanceTarget(const TeleopParameters& parameters, const TeleopArm& leader,

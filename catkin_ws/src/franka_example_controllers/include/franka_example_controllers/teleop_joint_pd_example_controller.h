@@ -25,7 +25,7 @@
 
 namespace franka_example_controllers {
 
-/// One of the two arms.
+/// Data of one arm.
 struct FrankaDataContainer7 {
   std::string arm_id;
   std::unique_ptr<franka_hw::FrankaStateHandle> state_handle;
@@ -33,20 +33,20 @@ struct FrankaDataContainer7 {
   std::unique_ptr<JointWallContainer<7>> walls;
 };
 
-/// Lets one arm follow another, which feels what the first one touches.
+/// Lets one arm follow another, with feedback of the follower's contacts to the leader.
 ///
 /// Parameters in the controller's namespace: `leader/` and `follower/` with `arm_id`,
 /// `joint_names`, the gains and limits of TeleopParameters and `contact_force_threshold`; `debug`
-/// (bool). With debug, gains can be set by dynamic_reconfigure at `dyn_reconf_teleop_param_node`,
-/// and the topics `leader_target`, `follower_target`, `leader_contact`, `follower_contact` and
-/// `marker_labels` (60 Hz) show what happens. Soft joint limits are read from `robot_description`
+/// (bool). With debug, dynamic_reconfigure at `dyn_reconf_teleop_param_node` sets gains, and the
+/// topics `leader_target`, `follower_target`, `leader_contact`, `follower_contact` and
+/// `marker_labels` (60 Hz) show the state. Soft joint limits are read from `robot_description`
 /// above the controller's namespace.
 class TeleopJointPDExampleController
     : public controller_interface::MultiInterfaceController<
           hardware_interface::EffortJointInterface, franka_hw::FrankaStateInterface> {
  public:
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the
-  /// robot lacks a handle.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong or the robot
+  /// lacks a handle.
   bool init(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& node_handle) override;
   void starting(const ros::Time& time) override;
   void update(const ros::Time& time, const ros::Duration& period) override;
@@ -64,7 +64,7 @@ class TeleopJointPDExampleController
   void publish(const ros::Time& time);
 
   FrankaDataContainer7 leader_, follower_;
-  TeleopParameters parameters_;  // as read; what the loop uses stands in the buffer
+  TeleopParameters parameters_;  // as read; the loop uses those in the buffer
   TeleopFollow follow_;
   realtime_tools::RealtimeBuffer<TeleopParameters> parameters_in_use_;
 

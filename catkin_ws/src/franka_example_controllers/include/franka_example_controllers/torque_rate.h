@@ -7,8 +7,8 @@
 
 namespace franka_example_controllers {
 
-/// Limits the change of the torques from one cycle to the next, as the robot demands it. Real-time
-/// safe. @param tau wanted, @param tau_J_d commanded in the last cycle, @param largest_step [Nm]
+/// Limits the change of torques between cycles, as the robot requires. Real-time safe. @param tau
+/// desired, @param tau_J_d commanded in the last cycle, @param largest_step [Nm]
 inline Eigen::Matrix<double, 7, 1> saturateTorqueRate(const Eigen::Matrix<double, 7, 1>& tau,
                                                       const Eigen::Matrix<double, 7, 1>& tau_J_d,
                                                       double largest_step = 1.0) noexcept {

@@ -17,18 +17,18 @@ namespace {
 using franka_hw::ControlMode;
 using Matrix4 = Eigen::Matrix4d;
 
-// Below the least of the Panda's limits of each kind: 7.5 rad/s^2 of joint 2, 13 m/s^2 and 25
+// Below the smallest of the Panda's limits of each kind: 7.5 rad/s^2 of joint 2, 13 m/s^2 and 25
 // rad/s^2 of the end effector, 5 rad/s^2 of the elbow.
 constexpr double kJointDeceleration = 5.0;
 constexpr double kCartesianDeceleration = 2.0;
 constexpr double kElbowDeceleration = 2.0;
 
-// Those of the joint impedance example, where they are known to be stable at 1 kHz.
+// Those of the joint impedance example, which are stable at 1 kHz.
 constexpr std::array<double, 7> kDamping{{50.0, 50.0, 50.0, 20.0, 20.0, 20.0, 10.0}};  // [Nm s/rad]
 constexpr double kAtRest = 0.02;      // [rad/s] of each joint
 constexpr double kLongestRest = 2.0;  // [s]
 
-/// The twist in O that leads from one pose to the next in a time.
+/// The twist in O from one pose to the next within a time.
 std::array<double, 6> twistBetween(const std::array<double, 16>& from,
                                    const std::array<double, 16>& to, double period) {
   const Eigen::Map<const Matrix4> a(from.data());

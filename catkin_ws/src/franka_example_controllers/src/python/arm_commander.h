@@ -16,7 +16,7 @@
 
 namespace franka_example_controllers {
 
-/// A command for one cycle; only what is claimed has a meaning.
+/// A command for one cycle; only claimed values are used.
 struct ArmCommand {
   std::array<double, 7> joints{};  ///< positions [rad] or velocities [rad/s]
   std::array<double, 16> pose{};   ///< O_T_EE, column-major
@@ -26,25 +26,24 @@ struct ArmCommand {
 };
 
 /// Commands one arm through any allowed combination of interfaces, and can bring it to rest from
-/// whatever it was last told. Real-time safe but for take().
+/// any last command. Real-time safe except take().
 class ArmCommander {
  public:
-  /// Takes and claims the handles of a mode.
-  /// @throws hardware_interface::HardwareInterfaceException when the robot lacks one
+  /// Gets and claims the handles of a mode.
+  /// @throws hardware_interface::HardwareInterfaceException if the robot lacks one
   void take(hardware_interface::RobotHW* robot_hw, const std::string& arm_id,
             const std::vector<std::string>& joint_names, franka_hw::ControlMode mode);
 
-  /// Commands what holds the arm where it is desired to be, and forgets what was before.
+  /// Commands the arm's desired position, and resets the history.
   void holdStill(const franka::RobotState& state);
-  /// Hands a command on. @param period since the last one [s]
+  /// Passes a command. @param period since the last one [s]
   void command(const ArmCommand& command, double period);
 
   /// From now on rest() brings the arm to rest.
   void beginRest();
   /// One cycle of coming to rest: motions end along cubics without a jump of velocity or
-  /// acceleration, torques become damping, changed by at most 1 Nm a cycle.
-  /// @returns true once the arm rests (or two seconds later); it is to be called on until the
-  /// controller stops
+  /// acceleration, torques become damping, changed by at most 1 Nm per cycle. @returns true once
+  /// the arm rests (or two seconds later); call it until the controller stops
   bool rest(const franka::RobotState& state, double period);
 
  private:
@@ -61,7 +60,7 @@ class ArmCommander {
 
   ArmCommand last_;
   Differences<7> joints_;
-  Differences<6> twist_;  // commanded, or the one of the commanded poses
+  Differences<6> twist_;  // commanded, or derived from the commanded poses
   Differences<1> elbow_;
 
   double resting_{0.0};  // [s] since beginRest

@@ -13,12 +13,12 @@ namespace {
 
 namespace py = pybind11;
 
-// A script that does not let go is asked to after this time, so that others get their turn within a
-// cycle; Python's own 5 ms would delay them by five.
+// Thread switch interval requested of a script, so that other threads run within a cycle; Python's
+// default of 5 ms would delay them by five cycles.
 constexpr double kSwitchInterval = 1e-4;  // [s]
 
-/// Keeps the library that holds an address until the process ends. Python's extension modules look
-/// for Python's symbols among the global ones, and Python keeps pointers to functions of ours.
+/// Keeps the library that contains an address until the process ends. Python's extension modules
+/// need Python's symbols to be global, and Python keeps pointers to our functions.
 void keepLibraryOf(void* address, int flags) {
   Dl_info info;
   if (dladdr(address, &info) != 0) {
@@ -31,7 +31,7 @@ void start() {
   PyConfig_InitPythonConfig(&config);
   config.install_signal_handlers = 0;
   config.parse_argv = 0;
-  // The interpreter that ROS runs, which need not be the first one on the path.
+  // ROS's interpreter, which need not be the first one in PATH.
   PyStatus status = PyConfig_SetBytesString(&config, &config.program_name, PYTHON_PROGRAM);
   if (PyStatus_Exception(status) == 0) {
     status = Py_InitializeFromConfig(&config);

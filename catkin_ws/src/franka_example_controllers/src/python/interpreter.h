@@ -8,13 +8,13 @@
 
 namespace franka_example_controllers {
 
-/// Starts the process's Python interpreter unless there is one, and releases its lock. It runs
-/// until the process ends: numpy cannot be started twice. Any thread, outside the loop.
-/// @throws std::runtime_error with a sentence when Python cannot start
+/// Starts the process's Python interpreter unless it runs, and releases its lock. It runs until the
+/// process ends: numpy cannot be started twice. Any thread, outside the loop. @throws
+/// std::runtime_error with a sentence if Python cannot start
 void ensureInterpreter();
 
-/// Holds the interpreter's lock. By Python's own functions, which the modules that a script imports
-/// use as well: pybind11's keep a thread state that these do not know of.
+/// Holds the interpreter's lock, by Python's own functions, which modules imported by a script use
+/// as well: pybind11's use a thread state that these do not know.
 class InterpreterLock {
  public:
   InterpreterLock() : state_(PyGILState_Ensure()) {}
@@ -26,7 +26,7 @@ class InterpreterLock {
   PyGILState_STATE state_;
 };
 
-/// Lets others have the lock that this thread holds.
+/// Releases the lock of this thread for other threads.
 class InterpreterRelease {
  public:
   InterpreterRelease() : state_(PyEval_SaveThread()) {}
@@ -38,7 +38,7 @@ class InterpreterRelease {
   PyThreadState* state_;
 };
 
-/// What Python says of an error: its traceback, and the error itself in the last line. With the
+/// Python's text of an error: its traceback, with the error itself in the last line. With the
 /// interpreter's lock.
 std::string tracebackOf(const pybind11::error_already_set& error);
 

@@ -22,8 +22,8 @@ namespace {
 
 constexpr char kName[] = "PythonController";
 
-// A robot's cycle of 1 ms, less what the hardware and the way to the robot take; and the time
-// without a command after which a robot gives up. A simulation waits.
+// A robot's cycle of 1 ms, less the time of hardware and network; and the time without commands
+// after which a robot aborts. A simulation waits.
 constexpr double kUpdateTime = 0.8e-3;
 constexpr double kStartingTime = 0.02;
 constexpr double kSimulatedUpdateTime = 0.1;

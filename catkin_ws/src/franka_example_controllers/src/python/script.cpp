@@ -18,7 +18,7 @@ namespace {
 namespace py = pybind11;
 using franka_hw::ControlMode;
 
-// What the robot's client accepts as a rotation; larger deviations end a motion there.
+// The client's tolerance of rotations; larger deviations end a motion there.
 constexpr double kRotationTolerance = 1e-5;
 
 py::object pythonOf(XmlRpc::XmlRpcValue& value) {
@@ -50,8 +50,7 @@ py::object pythonOf(XmlRpc::XmlRpcValue& value) {
   }
 }
 
-/// Runs a file as a module of its own that nobody else sees; always the file itself, never a
-/// compiled copy from before.
+/// Runs a file as a private module; always the file itself, never a compiled copy.
 py::object moduleOfFile(const std::string& file) {
   const py::object loader = py::module_::import("importlib.machinery")
                                 .attr("SourceFileLoader")("controller_script", file);
@@ -80,7 +79,7 @@ py::object classIn(const py::object& module, const ScriptSource& source) {
   return type;
 }
 
-/// An object of a class, which may ask for the controller's parameters.
+/// An instance of a class, whose constructor may take the controller's parameters.
 py::object objectOf(const py::object& type, const ScriptSource& source) {
   const py::object signature = py::module_::import("inspect").attr("signature")(type);
   if (py::len(signature.attr("parameters")) == 0) {
@@ -145,7 +144,7 @@ constexpr ControlMode kCartesian = ControlMode::CartesianPose | ControlMode::Car
 Script::Script(const ScriptSource& source, const franka_hw::FrankaModelHandle& model,
                std::shared_ptr<ModelGate> gate)
     : mode_(source.mode) {
-  // Knows how states and frames look in Python.
+  // Defines Python types of states and frames.
   py::module_::import("pyfranka");
   const py::object module = source.file.empty()
                                 ? py::object(py::module_::import(source.module.c_str()))

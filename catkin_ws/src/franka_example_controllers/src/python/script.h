@@ -16,11 +16,11 @@
 
 namespace franka_example_controllers {
 
-/// An object of a script's class. Everything here needs the interpreter's lock; errors of the
-/// script are pybind11::error_already_set, those of its use std::runtime_error with a sentence.
+/// An instance of a script's class. All functions need the interpreter's lock; errors of the script
+/// are pybind11::error_already_set, those of its use std::runtime_error with a sentence.
 class Script {
  public:
-  /// Runs the file or imports the module, and makes the object. A file is run anew each time.
+  /// Runs the file or imports the module, and creates the instance. A file is run again each time.
   Script(const ScriptSource& source, const franka_hw::FrankaModelHandle& model,
          std::shared_ptr<ModelGate> gate);
 

@@ -26,7 +26,7 @@ class ScriptModel {
   ScriptModel(const FrankaModelHandle& handle, std::shared_ptr<ModelGate> gate)
       : handle_(handle), gate_(std::move(gate)) {}
 
-  /// What `compute` says of the handle, as an array of a shape.
+  /// Result of `compute` for the handle, as an array of a shape.
   template <typename Compute>
   py::array_t<double> ask(Shape shape, Compute compute) const {
     if (!gate_->enter()) {
@@ -34,7 +34,7 @@ class ScriptModel {
           "The model may be used only within starting() and update(), by the thread that runs "
           "them.");
     }
-    // Functions of the model throw nothing.
+    // Functions of the model do not throw.
     const auto values = compute(handle_);
     gate_->leave();
     return copy(values, shape);
@@ -111,7 +111,7 @@ void bindDynamics(py::class_<ScriptModel>& type) {
           py::arg("gravity_earth") = py::none(), "The same for another state.");
 }
 
-/// A function of a frame, at the state of the cycle and at another one.
+/// A function of a frame, at the cycle's state and at another one.
 template <typename Get>
 void bindFrame(py::class_<ScriptModel>& type, const char* name, Shape shape, Get get,
                const char* doc) {
@@ -152,7 +152,7 @@ void bindKinematics(py::class_<ScriptModel>& type) {
             "Jacobian of a frame in O, 6x7, linear rows first.");
 }
 
-/// Makes the type known to Python, once in a process.
+/// Registers the type with Python, once per process.
 void ensureType() {
   static bool done = false;  // guarded by the interpreter's lock
   if (done) {

@@ -11,7 +11,7 @@
 
 namespace franka_example_controllers {
 
-/// The model as a Python object with the functions of franka_hw::FrankaModelHandle. It answers only
+/// The model as a Python object with the functions of franka_hw::FrankaModelHandle. It works only
 /// while the gate is open and raises RuntimeError otherwise. With the interpreter's lock.
 pybind11::object makeScriptModel(const franka_hw::FrankaModelHandle& handle,
                                  std::shared_ptr<ModelGate> gate);

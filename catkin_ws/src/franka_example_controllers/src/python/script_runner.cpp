@@ -25,11 +25,11 @@ namespace py = pybind11;
 enum Order : int { kLoad, kStart, kUpdate, kStop, kEnd };
 
 constexpr double kEndLimit = 2.0;   // [s] for a script to end in the destructor
-constexpr int kInterruptions = 20;  // of a script that is late
+constexpr int kInterruptions = 20;  // of a late script
 constexpr auto kBetweenInterruptions = std::chrono::milliseconds(100);
 
-/// Gives a thread the scheduling of the one that calls: whoever waits for it must not wait for
-/// threads that matter less.
+/// Gives a thread the scheduling of the calling thread, which waits for it: otherwise threads of
+/// lower priority could delay both.
 void scheduleLikeThisThread(pthread_t thread) {
   int policy = 0;
   sched_param parameter{};
@@ -40,8 +40,8 @@ void scheduleLikeThisThread(pthread_t thread) {
 
 }  // namespace
 
-/// What both threads know. Orders are numbered; between an order and its answer the worker alone
-/// touches what is not atomic, at other times the one who gives orders.
+/// Data of both threads. Orders are numbered; between an order and its answer only the worker
+/// accesses data that is not atomic, at other times only the thread that gives orders.
 struct ScriptRunner::Shared {
   Semaphore ordered, answered;
   std::atomic<unsigned> orders{0}, answers{0};
@@ -115,7 +115,7 @@ void ScriptRunner::Shared::carryOut(std::optional<Script>& script) {
     failed = true;
   }
   if (late) {
-    // An interruption that came too late must not meet the next order.
+    // A late interruption must not affect the next order.
     PyThreadState_SetAsyncExc(python_thread, nullptr);
   }
   if (failed && (late || order == kStop)) {
@@ -139,7 +139,7 @@ ScriptRunner::~ScriptRunner() {
     shared_->late = true;
     interrupt();
   }
-  // A script that holds on is left behind; its thread owns what it needs.
+  // A script that does not end is abandoned; its thread owns its data.
   if (awaitAnswer(kEndLimit)) {
     shared_->give(kEnd);
     awaitAnswer(kEndLimit);
@@ -191,7 +191,7 @@ bool ScriptRunner::exchange(int order, const franka::RobotState& state, double p
 
 bool ScriptRunner::start(const franka::RobotState& state, double limit) {
   shared_->limit = limit;
-  // What it may still do of the last run, such as stopping, counts as well.
+  // Remaining work of the last run, such as stopping, counts as well.
   if (!awaitAnswer(limit)) {
     shared_->late = true;
     return false;
@@ -233,7 +233,7 @@ void ScriptRunner::interrupt() {
   if (!shared_->late || !shared_->busy()) {
     return;
   }
-  // In a thread of its own: a script that keeps the interpreter's lock would hold up the caller.
+  // In a separate thread: a script that keeps the interpreter's lock would block the caller.
   std::thread([shared = shared_, order = shared_->orders.load()] {
     const auto answered = [&] { return static_cast<int>(shared->answers - order) >= 0; };
     for (int i = 0; i < kInterruptions && !answered(); ++i) {

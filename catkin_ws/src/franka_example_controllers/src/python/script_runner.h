@@ -13,13 +13,12 @@
 
 namespace franka_example_controllers {
 
-/// Runs a script in a thread of its own. The control loop hands it a state and waits for the
-/// command no longer than it is told; the loop itself never takes the interpreter's lock and
-/// allocates nothing. A script that does not come back is interrupted, and left behind with its
-/// thread if even that does not help.
+/// Runs a script in its own thread. The control loop passes it a state and waits for the command
+/// for a limited time; the loop itself never takes the interpreter's lock and allocates nothing. A
+/// script that does not return is interrupted, and abandoned with its thread if that does not help.
 ///
-/// load() and the destructor are called outside the loop, everything else by the loop's thread
-/// unless another is named.
+/// load() and the destructor are called outside the loop, all others by the loop's thread unless
+/// another is named.
 class ScriptRunner {
  public:
   ScriptRunner();
@@ -27,24 +26,23 @@ class ScriptRunner {
   ScriptRunner(const ScriptRunner&) = delete;
   ScriptRunner& operator=(const ScriptRunner&) = delete;
 
-  /// Loads the script. @param limit how long that may take [s]
-  /// @returns a sentence (with the traceback, where there is one) when it fails, else nothing
+  /// Loads the script. @param limit of the time for it [s] @returns a sentence (with the traceback,
+  /// if there is one) if it fails, else nothing
   std::string load(const ScriptSource& source, const franka_hw::FrankaModelHandle& model,
                    double limit);
 
-  /// Runs the script's `starting`. @param limit how long the loop waits [s]
-  /// @returns false when it failed or is late; then reason() says why
+  /// Runs the script's `starting`. @param limit of the loop's wait [s]
+  /// @returns false if it failed or is late; reason() then gives the cause
   bool start(const franka::RobotState& state, double limit);
-  /// Runs the script's `update`. @param period since the last cycle [s] @returns as start()
+  /// Runs the script's `update`. @param period since the last cycle [s] @returns like start()
   bool update(const franka::RobotState& state, double period, double limit, ArmCommand& command);
-  /// Lets the script's `stopping` run; does not wait for it, and leaves it out when the script is
-  /// still busy.
+  /// Starts the script's `stopping` without waiting for it; skips it while the script is busy.
   void stop();
 
   /// Why start() or update() returned false. Any thread, until start() is called again.
   std::string reason() const;
-  /// Interrupts a script that is late, and logs where it was. From any thread but the loop's;
-  /// returns at once.
+  /// Interrupts a late script, and logs its position. From any thread but the loop's; returns at
+  /// once.
   void interrupt();
 
  private:

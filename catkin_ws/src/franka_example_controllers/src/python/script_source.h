@@ -9,7 +9,7 @@
 
 namespace franka_example_controllers {
 
-/// Where a script's class is found, and what it is to command.
+/// Location of a script's class, and its command.
 struct ScriptSource {
   std::string file;        ///< path of a Python file; if empty:
   std::string module;      ///< name of an importable module

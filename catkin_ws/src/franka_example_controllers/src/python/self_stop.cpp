@@ -34,7 +34,7 @@ struct SelfStop::Shared {
   std::vector<std::string> fallbacks;
   Semaphore happened, ended;
   std::atomic<bool> failed{false}, rests{false}, quits{false};
-  std::mutex mutex;  // of the report, which must not outlive the controller
+  std::mutex mutex;  // guards the report, which must not outlive the controller
   std::function<void()> report;
 
   void work();
@@ -91,7 +91,7 @@ SelfStop::~SelfStop() {
   }
   shared_->quits = true;
   shared_->happened.post();
-  // The thread may wait for a service that waits for this destructor; then it ends by itself.
+  // The thread may wait for a service that waits for this destructor; it then ends by itself.
   shared_->ended.waitUntil(deadlineAfter(kEndLimit));
 }
 

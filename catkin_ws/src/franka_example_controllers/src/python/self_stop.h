@@ -10,21 +10,21 @@
 
 namespace franka_example_controllers {
 
-/// Lets a controller that has failed stop itself through its controller manager's own service, from
-/// a thread beside the loop, so that it works with every controller manager and stops nobody else.
-/// What `fallback_controllers` in the controller's namespace names is started in its place.
+/// Lets a failed controller stop itself through its controller manager's service, from a thread
+/// beside the loop, so that it works with every controller manager and stops no other controller.
+/// Starts the controllers named in `fallback_controllers` in its place.
 class SelfStop {
  public:
-  /// @param report called in the thread when the controller has failed: logs why
+  /// @param report called in the thread when the controller has failed: logs the cause
   /// @param root_nh of the controller manager, @param controller_nh of the controller
   SelfStop(ros::NodeHandle& root_nh, ros::NodeHandle& controller_nh, std::function<void()> report);
   ~SelfStop();
   SelfStop(const SelfStop&) = delete;
   SelfStop& operator=(const SelfStop&) = delete;
 
-  /// From the loop: the controller has failed; have that reported.
+  /// From the loop: the controller has failed; reports it.
   void fail();
-  /// From the loop: the robot is at rest; have the controller stopped.
+  /// From the loop: the robot is at rest; stops the controller.
   void stop();
   /// Name of the controller, as its manager knows it.
   const std::string& name() const;

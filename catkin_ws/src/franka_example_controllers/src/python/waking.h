@@ -10,7 +10,7 @@
 
 namespace franka_example_controllers {
 
-/// By which the control loop wakes other threads, and waits for them no longer than it chooses.
+/// Lets the control loop wake other threads, and wait for them for a limited time.
 class Semaphore {
  public:
   Semaphore() { sem_init(&semaphore_, 0, 0); }
@@ -23,7 +23,7 @@ class Semaphore {
     while (sem_wait(&semaphore_) != 0) {
     }
   }
-  /// @param deadline on the monotonic clock @returns false when it has passed
+  /// @param deadline on the monotonic clock @returns false if it has passed
   bool waitUntil(const timespec& deadline) {
     while (sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &deadline) != 0) {
       if (errno == ETIMEDOUT) {

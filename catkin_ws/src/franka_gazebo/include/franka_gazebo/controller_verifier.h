@@ -14,16 +14,15 @@ namespace franka_gazebo {
 
 struct Joint;
 
-/// By what a joint is commanded.
+/// Quantity that commands a joint.
 enum ControlMethod { EFFORT, POSITION, VELOCITY };
 
 constexpr const char* kRobotJointSuffixes[] = {"_joint1", "_joint2",        "_joint3",
                                                "_joint4", "_joint5",        "_joint6",
                                                "_joint7", "_finger_joint1", "_finger_joint2"};
 
-/// Says what a controller's claims mean for an arm with a hand, by the original's rules. The
-/// simulation itself allows more (franka_sim_mujoco/controller_check.h). No function changes
-/// anything.
+/// Interprets a controller's claims for an arm with a hand, by the original's rules. The simulation
+/// itself allows more (franka_sim_mujoco/controller_check.h). Functions have no side effects.
 class ControllerVerifier {
  public:
   /// @param joints of the robot, by name
@@ -34,13 +33,13 @@ class ControllerVerifier {
   bool areArmJoints(const std::set<std::string>& resources) const;
   /// Whether all are the fingers' joints.
   bool areFingerJoints(const std::set<std::string>& resources) const;
-  /// Whether a controller claims the hand, the arm, or nothing that moves a joint.
+  /// Whether a controller claims the hand, the arm, or no joint command.
   bool isValidController(const hardware_interface::ControllerInfo& controller) const;
   /// Both fingers' efforts.
   bool isClaimingGripperController(const hardware_interface::ControllerInfo& controller) const;
   /// All seven joints of the arm by the first joint interface that it claims.
   bool isClaimingArmController(const hardware_interface::ControllerInfo& controller) const;
-  /// What a hardware interface commands; none for one that commands no joints.
+  /// Quantity that a hardware interface commands; none if it commands no joints.
   static boost::optional<ControlMethod> determineControlMethod(
       const std::string& hardware_interface);
 

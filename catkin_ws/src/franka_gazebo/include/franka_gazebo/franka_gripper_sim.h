@@ -6,8 +6,8 @@
 
 namespace franka_gazebo {
 
-/// The original's constants. What the hand does here where a parameter is not set: see
-/// franka_sim_mujoco::GripperParameters and GripperActionParameters.
+/// The original's constants. For the defaults used here see franka_sim_mujoco::GripperParameters
+/// and GripperActionParameters.
 constexpr double kMaxFingerWidth = 0.08;                       ///< [m]
 constexpr double kDefaultMoveWidthTolerance = 0.001;           ///< [m]
 constexpr double kDefaultGripperActionWidthTolerance = 0.005;  ///< [m]

@@ -12,8 +12,8 @@ namespace franka_gazebo {
 
 constexpr double kDefaultTauExtLowpassFilter = 1.0;
 
-/// The original's name. Its base class is franka_sim_mujoco::RobotHWSim, shaped as that of
-/// gazebo_ros_control, with the simulation's handle of the robot where Gazebo's model was.
+/// The original's name. Its base class franka_sim_mujoco::RobotHWSim has the interface of
+/// gazebo_ros_control's, with the simulation's handle of the robot instead of Gazebo's model.
 using FrankaHWSim = franka_sim_mujoco::FrankaHWSim;
 
 }  // namespace franka_gazebo

@@ -17,8 +17,8 @@
 
 namespace franka_gazebo {
 
-/// A joint and what is wanted of it, for programs that were written against the original. The
-/// simulation itself does not need it. Positions [rad] or [m], efforts [Nm] or [N]. One thread,
+/// A joint and its desired motion, for programs written for the original. The simulation itself
+/// does not use it. Positions [rad] or [m], efforts [Nm] or [N]. One thread,
 /// except setJointPosition.
 struct Joint {
   Joint() = default;
@@ -31,22 +31,22 @@ struct Joint {
   void update(const ros::Duration& period);
 
   std::string name;
-  franka_sim::JointDrive* handle{nullptr};  ///< in the place of Gazebo's joint
+  franka_sim::JointDrive* handle{nullptr};  ///< replaces Gazebo's joint
   int type{0};                              ///< of urdf::Joint
   joint_limits_interface::JointLimits limits;
   Eigen::Vector3d axis{Eigen::Vector3d::Zero()};
 
-  double command{0};  ///< what an effort controller wants, without gravity
+  double command{0};  ///< of an effort controller, without gravity
   double desired_position{0}, desired_velocity{0};
-  double gravity{0};  ///< what compensation adds to the command
+  double gravity{0};  ///< added to the command
   double position{0}, velocity{0}, effort{0}, jerk{0}, acceleration{0};
-  double stop_position{0};  ///< where it is held while nobody commands it
+  double stop_position{0};  ///< held while there is no command
   double contact_threshold{std::numeric_limits<double>::infinity()};
   double collision_threshold{std::numeric_limits<double>::infinity()};
   boost::optional<ControlMethod> control_method;  ///< none: not controlled
   control_toolbox::Pid position_controller, velocity_controller;
 
-  /// @name What robot states say is wanted, by mode and control method
+  /// @name Desired values in robot states, by mode and control method
   /// @{
   double getDesiredPosition(const franka::RobotMode& mode) const;
   double getDesiredVelocity(const franka::RobotMode& mode) const;
@@ -58,8 +58,7 @@ struct Joint {
   double getLinkMass() const;
   bool isInContact() const;
   bool isInCollision() const;
-  /// The next update takes this for the position, the wanted one and that where it is held.
-  /// Thread-safe.
+  /// The next update uses this as position, desired position and stop_position. Thread-safe.
   void setJointPosition(double position);
 
  private:

@@ -40,12 +40,12 @@ bool isStarting(const SwitchControl& event, const JointMap& joints);  ///< a joi
 bool isStopping(const SwitchControl& event, const JointMap& joints);
 void start(franka::RobotState& state);
 void idle(franka::RobotState& state);
-void stop(franka::RobotState& state, JointMap& joints);  ///< holds the arm where it is
+void stop(franka::RobotState& state, JointMap& joints);  ///< holds the arm at its position
 /// @}
 
-/// Idle, Move and UserStopped by the original's transitions; every other event is ignored. The
-/// original's is a table for boost::sml, which Debian does not have: here it runs by itself, with
-/// the functions that sml::sm has. The simulation has a mode machine of its own.
+/// Idle, Move and UserStopped with the original's transitions; every other event is ignored. The
+/// original is a table for boost::sml, which Debian lacks; this class has the functions of sml::sm
+/// itself. The simulation uses another mode machine.
 class StateMachine {
  public:
   /// Both must outlive it.

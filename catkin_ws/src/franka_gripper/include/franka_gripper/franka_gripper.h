@@ -15,24 +15,24 @@
 #include <franka_gripper/StopAction.h>
 
 /// @file
-/// The hand's actions in C++, for programs that have a franka::Gripper of their own. The node
-/// franka_gripper_node does not need them. All wait for the hand; none belongs into a control loop.
+/// The hand's actions in C++, for programs with their own franka::Gripper. franka_gripper_node does
+/// not use them. All functions wait for the hand: do not call them in a control loop.
 
 namespace franka_gripper {
 
-/// Reads the hand's state. @returns false, after logging the reason, when it cannot be read
+/// Reads the hand's state. @returns false, after logging the reason, if it cannot be read
 bool updateGripperState(const franka::Gripper& gripper, franka::GripperState* state);
 
-/// Carries out a control_msgs/GripperCommand and answers the server: the goal's position is that of
-/// one finger [m], the result's the whole width [m]. Moves at default_speed [m/s] without effort or
-/// to open, grasps with max_effort [N] otherwise.
+/// Executes a control_msgs/GripperCommand and sets the server's result: the goal's position is that
+/// of one finger [m], the result's the whole width [m]. Moves at default_speed [m/s] without effort
+/// or to open, grasps with max_effort [N] otherwise.
 void gripperCommandExecuteCallback(
     const franka::Gripper& gripper, const GraspEpsilon& grasp_epsilon, double default_speed,
     actionlib::SimpleActionServer<control_msgs::GripperCommandAction>* action_server,
     const control_msgs::GripperCommandGoalConstPtr& goal);
 
 /// @name The goals of the other four actions
-/// @returns whether the hand succeeded @throws franka::Exception when it refuses or is lost
+/// @returns whether the hand succeeded @throws franka::Exception if it refuses or is lost
 /// @{
 bool move(const franka::Gripper& gripper, const MoveGoalConstPtr& goal);
 bool homing(const franka::Gripper& gripper, const HomingGoalConstPtr& goal);

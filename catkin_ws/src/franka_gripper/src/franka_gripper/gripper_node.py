@@ -28,7 +28,7 @@ from franka_gripper.msg import (
 )
 
 NO_EFFORT = 1e-4  # [N] smaller efforts of gripper_action mean: move, do not grasp
-ARRIVED = 1e-4  # [m] nearer targets of gripper_action are reached already
+ARRIVED = 1e-4  # [m] closer targets of gripper_action count as reached
 RETRY = 0.2  # [s] between attempts to reach a hand that is starting
 EPSILON = 0.005  # [m] libfranka's default tolerance of a grasp
 SILENCE = 1.0  # [s] older states are no longer published
@@ -45,7 +45,7 @@ NO_HAND = (
 
 
 class Fault(Exception):
-    """A parameter or a goal that makes no sense; the text says which and why."""
+    """An invalid parameter or goal; the message names it and the reason."""
 
 
 def number(name, default, least):
@@ -57,7 +57,7 @@ def number(name, default, least):
 
 
 def tolerance(name):
-    """One of the tolerances of gripper_action; as in the original, one that is not in the map is zero."""
+    """One of the tolerances of gripper_action; a missing one is zero, as in the original."""
     epsilons = rospy.get_param("~default_grasp_epsilon", None)
     if epsilons is not None and not isinstance(epsilons, dict):
         where = rospy.resolve_name("~default_grasp_epsilon")
@@ -72,7 +72,7 @@ def required(name):
 
 
 class Parameters:
-    """What the parameter server says, checked."""
+    """Parameters from the parameter server, checked."""
 
     def __init__(self):
         self.robot_ip = required("robot_ip")
@@ -93,11 +93,11 @@ def check(condition, text):
 
 
 class GripperNode:
-    """Five actions beside each other; a new goal on any of them ends the one that runs.
+    """Five actions; a new goal on any of them ends the running one.
 
-    As with the hand's own interface, a goal that the hand carried out without success is answered as
-    succeeded with result.success = False and a sentence; ABORTED are goals that are impossible, that the
-    hand refused or that the action stop ended, PREEMPTED those that a cancel or another goal ended.
+    As with the hand's own interface, a goal that the hand executed without success is SUCCEEDED with
+    result.success = False and a message. A goal is ABORTED if it is impossible, if the hand refused it or if
+    the action stop ended it, and PREEMPTED if a cancel or another goal ended it.
     """
 
     def __init__(self, parameters, hand):
@@ -128,7 +128,7 @@ class GripperNode:
 
     @property
     def busy(self):
-        """Whether the hand carries out a command."""
+        """Whether the hand executes a command."""
         return self._hand.busy
 
     # --- actions ------------------------------------------------------------------------------------
@@ -214,7 +214,7 @@ class GripperNode:
         width, effort = 2.0 * goal.command.position, goal.command.max_effort
         self._check_width(width)
         check(math.isfinite(effort), "max_effort must be a number.")
-        # Fingers that another command moves are not there, wherever they are.
+        # Fingers that another command moves have not arrived, whatever their width.
         if self._hand.busy or abs(width - state.width) >= ARRIVED:
             if abs(effort) < NO_EFFORT or width >= state.width:
 
@@ -250,18 +250,18 @@ class GripperNode:
         rate = rospy.Rate(self._parameters.publish_rate)
         while not self._ended.is_set() and not rospy.is_shutdown():
             try:
-                # Old widths under a new time would be lies.
+                # Old widths with a new time stamp would be wrong.
                 if self._hand.age < SILENCE:
                     message.header.stamp = rospy.Time.now()
                     message.position = [0.5 * self._hand.state.width] * 2
                     self._publisher.publish(message)
                 rate.sleep()
             except (rospy.ROSInterruptException, rospy.ROSException):
-                return  # the node ends
+                return  # the node exits
 
 
 def connect(parameters, pyfranka):
-    """The hand; one that cannot be reached is asked again until the time is over."""
+    """Connects to the hand; retries until the timeout."""
     deadline = time.monotonic() + parameters.connect_timeout
     while True:
         try:
@@ -273,7 +273,7 @@ def connect(parameters, pyfranka):
 
 
 def warn_of_unknown_joints(parameters):
-    """Warns in one sentence of fingers that robot_description, where there is one, does not hold."""
+    """Warns about fingers that robot_description, if there is one, lacks."""
     name = rospy.search_param("robot_description")
     try:
         description = ElementTree.fromstring(rospy.get_param(name)) if name else None
@@ -294,7 +294,7 @@ def warn_of_unknown_joints(parameters):
 def main():
     rospy_connections.answer_help("rosrun franka_gripper franka_gripper_node", USAGE)
     rospy_connections.init_node("franka_gripper_node")
-    # After the name of the node is known: what this needs is found only where libfranka is built.
+    # Only here, after init_node: pyfranka exists only if libfranka was built.
     import pyfranka
 
     try:
@@ -313,8 +313,8 @@ def main():
     rospy.spin()
     node.shutdown()
     if node.busy:
-        # A hand goes on with what it does; the thread that waits for it must not return into an
-        # interpreter that is gone.
+        # The hand continues its command; the thread that waits for it must not return after the
+        # interpreter's end.
         logging.shutdown()
         os._exit(0)
     return 0

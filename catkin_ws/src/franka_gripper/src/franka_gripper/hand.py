@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""One hand, used by several threads: its state stream, and one command at a time. Knows no ROS."""
+"""One hand, used by several threads: its state stream, and one command at a time. No ROS."""
 
 import threading
 import time
@@ -15,16 +15,16 @@ class Stopped(Exception):
 
 
 class Hand:
-    """Follows the state of a gripper and carries out its commands.
+    """Reads the state of a gripper and executes its commands.
 
-    Waiting for the end of a command blocks only the thread that asked for it. A new command ends the
-    one that runs; the one that waited for it then gets Interrupted, or Stopped after `stop`.
+    Waiting for the end of a command blocks only the calling thread. A new command ends the running one;
+    the thread that waits for it then gets Interrupted, or Stopped after `stop`.
 
-    `connect` makes the connection, an object like pyfranka.Gripper; it is called again, once a second,
-    after the connection was lost.
+    `connect` returns the connection, an object like pyfranka.Gripper; after a loss of the connection it is
+    called once a second.
     """
 
-    POLL = 0.01  # [s] between looks at whether a command shall end
+    POLL = 0.01  # [s] between checks whether a command must end
     WORD = 0.5  # [s] longest wait for a new state, of which the hand sends thirty a second
     RETRY = 1.0  # [s] between attempts to connect
 
@@ -34,17 +34,17 @@ class Hand:
         self._gripper = connect()
         self._state = self._gripper.read_once()
         self._fresh = time.monotonic()
-        self._arrived = threading.Condition()  # told of every state
+        self._arrived = threading.Condition()  # notified of every state
         self._ended = threading.Event()
-        self._idle = threading.Condition()  # guards what follows
+        self._idle = threading.Condition()  # guards the following members
         self._busy = False  # the hand has a command
         self._asked = 0  # counts commands and stops; a command ends when it is no longer the newest
-        self._stopped = 0  # what `_asked` was at the last stop
+        self._stopped = 0  # value of `_asked` at the last stop
         self._reader = threading.Thread(target=self._follow, daemon=True)
         self._reader.start()
 
     def close(self):
-        """Ends the thread that follows the state. Takes as long as one state, a second at most."""
+        """Ends the thread that reads states. Takes as long as one state, at most a second."""
         self._ended.set()
         self._reader.join(2.0)
 
@@ -55,16 +55,16 @@ class Hand:
 
     @property
     def age(self):
-        """Since the newest state arrived [s]."""
+        """Time since the newest state arrived [s]."""
         return time.monotonic() - self._fresh
 
     @property
     def busy(self):
-        """Whether a command is under way."""
+        """Whether a command runs."""
         return self._busy
 
     def next_state(self):
-        """A state that arrived after this call; the newest one when the hand says nothing any more."""
+        """A state that arrived after this call; the newest one if the hand is silent."""
         asked = time.monotonic()
         with self._arrived:
             self._arrived.wait_for(lambda: self._fresh > asked, self.WORD)
@@ -95,18 +95,18 @@ class Hand:
             return  # tried again after the next state that does not arrive
 
     def stop(self):
-        """Ends the command that runs and the force of a grasp. Returns whether the hand did."""
+        """Ends the running command and the force of a grasp. Returns whether the hand did."""
         with self._idle:
             self._asked += 1
             self._stopped = self._asked
         return self._gripper.stop()
 
     def run(self, command, cancelled=lambda: False):
-        """Carries out command(gripper) and returns what it returns.
+        """Executes command(gripper) and returns its result.
 
-        Another command that runs is ended first. Raises Interrupted or Stopped when this one was ended
-        before it was through, and what the command raises otherwise. `cancelled` is asked now and then
-        whether to end it.
+        Ends another running command first. Raises Interrupted or Stopped if this one was ended before it
+        was complete, otherwise the command's exceptions. Polls `cancelled` and ends the command if it is
+        true.
         """
         with self._idle:
             self._asked += 1
@@ -131,7 +131,7 @@ class Hand:
         return outcome["result"]
 
     def _reason(self, ticket):
-        """Why the command with this ticket has to end."""
+        """The reason why the command with this ticket must end."""
         return Stopped() if self._stopped > ticket else Interrupted()
 
     def _work(self, command, outcome, done):
@@ -145,9 +145,9 @@ class Hand:
         done.set()
 
     def _await(self, done, end):
-        """Waits for the end of a command; returns whether it was asked for.
+        """Waits for the end of a command; returns whether it was requested.
 
-        A stop may reach the hand before the command does, or be lost with the connection: it is repeated.
+        A stop may reach the hand before the command, or be lost with the connection: it is repeated.
         """
         stopped = False
         while not done.wait(self.POLL):
@@ -156,5 +156,5 @@ class Hand:
                 try:
                     self._gripper.stop()
                 except Exception:
-                    done.wait(self.POLL)  # what the command raises says why
+                    done.wait(self.POLL)  # the command's exception holds the reason
         return stopped or end()

@@ -10,15 +10,15 @@ namespace franka_sim::fci {
 
 namespace {
 
-/// Limits hold for so long each.
+/// The period of the per-millisecond limits.
 constexpr std::chrono::milliseconds kMillisecond{1};
 
-/// A connection stays for so long even where others want its place: its first request, sent right
-/// behind it, may be a moment late (our choice).
-constexpr std::chrono::milliseconds kGrace{5};
+/// A connection stays at least this long, even if its place is needed. Chosen here: its first
+/// request, sent right after it, may arrive a moment later.
+constexpr std::chrono::milliseconds kMinimumAge{5};
 
-/// Nobody reads more lines than one of a kind in that time.
-constexpr std::chrono::seconds kTellPeriod{10};
+/// Limits log messages to one per kind in this period.
+constexpr std::chrono::seconds kReportPeriod{10};
 
 bool sameAddress(const sockaddr_in& one, const sockaddr_in& other) noexcept {
   return one.sin_addr.s_addr == other.sin_addr.s_addr;
@@ -51,7 +51,7 @@ void ClientSlot::confirm() noexcept {
 
 void ClientSlot::drop() noexcept {
   client_.reset();
-  newcomers_.clear();
+  pending_.clear();
 }
 
 void ClientSlot::serve(const ServeOne& serve_one, const Gone& gone) {
@@ -59,15 +59,15 @@ void ClientSlot::serve(const ServeOne& serve_one, const Gone& gone) {
   if (now - millisecond_ >= kMillisecond) {
     beginMillisecond(now);
   }
-  acceptNewcomers(now);
-  // Before anybody is turned away: who comes back at once finds its old connection not yet taken
-  // down.
-  if (client_ && !serveGuest(*client_, serve_one, now)) {
+  acceptPending(now);
+  // Serve the client before others are refused: after a quick reconnect the old connection may
+  // still look open.
+  if (client_ && !serveEntry(*client_, serve_one, now)) {
     client_.reset();
     gone();
   }
   if (!client_) {
-    serveNewcomers(serve_one, gone, now);
+    servePending(serve_one, gone, now);
   }
   if (client_) {
     turnAway();
@@ -80,14 +80,14 @@ void ClientSlot::beginMillisecond(Clock::time_point now) {
   if (client_) {
     client_->requests_left = kRequestsAtOnce;
   }
-  for (Guest& guest : newcomers_) {
-    guest.requests_left = kRequestsAtOnce;
+  for (Entry& entry : pending_) {
+    entry.requests_left = kRequestsAtOnce;
   }
 }
 
-void ClientSlot::acceptNewcomers(Clock::time_point now) {
+void ClientSlot::acceptPending(Clock::time_point now) {
   while (accepts_left_ > 0) {
-    if (newcomers_.size() >= kMostOfOneAddress && now - newcomers_.front().accepted_at < kGrace) {
+    if (pending_.size() >= kMostOfOneAddress && now - pending_.front().accepted_at < kMinimumAge) {
       accepts_left_ = 0;
       return;
     }
@@ -97,94 +97,93 @@ void ClientSlot::acceptNewcomers(Clock::time_point now) {
       return;
     }
     accepts_left_--;
-    newcomers_.push_back({std::make_unique<Connection>(std::move(socket)), peer, now, std::nullopt,
-                          kRequestsAtOnce, false});
+    pending_.push_back({std::make_unique<Connection>(std::move(socket)), peer, now, std::nullopt,
+                        kRequestsAtOnce, false});
     makeRoom();
   }
 }
 
-// For the newest one.
+// Makes room for the newest connection.
 void ClientSlot::makeRoom() {
-  const auto of_its_address = [this](const Guest& guest) {
-    return sameAddress(guest.peer, newcomers_.back().peer);
+  const auto of_its_address = [this](const Entry& entry) {
+    return sameAddress(entry.peer, pending_.back().peer);
   };
-  auto oldest = newcomers_.end();
-  if (static_cast<std::size_t>(std::count_if(newcomers_.begin(), newcomers_.end(),
-                                             of_its_address)) > kMostOfOneAddress) {
-    oldest = std::find_if(newcomers_.begin(), newcomers_.end(), of_its_address);
-  } else if (newcomers_.size() > kMostNewcomers) {
-    oldest = newcomers_.begin();
+  auto oldest = pending_.end();
+  if (static_cast<std::size_t>(std::count_if(pending_.begin(), pending_.end(), of_its_address)) >
+      kMostOfOneAddress) {
+    oldest = std::find_if(pending_.begin(), pending_.end(), of_its_address);
+  } else if (pending_.size() > kMostPending) {
+    oldest = pending_.begin();
   }
-  if (oldest != newcomers_.end()) {
+  if (oldest != pending_.end()) {
     refuse(*oldest, kTooMany);
-    newcomers_.erase(oldest);
+    pending_.erase(oldest);
   }
 }
 
 // @returns false when the connection must end.
-bool ClientSlot::serveGuest(Guest& guest, const ServeOne& serve_one, Clock::time_point now) {
-  served_ = &guest;
+bool ClientSlot::serveEntry(Entry& entry, const ServeOne& serve_one, Clock::time_point now) {
+  served_ = &entry;
   struct Finish {
-    Guest*& served;
+    Entry*& served;
     ~Finish() { served = nullptr; }
   } finish{served_};
-  Connection& connection = *guest.connection;
+  Connection& connection = *entry.connection;
   if (!connection.flush()) {
     return false;
   }
-  while (guest.requests_left > 0 && !connection.hasUnsent()) {
-    // A client that has ended its connection is gone, also where its last request waits unread.
+  while (entry.requests_left > 0 && !connection.hasUnsent()) {
+    // A client that has closed its connection is gone, even if its last request is unread.
     if (!connection.receive()) {
       return false;
     }
     switch (serve_one(connection)) {
       case Served::kDone:
-        guest.requests_left--;
-        guest.incomplete_since.reset();
+        entry.requests_left--;
+        entry.incomplete_since.reset();
         break;
       case Served::kHeldBack:
-        guest.incomplete_since.reset();
+        entry.incomplete_since.reset();
         return !connection.isFull() || !connection.peerHasClosed();
       case Served::kBroken:
         if (!connection.peerHasClosed()) {
-          tellWhy(guest.peer, kNoRequest);
+          reportRefusal(entry.peer, kNoRequest);
         }
         return false;
       case Served::kIncomplete:
         if (connection.received().size == 0) {
           return true;
         }
-        guest.incomplete_since = guest.incomplete_since.value_or(now);
-        if (now - *guest.incomplete_since < rules_.request) {
+        entry.incomplete_since = entry.incomplete_since.value_or(now);
+        if (now - *entry.incomplete_since < rules_.request) {
           return true;
         }
-        refuse(guest, kLate);
+        refuse(entry, kLate);
         return false;
     }
   }
   return !connection.peerHasClosed();
 }
 
-void ClientSlot::serveNewcomers(const ServeOne& serve_one, const Gone& gone,
-                                Clock::time_point now) {
-  for (std::size_t i = 0; i < newcomers_.size();) {
-    Guest& guest = newcomers_[i];
-    const bool stays = serveGuest(guest, serve_one, now);
-    if (guest.confirmed) {
-      client_ = std::move(guest);
-      newcomers_.erase(newcomers_.begin() + static_cast<std::ptrdiff_t>(i));
+void ClientSlot::servePending(const ServeOne& serve_one, const Gone& gone, Clock::time_point now) {
+  for (std::size_t i = 0; i < pending_.size();) {
+    Entry& entry = pending_[i];
+    const bool stays = serveEntry(entry, serve_one, now);
+    if (entry.confirmed) {
+      client_ = std::move(entry);
+      pending_.erase(pending_.begin() + static_cast<std::ptrdiff_t>(i));
       if (!stays) {
         client_.reset();
         gone();
       }
       return;
     }
-    const bool late = stays && now - guest.accepted_at >= rules_.confirm;
+    const bool late = stays && now - entry.accepted_at >= rules_.confirm;
     if (late) {
-      refuse(guest, kLate);
+      refuse(entry, kLate);
     }
     if (!stays || late) {
-      newcomers_.erase(newcomers_.begin() + static_cast<std::ptrdiff_t>(i));
+      pending_.erase(pending_.begin() + static_cast<std::ptrdiff_t>(i));
     } else {
       i++;
     }
@@ -192,30 +191,30 @@ void ClientSlot::serveNewcomers(const ServeOne& serve_one, const Gone& gone,
 }
 
 void ClientSlot::turnAway() {
-  for (Guest& guest : newcomers_) {
-    refuse(guest, kBusy);
+  for (Entry& entry : pending_) {
+    refuse(entry, kBusy);
   }
-  newcomers_.clear();
+  pending_.clear();
 }
 
-void ClientSlot::refuse(Guest& guest, Reason reason) {
-  tellWhy(guest.peer, reason);
-  guest.connection->reset();
+void ClientSlot::refuse(Entry& entry, Reason reason) {
+  reportRefusal(entry.peer, reason);
+  entry.connection->reset();
 }
 
-void ClientSlot::tellWhy(const sockaddr_in& peer, Reason reason) {
+void ClientSlot::reportRefusal(const sockaddr_in& peer, Reason reason) {
   constexpr std::array<const char*, kReasons> kTexts{
       "there is a client already, and one at a time is served",
       "it was too slow to say what it wants", "what it sent is no request",
       "too many connections wait without having said who they are"};
   const Clock::time_point now = Clock::now();
-  std::optional<Told>& told = told_[reason];
-  if (told && now - told->at < kTellPeriod) {
-    told->silent++;
+  std::optional<Report>& last = reports_[reason];
+  if (last && now - last->at < kReportPeriod) {
+    last->silent++;
     return;
   }
-  const unsigned silent = told ? told->silent : 0;
-  told = Told{now};
+  const unsigned silent = last ? last->silent : 0;
+  last = Report{now};
   if (tell_) {
     tell_("a connection from " + textOf(peer) + " to port " + std::to_string(port()) +
           " was closed: " + kTexts[reason] +
@@ -228,19 +227,19 @@ void ClientSlot::addDescriptors(std::vector<pollfd>& fds) const {
     fds.push_back({listener_.descriptor(), POLLIN, 0});
   }
   if (client_) {
-    addGuest(*client_, fds);
+    addEntry(*client_, fds);
   }
-  for (const Guest& guest : newcomers_) {
-    addGuest(guest, fds);
+  for (const Entry& entry : pending_) {
+    addEntry(entry, fds);
   }
 }
 
-void ClientSlot::addGuest(const Guest& guest, std::vector<pollfd>& fds) const {
-  const Connection& connection = *guest.connection;
+void ClientSlot::addEntry(const Entry& entry, std::vector<pollfd>& fds) const {
+  const Connection& connection = *entry.connection;
   short events = POLLRDHUP;
   if (connection.hasUnsent()) {
     events |= POLLOUT;
-  } else if (guest.requests_left > 0 && !connection.isFull()) {
+  } else if (entry.requests_left > 0 && !connection.isFull()) {
     events |= POLLIN;
   }
   fds.push_back({connection.descriptor(), events, 0});

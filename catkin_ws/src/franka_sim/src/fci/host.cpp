@@ -15,36 +15,37 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{1};
 
-/// Physics continues for this long after an action, until everything has come to rest
-/// (decision 21).
+/// Physics continues for this long after an action, then until everything is at rest (decision 21).
 constexpr std::uint64_t kTicksAfterAction = 100;
 
-/// In lock-step requests wait until the world has come to rest, but for no more ticks than this: it
-/// may never do so, as where two arms press on each other (our choice).
+/// In lock-step, requests wait until the world is at rest, but no longer than this. Chosen here:
+/// the world may never come to rest, for example when two arms press on each other.
 constexpr std::uint64_t kLongestDeferral = 10000;
 
-/// A host that was held up for longer does not make up for it (our choice).
-constexpr std::chrono::milliseconds kForgivenDelay{50};
+/// A longer delay of the host is not made up for (chosen here: a burst of ticks would lose more
+/// commands).
+constexpr std::chrono::milliseconds kMaxCatchUp{50};
 
-/// Sockets are looked after so often even where commands come so fast that nobody polls.
+/// Sockets are polled at least this often, even if commands come too fast for a poll.
 constexpr std::chrono::milliseconds kServeAtLeast{1};
 
 /// A client that waits for another one's answer gives up after a second without a state; genuine
-/// ones and ours drop a state that they have already, and wait on (our choice).
-constexpr std::chrono::milliseconds kSignOfLife{300};
+/// clients and ours drop a repeated state and wait on. Chosen here: three repeats fit into that
+/// second.
+constexpr std::chrono::milliseconds kRepeatPeriod{300};
 
-/// In lock-step, for so long an answer is waited for without going to sleep, where another
-/// processor can work on it meanwhile (our choice).
-constexpr std::chrono::microseconds kSwiftAnswer{100};
+/// In lock-step, an answer is awaited without sleeping for this time, if another processor can work
+/// on it meanwhile. Chosen here: sleep and wake-up take longer than many answers.
+constexpr std::chrono::microseconds kSpinTime{100};
 
-/// Before its first command a client takes two states that show the motion, at once. More are for
-/// one that missed them. They come as slowly as the second after which clients give up allows: each
-/// that comes while a starved client works on its first answer puts its clock, which counts states,
-/// ahead of the arm's, and runs would not repeat (our choice).
+/// Before its first command a client needs two states that show the motion; they are sent at once.
+/// Further states are for a client that missed them. They come as slowly as the client's timeout of
+/// a second allows: each state that arrives while a starved client works on its first answer puts
+/// its clock, which counts states, ahead of the arm's, and runs would not repeat (chosen here).
 constexpr int kPromptStarts = 2;
 constexpr std::chrono::milliseconds kLaterStarts{600};
 
-/// While it makes up for a delay, clients still get so long for each answer (our choice).
+/// While the host makes up for a delay, clients still get this time for each answer (chosen here).
 constexpr std::chrono::microseconds kLeastTimeToAnswer{400};
 
 timespec toTimespec(std::chrono::nanoseconds duration) noexcept {
@@ -53,15 +54,15 @@ timespec toTimespec(std::chrono::nanoseconds duration) noexcept {
           static_cast<long>(duration.count() % kNanoseconds)};
 }
 
-/// Another mode while it lives.
-class ModeForNow {
+/// Sets another pace mode for its lifetime.
+class ModeGuard {
  public:
-  ModeForNow(Pace& pace, PaceMode mode) noexcept : pace_(pace), before_(pace.mode) {
+  ModeGuard(Pace& pace, PaceMode mode) noexcept : pace_(pace), before_(pace.mode) {
     pace_.mode = mode;
   }
-  ~ModeForNow() { pace_.mode = before_; }
-  ModeForNow(const ModeForNow&) = delete;
-  ModeForNow& operator=(const ModeForNow&) = delete;
+  ~ModeGuard() { pace_.mode = before_; }
+  ModeGuard(const ModeGuard&) = delete;
+  ModeGuard& operator=(const ModeGuard&) = delete;
 
  private:
   Pace& pace_;
@@ -75,20 +76,20 @@ Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> p
       prepare_(std::move(prepare)),
       spin_(std::thread::hardware_concurrency() > 1) {
   setPace(pace);
-  // Wake-ups are otherwise gathered within 50 us.
+  // By default the system groups wake-ups within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
 
 void Host::add(HostedRobot& robot) {
-  guests_.push_back({&robot});
-  fds_.reserve(16 * guests_.size());
+  entries_.push_back({&robot});
+  fds_.reserve(16 * entries_.size());
 }
 
 void Host::add(Service& service) { services_.push_back(&service); }
 
 void Host::remove(const HostedRobot& robot) {
-  const auto is_robot = [&](const Guest& guest) { return guest.robot == &robot; };
-  guests_.erase(std::remove_if(guests_.begin(), guests_.end(), is_robot), guests_.end());
+  const auto is_robot = [&](const Entry& entry) { return entry.robot == &robot; };
+  entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_robot), entries_.end());
 }
 
 void Host::setPace(const Pace& pace) {
@@ -117,8 +118,8 @@ void Host::run(const std::atomic<bool>& stop) {
 bool Host::stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
 void Host::tick() {
-  for (const Guest& guest : guests_) {
-    guest.robot->observe();
+  for (const Entry& entry : entries_) {
+    entry.robot->observe();
   }
   if (pace_.waitsForClients()) {
     waitInLockStep();
@@ -130,24 +131,24 @@ void Host::tick() {
     prepare_();
     waitInRealTime();
   }
-  for (const Guest& guest : guests_) {
-    guest.robot->actuate();
+  for (const Entry& entry : entries_) {
+    entry.robot->actuate();
   }
   step_();
   ticks_++;
-  for (Guest& guest : guests_) {
-    guest.unpublished_ticks++;
+  for (Entry& entry : entries_) {
+    entry.unpublished_ticks++;
   }
 }
 
 void Host::tickAtOnce() {
-  const ModeForNow free_running(pace_, PaceMode::kFreeRunning);
+  const ModeGuard free_running(pace_, PaceMode::kFreeRunning);
   tick();
 }
 
 void Host::standStill() {
-  for (const Guest& guest : guests_) {
-    guest.robot->publish(guest.robot->expectsCommand() ? 0 : 1, true);
+  for (const Entry& entry : entries_) {
+    entry.robot->publish(entry.robot->expectsCommand() ? 0 : 1, true);
   }
   serveAll();
   restartClock();
@@ -155,22 +156,22 @@ void Host::standStill() {
 
 void Host::publishAll(bool same_moment) {
   published_at_ = Clock::now();
-  for (Guest& guest : guests_) {
-    publish(guest, same_moment, published_at_);
+  for (Entry& entry : entries_) {
+    publish(entry, same_moment, published_at_);
   }
   for (Service* service : services_) {
     service->published();
   }
 }
 
-void Host::publish(Guest& guest, bool same_moment, Clock::time_point now) {
-  guest.robot->publish(std::max<std::uint64_t>(guest.unpublished_ticks, 1), same_moment);
-  guest.unpublished_ticks = 0;
-  guest.shown_at = now;
+void Host::publish(Entry& entry, bool same_moment, Clock::time_point now) {
+  entry.robot->publish(std::max<std::uint64_t>(entry.unpublished_ticks, 1), same_moment);
+  entry.unpublished_ticks = 0;
+  entry.shown_at = now;
 }
 
-// System calls cost more than a control unit's tick: sockets are asked only when they have
-// something to say.
+// System calls take longer than a control unit's tick, so sockets are read only when a poll reports
+// data.
 void Host::serveIfDue() {
   if (requests_ready_ || requests_left_ || Clock::now() - served_at_ >= kServeAtLeast) {
     serveAll();
@@ -182,10 +183,10 @@ void Host::serveAll() {
   served_at_ = Clock::now();
   const bool stops_only = holdsRequestsBack();
   requests_left_ = stops_only;
-  for (const Guest& guest : guests_) {
-    guest.robot->serve(stops_only);
+  for (const Entry& entry : entries_) {
+    entry.robot->serve(stops_only);
   }
-  // The next states wait for commands. Their sender may be waiting for an answer of a service.
+  // The next states wait for commands, whose sender may itself wait for the answer of a service.
   const bool states_wait = pace_.waitsForClients() && clientsAreDue();
   for (Service* service : services_) {
     service->serve();
@@ -195,43 +196,43 @@ void Host::serveAll() {
   }
 }
 
-// While the world comes to rest by itself, a request must not meet it at a tick that depends on
-// how fast the client was.
+// While the world comes to rest, a request would take effect at a tick that depends on the client's
+// speed.
 bool Host::holdsRequestsBack() const {
-  const bool hand_busy = std::any_of(guests_.begin(), guests_.end(),
-                                     [](const Guest& guest) { return guest.robot->handBusy(); });
+  const bool hand_busy = std::any_of(entries_.begin(), entries_.end(),
+                                     [](const Entry& entry) { return entry.robot->handBusy(); });
   return pace_.standsStill() && rolling_ > 0 && held_back_ < kLongestDeferral && !hand_busy &&
          !clientsAreDue() && !clientsAreAtLeisure();
 }
 
 bool Host::settled() const {
-  const auto moves = [](const Guest& guest) {
-    return guest.robot->expectsCommand() || guest.robot->settling() || guest.robot->handBusy();
+  const auto moves = [](const Entry& entry) {
+    return entry.robot->expectsCommand() || entry.robot->settling() || entry.robot->handBusy();
   };
   return !pace_.standsStill() || held_back_ >= kLongestDeferral ||
-         (rolling_ == 0 && std::none_of(guests_.begin(), guests_.end(), moves));
+         (rolling_ == 0 && std::none_of(entries_.begin(), entries_.end(), moves));
 }
 
 bool Host::receiveAll() {
   bool all = true;
-  for (Guest& guest : guests_) {
-    const bool here = guest.robot->receiveCommand();
+  for (Entry& entry : entries_) {
+    const bool here = entry.robot->receiveCommand();
     if (here) {
-      guest.given_up = false;
+      entry.given_up = false;
     }
-    all = all && (here || !guest.isDue());
+    all = all && (here || !entry.isDue());
   }
   return all;
 }
 
 void Host::pollUntil(Clock::time_point deadline) {
   fds_.clear();
-  for (const Guest& guest : guests_) {
-    guest.robot->addCommandDescriptor(fds_);
+  for (const Entry& entry : entries_) {
+    entry.robot->addCommandDescriptor(fds_);
   }
   const std::size_t commands = fds_.size();
-  for (const Guest& guest : guests_) {
-    guest.robot->addDescriptors(fds_);
+  for (const Entry& entry : entries_) {
+    entry.robot->addDescriptors(fds_);
   }
   for (const Service* service : services_) {
     service->addDescriptors(fds_);
@@ -248,7 +249,7 @@ void Host::pollUntil(Clock::time_point deadline) {
 Host::Clock::time_point Host::nextDeadline() {
   deadline_ += period_;
   const Clock::time_point now = Clock::now();
-  if (now - deadline_ > kForgivenDelay) {
+  if (now - deadline_ > kMaxCatchUp) {
     deadline_ = now;
   }
   return deadline_;
@@ -271,32 +272,32 @@ void Host::listenUntil(Clock::time_point end) {
 }
 
 bool Host::clientsAreDue() const {
-  return std::any_of(guests_.begin(), guests_.end(),
-                     [](const Guest& guest) { return guest.isDue(); });
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.isDue(); });
 }
 
 bool Host::clientsAreAtLeisure() const {
-  return std::any_of(guests_.begin(), guests_.end(),
-                     [](const Guest& guest) { return guest.robot->asynchronous(); });
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.robot->asynchronous(); });
 }
 
-// In lock-step nothing but the clock says when the next tick of an asynchronous motion is due; in
-// time that flows the others do.
+// In lock-step only the clock says when the next tick of an asynchronous motion is due; if time
+// runs on, the other robots do.
 bool Host::heedsClock() const {
   return pace_.mode == PaceMode::kPatient ||
          (pace_.mode != PaceMode::kFreeRunning && clientsAreAtLeisure());
 }
 
-// Of those that have not been given up.
-bool Host::somebodyIsAwaited() const {
-  return std::any_of(guests_.begin(), guests_.end(), [](const Guest& guest) {
-    return guest.isDue() && !guest.given_up && !guest.robot->receiveCommand();
+// Whether an answer of a client that has not been given up is missing.
+bool Host::answersAreMissing() const {
+  return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
+    return entry.isDue() && !entry.given_up && !entry.robot->receiveCommand();
   });
 }
 
 bool Host::timeMustGoOn() {
-  for (const Guest& guest : guests_) {
-    if (guest.robot->settling() || guest.robot->handBusy() || guest.robot->asynchronous()) {
+  for (const Entry& entry : entries_) {
+    if (entry.robot->settling() || entry.robot->handBusy() || entry.robot->asynchronous()) {
       rolling_ = std::max(rolling_, kTicksAfterAction);
     }
   }
@@ -304,14 +305,14 @@ bool Host::timeMustGoOn() {
 }
 
 void Host::giveUpOnTheSilent() {
-  for (Guest& guest : guests_) {
-    guest.given_up = guest.given_up || (guest.isDue() && !guest.robot->receiveCommand());
+  for (Entry& entry : entries_) {
+    entry.given_up = entry.given_up || (entry.isDue() && !entry.robot->receiveCommand());
   }
 }
 
 void Host::waitInLockStep() {
-  const bool news = std::any_of(guests_.begin(), guests_.end(),
-                                [](const Guest& guest) { return guest.robot->hasNews(); });
+  const bool news = std::any_of(entries_.begin(), entries_.end(),
+                                [](const Entry& entry) { return entry.robot->hasNews(); });
   const bool due = clientsAreDue();
   if (due || news || heedsClock() || Clock::now() - published_at_ >= kTick) {
     publishAll();
@@ -319,9 +320,9 @@ void Host::waitInLockStep() {
   beginWait();
   const Clock::time_point begin = looked_at_;
   prepare_();
-  // Whoever answers takes a while; where nobody does, one look at the sockets is enough.
+  // An answer takes a while; if none is expected, one look at the sockets is enough.
   if (due) {
-    awaitSwiftAnswers(begin);
+    spinForAnswers(begin);
   }
   if (!due || !receiveAll()) {
     pollUntil(due ? begin + kTick : begin);
@@ -352,28 +353,28 @@ void Host::waitInLockStep() {
   }
 }
 
-// Going to sleep and waking up takes longer than many a client needs to answer.
-void Host::awaitSwiftAnswers(Clock::time_point begin) {
-  while (spin_ && !receiveAll() && Clock::now() - begin < kSwiftAnswer) {
+// Going to sleep and waking up takes longer than many clients need to answer.
+void Host::spinForAnswers(Clock::time_point begin) {
+  while (spin_ && !receiveAll() && Clock::now() - begin < kSpinTime) {
   }
 }
 
 void Host::beginWait() {
   looked_at_ = Clock::now();
   waited_ = {};
-  for (Guest& guest : guests_) {
-    guest.starts_shown = guest.isDue() ? 1 : 0;
+  for (Entry& entry : entries_) {
+    entry.starts_shown = entry.isDue() ? 1 : 0;
   }
 }
 
 // @returns whether there is still something to wait for.
 bool Host::waitForClients() {
-  // A process that was held up itself has heard nobody meanwhile: that is not the clients' silence.
+  // Time in which this process did not run must not count as the clients' silence.
   constexpr Clock::duration kLongestLook = 2 * kTick;
   const Clock::time_point now = Clock::now();
   waited_ += std::min<Clock::duration>(now - looked_at_, kLongestLook);
   looked_at_ = now;
-  if (!somebodyIsAwaited() && (receiveAll() || waited_ >= kTick)) {
+  if (!answersAreMissing() && (receiveAll() || waited_ >= kTick)) {
     return false;
   }
   if (waited_ >= pace_.patience) {
@@ -385,25 +386,25 @@ bool Host::waitForClients() {
   return true;
 }
 
-// Clients that the tick does not wait for must see that the robots are there. A state that shows a
-// motion's client nothing new keeps its number: the motion's clock, which counts states, stands
-// still as well. Nothing new goes to a client that owes an answer: it has all it needs.
+// Other clients must see that the robots are there. A state that shows a motion's client nothing
+// new keeps its number: the motion's clock, which counts states, stands still as well. A client
+// that owes an answer gets no new state: it has all it needs.
 void Host::showThatTimeStandsStill(Clock::time_point now) {
-  for (Guest& guest : guests_) {
-    HostedRobot& robot = *guest.robot;
-    if (guest.isStarting()) {
-      // Until its first command a client takes states without answering them.
-      if (now - guest.shown_at >= (guest.starts_shown < kPromptStarts ? kTick : kLaterStarts)) {
-        publish(guest, true, now);
-        guest.starts_shown++;
+  for (Entry& entry : entries_) {
+    HostedRobot& robot = *entry.robot;
+    if (entry.isStarting()) {
+      // Before its first command a client receives states without answering them.
+      if (now - entry.shown_at >= (entry.starts_shown < kPromptStarts ? kTick : kLaterStarts)) {
+        publish(entry, true, now);
+        entry.starts_shown++;
       }
     } else if (!robot.expectsCommand()) {
-      if (now - guest.shown_at >= kTick) {
-        publish(guest, true, now);
+      if (now - entry.shown_at >= kTick) {
+        publish(entry, true, now);
       }
-    } else if (now - guest.shown_at >= kSignOfLife) {
+    } else if (now - entry.shown_at >= kRepeatPeriod) {
       robot.repeat();
-      guest.shown_at = now;
+      entry.shown_at = now;
     }
   }
 }

@@ -29,11 +29,11 @@ bool sendLine(Connection& connection, const std::string& text) {
   return connection.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
 }
 
-/// So long a client that was sent away can read why; of more than so many at a time some cannot.
+/// Time for a refused client to read the reason; and how many such clients are kept at most.
 constexpr std::chrono::seconds kTimeToLeave{1};
 constexpr std::size_t kMostLeaving = 8;
 
-/// Connections accepted in a call; more of them wait for the next one.
+/// Connections accepted per call; others wait for the next call.
 constexpr int kAcceptedAtOnce = 16;
 
 }  // namespace
@@ -160,7 +160,7 @@ void LineServer::published() {
 
 void LineServer::dismiss(std::unique_ptr<Connection> connection, const std::string& sentence) {
   sendLine(*connection, sentence);
-  // Closed at once, with lines of its peer unread, it would take the sentence along.
+  // Closing at once, with unread lines of the peer, would discard the sentence.
   ::shutdown(connection->descriptor(), SHUT_WR);
   if (leaving_.size() < kMostLeaving) {
     leaving_.push_back({std::move(connection), Clock::now() + kTimeToLeave});

@@ -11,7 +11,7 @@
 
 #include "fci/model_library/parameters.h"
 
-// The library of this build, as it stands on the disk after linking.
+// The library of this build, as linked.
 asm(R"(
   .section .rodata
   .balign 16

@@ -18,8 +18,8 @@ namespace {
 // Force laws of the fingers: gains of the original's FrankaGripperSim (decision 29).
 constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
 
-// External torque [Nm] that a real FR3 reports although nothing touches it: the error of its own
-// model, from a public recording (docs/fidelity.md).
+// External torque [Nm] that a real FR3 reports without contact: the error of its own model, from a
+// public recording (docs/fidelity.md).
 constexpr std::array<double, 7> kGravityError{-0.34, -0.39, -0.06, -0.23, -0.05, 0.14, -0.25};
 
 std::string toText(const std::array<double, 7>& values) {

@@ -30,7 +30,7 @@ sockaddr_in toAddress(const std::string& address, std::uint16_t port) {
 }
 
 void setOption(int fd, int level, int option, int value) noexcept {
-  // Options tune; a system without one still serves.
+  // Options only tune the socket; a system without one still serves.
   setsockopt(fd, level, option, &value, sizeof(value));
 }
 
@@ -64,18 +64,19 @@ Descriptor bound(int type, const std::string& what, const std::string& address,
   return result;
 }
 
-/// Connections that the system keeps until they are accepted. Where this queue overflows, a client
-/// tries again only after a second.
+/// Connections queued by the system until they are accepted. If this queue overflows, a client
+/// retries only after a second.
 constexpr int kBacklog = 1024;
 
-/// A process that can open no more sockets looks again after so long (our choice).
+/// Wait after running out of file descriptors (chosen here: short for a client, long for a poll
+/// loop).
 constexpr std::chrono::milliseconds kExhausted{100};
 
-/// A peer that takes nothing, or vanishes without a word, is given up after so long (our choice).
+/// A peer that takes nothing, or vanishes silently, is given up after this time (chosen here).
 constexpr int kSilence = 5000;  // [ms]
 
-/// So many datagrams of others are dropped in one call (our choice).
-constexpr int kMostStrangers = 64;
+/// Datagrams of other senders dropped per call (chosen here: bounds the time of a call).
+constexpr int kMaxForeignDatagrams = 64;
 
 bool wouldBlock(int error) noexcept { return error == EAGAIN || error == EWOULDBLOCK; }
 
@@ -118,7 +119,7 @@ void Listener::close() noexcept {
 
 bool Listener::open() noexcept {
   if (!open_) {
-    // Fails where the socket still has its name, as it does where the system did not choose it.
+    // Fails if the socket still has its name, as it does unless the system chose it.
     ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&name_), sizeof(name_));
     open_ = ::listen(socket_.get(), kBacklog) == 0;
   }
@@ -149,7 +150,7 @@ Connection::Connection(Descriptor socket) : socket_(std::move(socket)) {
   setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPIDLE, 1);
   setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPCNT, 3);
   setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPINTVL, 1);
-  // Keepalive says nothing while something is on its way to the peer.
+  // Keepalive has no effect while data to the peer is unacknowledged.
   setOption(socket_.get(), IPPROTO_TCP, TCP_USER_TIMEOUT, kSilence);
 }
 
@@ -177,7 +178,7 @@ void Connection::consume(std::size_t size) noexcept {
   std::memmove(buffer_, buffer_ + size, filled_);
 }
 
-// @returns false once the peer has vanished; `done` grows by what the system has taken.
+// @returns false once the peer has vanished; `done` grows by the bytes that the system has taken.
 bool Connection::write(Bytes message, std::size_t& done) noexcept {
   while (done < message.size) {
     const ssize_t size =
@@ -251,7 +252,7 @@ Datagrams::Datagrams(const std::string& address)
 void Datagrams::setPeer(const sockaddr_in& peer) noexcept {
   peer_ = peer;
   ::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&peer_), sizeof(peer_));
-  // What an earlier peer has left behind must not cost this one a datagram.
+  // A datagram of an earlier peer must not displace one of this peer.
   int error = 0;
   socklen_t size = sizeof(error);
   ::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size);
@@ -263,13 +264,13 @@ void Datagrams::send(Bytes datagram) noexcept {
 }
 
 std::ptrdiff_t Datagrams::receive(std::uint8_t* buffer, std::size_t capacity) noexcept {
-  for (int i = 0; i < kMostStrangers; i++) {
+  for (int i = 0; i < kMaxForeignDatagrams; i++) {
     sockaddr_in from{};
     socklen_t size = sizeof(from);
     const ssize_t received = ::recvfrom(socket_.get(), buffer, capacity, MSG_TRUNC | MSG_DONTWAIT,
                                         reinterpret_cast<sockaddr*>(&from), &size);
     if (received < 0) {
-      // A peer that has closed its port is reported once in between.
+      // A closed port of the peer is reported once as an error.
       if (errno == EINTR || errno == ECONNREFUSED) {
         continue;
       }

@@ -12,11 +12,10 @@ namespace franka_sim {
 
 namespace {
 
-/// Under held torques an arm drifts away from where its controller keeps it: begin anew this often
-/// [ticks].
+/// Under held torques an arm drifts away from its controlled pose: restart this often [ticks].
 constexpr std::uint32_t kRound = 200;
 
-/// Computing time of this thread [us]: what other programs do does not count.
+/// Computing time of this thread [us]: excludes other programs.
 double threadMicroseconds() noexcept {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -12,11 +12,11 @@ namespace {
 
 constexpr const char* kFileName = "merged.xml";
 
-/// MuJoCo's own handler prints and writes MUJOCO_LOG.TXT into the current folder, from inside the
-/// loop.
+/// Replaces MuJoCo's handler, which prints and writes MUJOCO_LOG.TXT into the current folder, from
+/// inside the loop.
 void ignoreWarning(const char* /*message*/) {}
 
-/// Files in memory that a text may name.
+/// Files in memory that a text may refer to.
 class Files {
  public:
   Files() { mj_defaultVFS(files_.get()); }
@@ -26,7 +26,7 @@ class Files {
   mjVFS* get() { return files_.get(); }
 
  private:
-  /// The struct holds a table of two thousand file names: too large for a stack.
+  /// The struct contains a table of two thousand file names: too large for a stack.
   std::unique_ptr<mjVFS> files_{new mjVFS};
 };
 

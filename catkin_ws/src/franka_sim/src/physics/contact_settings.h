@@ -4,9 +4,9 @@
 
 namespace franka_sim::physics {
 
-/// Physics steps of half a millisecond hold a grasp, whole ones lose it.
+/// Physics steps of half a millisecond hold a grasp; whole ones lose it.
 constexpr const char* kTimestep = "0.0005";
-/// A grasp creeps less, the larger this is; 100 is what holds for a minute.
+/// Larger values reduce the creep of a grasp; 100 holds for a minute.
 constexpr const char* kImpratio = "100";
 /// Between finger pad and graspable object: time constant of two steps, as stiff as is stable.
 constexpr const char* kGraspSolref = "0.001 1";
@@ -24,8 +24,8 @@ constexpr const char* kCondim = "3";
 constexpr const char* kGraspCondim = "4";
 constexpr double kTorsionalFriction = 0.005;  ///< MuJoCo's default [m]
 constexpr double kRollingFriction = 0.0001;   ///< MuJoCo's default [m]
-/// Rubber of the fingers and any other link, where the URDF names none (the fingers' value is that
-/// of the robot description, the other Gazebo's default).
+/// Rubber of the fingers, and any other link, if the URDF gives none (the fingers' value is that of
+/// the robot description, the other Gazebo's default).
 constexpr double kFingerFriction = 1.13;
 constexpr double kLinkFriction = 1.0;
 

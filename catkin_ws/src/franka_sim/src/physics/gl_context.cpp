@@ -75,10 +75,11 @@ class EglContext final : public GlContext {
 
   void createContext() {
     call<decltype(&eglBindAPI)>("eglBindAPI")(EGL_OPENGL_API);
-    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
+    const EGLint attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0,
+                                 EGL_NONE};
     EGLConfig config{};
     EGLint count = 0;
-    call<decltype(&eglChooseConfig)>("eglChooseConfig")(display_, wanted, &config, 1, &count);
+    call<decltype(&eglChooseConfig)>("eglChooseConfig")(display_, attributes, &config, 1, &count);
     context_ = call<decltype(&eglCreateContext)>("eglCreateContext")(
         display_, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
     if (context_ == EGL_NO_CONTEXT) {
@@ -144,17 +145,17 @@ std::unique_ptr<GlContext> attempt(const char* name, std::string* problems) {
 
 std::unique_ptr<GlContext> makeGlContext() {
   const char* variable = std::getenv("FRANKA_SIM_RENDERER");
-  const std::string asked = variable == nullptr ? "" : variable;
-  if (!asked.empty() && asked != "egl" && asked != "osmesa") {
-    throw std::runtime_error("The environment variable FRANKA_SIM_RENDERER is '" + asked +
+  const std::string requested = variable == nullptr ? "" : variable;
+  if (!requested.empty() && requested != "egl" && requested != "osmesa") {
+    throw std::runtime_error("The environment variable FRANKA_SIM_RENDERER is '" + requested +
                              "'; it can be egl or osmesa.");
   }
   std::string problems;
   std::unique_ptr<GlContext> context;
-  if (asked != "osmesa") {
+  if (requested != "osmesa") {
     context = attempt<EglContext>("EGL", &problems);
   }
-  if (!context && asked != "egl") {
+  if (!context && requested != "egl") {
     context = attempt<OsMesaContext>("OSMesa", &problems);
   }
   if (!context) {

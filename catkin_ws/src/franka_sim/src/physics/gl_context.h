@@ -16,10 +16,10 @@ class GlContext {
   virtual std::string name() const = 0;
 };
 
-/// EGL surfaceless, else OSMesa. The environment variable FRANKA_SIM_RENDERER (egl or osmesa) asks
-/// for one of them. Both libraries are loaded here and not linked, so that a simulation without
-/// pictures carries no graphics driver in its memory.
-/// @throws std::runtime_error with a sentence that says why none works and which package to
+/// EGL surfaceless, else OSMesa. The environment variable FRANKA_SIM_RENDERER (egl or osmesa)
+/// selects one of them. Both libraries are loaded here and not linked, so that a simulation without
+/// pictures has no graphics driver in its memory.
+/// @throws std::runtime_error with a sentence that says why neither works and which package to
 /// install.
 std::unique_ptr<GlContext> makeGlContext();
 

@@ -13,10 +13,10 @@
 namespace franka_sim::physics {
 namespace {
 
-/// An absolute path below which there can be no real file, so that nobody takes one for the other.
+/// An absolute path below which no real file can exist.
 constexpr const char* kPlace = "/dev/null/";
 
-/// Texts go from thread to thread (stepping, drawing) and outlive their worlds, so the files do
+/// Texts are passed between threads (stepping, drawing) and outlive their worlds, so the files must
 /// too.
 struct Store {
   std::mutex mutex;
@@ -67,7 +67,7 @@ void lendKeptFiles(const std::string& mjcf, mjVFS* files) {
   for (const std::string& name : namedIn(mjcf)) {
     const auto found = kept.files.find(name);
     if (found == kept.files.end()) {
-      continue;  // MuJoCo says that there is no such file
+      continue;  // MuJoCo reports the missing file
     }
     const std::string& content = found->second;
     if (mj_makeEmptyFileVFS(files, name.c_str(), static_cast<int>(content.size())) != 0) {

@@ -34,7 +34,7 @@ std::string lowerExtension(const std::string& path) {
   return extension;
 }
 
-/// MuJoCo reads STL files without words only.
+/// MuJoCo reads binary STL files only.
 bool isBinaryStl(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const auto size = static_cast<std::int64_t>(file.tellg());
@@ -48,7 +48,7 @@ bool isBinaryStl(const std::string& path) {
   return faces > 0 && faces <= kMostFaces && size == 84 + 50 * static_cast<std::int64_t>(faces);
 }
 
-/// Whether MuJoCo reads it as it is, which is quicker than to make something of it first.
+/// Whether MuJoCo reads the file directly, which is faster than a conversion.
 bool isReady(const std::string& path) {
   const std::string extension = lowerExtension(path);
   return extension == "obj" || (extension == "stl" && isBinaryStl(path));
@@ -65,8 +65,7 @@ std::string convertedFolder(const std::string& path) {
   return path.substr(0, rest) + "mujoco/" + path.substr(rest, path.rfind('.') - rest) + "/";
 }
 
-/// Value after `key` and a colon, up to one of `stops`; quotes and brackets before it do not
-/// matter.
+/// Value after `key` and a colon, up to one of `stops`; leading quotes and brackets are skipped.
 std::string valueAfter(const std::string& line, const std::string& key, const char* stops) {
   const std::size_t at = line.find(key);
   const std::size_t colon = at == std::string::npos ? at : line.find(':', at);
@@ -76,8 +75,8 @@ std::string valueAfter(const std::string& line, const std::string& key, const ch
                                     : line.substr(begin, line.find_first_of(stops, begin) - begin);
 }
 
-/// The installer writes one line a part: `- {file: 0.obj, rgba: [r, g, b, a]}`.
-/// Empty when a part cannot be read: half a link would look broken.
+/// The installer writes one line per part: `- {file: 0.obj, rgba: [r, g, b, a]}`. Empty if a part
+/// cannot be read: half a link would look broken.
 std::vector<MeshPart> readIndex(const std::string& folder) {
   std::ifstream file(folder + "index.yaml");
   std::vector<MeshPart> parts;

@@ -11,15 +11,14 @@
 
 namespace franka_sim::physics {
 
-/// What to draw for a robot's mesh URI: the parts that the mesh installer made of it (one OBJ per
-/// material, listed in `meshes/mujoco/visual/<name>/index.yaml`), the file itself (binary STL,
-/// OBJ), or what `loadMeshToDraw` makes of it, which takes longer. Empty when it cannot be read:
-/// the caller shows something simpler.
+/// Drawable parts of a robot's mesh URI: those of the mesh installer (one OBJ per material, listed
+/// in `meshes/mujoco/visual/<name>/index.yaml`), the file itself (binary STL, OBJ), or the result
+/// of `loadMeshToDraw`, which takes longer. Empty when it cannot be read: the caller shows
+/// something simpler.
 std::vector<MeshPart> visualParts(const std::string& uri, const ResourceResolver& resolve);
 
-/// The file to collide with: itself (binary STL, OBJ) or what `loadMeshToCollide` makes of it.
-/// @throws std::runtime_error with a sentence starting with `where` when it cannot be found or
-/// read.
+/// Collision file: the file itself (binary STL, OBJ) or the result of `loadMeshToCollide`. @throws
+/// std::runtime_error with a sentence starting with `where` when it cannot be found or read.
 std::string collisionFile(const std::string& uri, const ResourceResolver& resolve,
                           const std::string& where);
 

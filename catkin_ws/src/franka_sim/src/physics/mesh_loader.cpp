@@ -14,14 +14,14 @@
 namespace franka_sim::physics {
 namespace {
 
-constexpr double kSheet = 1e-4;  ///< of a flat mesh to look at [m]
-/// Of a flat mesh to collide with [m]: nothing may fall through between two steps.
+constexpr double kSheet = 1e-4;  ///< thickness of a flat visual mesh [m]
+/// Thickness of a flat collision mesh [m]: nothing may pass through it within a step.
 constexpr double kPlate = 0.01;
-constexpr int kMostOfHull = 2000;  ///< vertices: 0.2 s for MuJoCo to find the hull
-/// MuJoCo takes bodies below 1e-15 m^3 for nothing; a body fills a part of its box.
+constexpr int kMostOfHull = 2000;  ///< vertices: MuJoCo needs 0.2 s for their hull
+/// MuJoCo ignores bodies below 1e-15 m^3; a body fills a part of its box.
 constexpr double kLeastBox = 1e-13;  ///< [m^3]
 
-/// Changes with what is asked for and with the file.
+/// Changes with the requested part and with the file.
 std::string keyOf(const MeshSource& source) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(source.file, error);
@@ -31,7 +31,7 @@ std::string keyOf(const MeshSource& source) {
          " " + std::to_string(size);
 }
 
-/// Remembers what was made of which file.
+/// Caches results by key.
 template <typename Result, typename Make>
 Result remembered(const MeshSource& source, const Make& make) {
   static std::mutex mutex;

@@ -16,31 +16,31 @@ struct MeshPart {
   std::optional<std::array<double, 4>> rgba;
 };
 
-/// What of a mesh file is wanted.
+/// Selects a part of a mesh file.
 struct MeshSource {
   std::string file;  ///< path
   Eigen::Vector3d scale{Eigen::Vector3d::Ones()};
   std::string submesh;  ///< empty: all of it
-  bool center{false};   ///< moved so that its bounding box has its middle at the origin
+  bool center{false};   ///< centres its bounding box at the origin
 };
 
 struct DrawnMesh {
-  std::vector<MeshPart> parts;  ///< one a colour
-  bool is_textured{false};      ///< pictures on it are left out
+  std::vector<MeshPart> parts;  ///< one per colour
+  bool is_textured{false};      ///< pictures on it are ignored
 };
 
 struct SolidMesh {
   std::string file;
-  bool is_convex{true};  ///< else its convex hull is what others touch
+  bool is_convex{true};  ///< else its convex hull collides
 };
 
-/// A mesh file of any kind assimp knows, made ready for MuJoCo and kept in memory (kept_files.h); a
-/// file that has not changed is read once. Any thread.
+/// A mesh file of any format assimp knows, converted for MuJoCo and kept in memory (kept_files.h);
+/// an unchanged file is read once. Any thread.
 /// @throws std::runtime_error with a sentence that names the file and what is wrong.
 DrawnMesh loadMeshToDraw(const MeshSource& source);
-/// The same to collide with: the outermost points of all colours, of which MuJoCo takes the hull. A
-/// flat mesh gets a body behind its front.
-/// @throws std::runtime_error also when the mesh has no extent to speak of.
+/// The same for collisions: the outermost points of all colours, of which MuJoCo takes the hull. A
+/// flat mesh gets a volume behind its front.
+/// @throws std::runtime_error also when the mesh has almost no extent.
 SolidMesh loadMeshToCollide(const MeshSource& source);
 
 }  // namespace franka_sim::physics

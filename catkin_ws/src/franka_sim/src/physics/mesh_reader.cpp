@@ -25,7 +25,7 @@ std::optional<std::array<double, 4>> colourOf(const aiMaterial& material) {
   }
   float opacity = 1;
   material.Get(AI_MATKEY_OPACITY, opacity);
-  // Exporters disagree on what is opaque; nobody means a body that cannot be seen.
+  // Exporters disagree on what opaque means; no author means an invisible body.
   const double alpha = opacity > 0 ? opacity : 1;
   return std::array<double, 4>{diffuse.r, diffuse.g, diffuse.b, alpha};
 }
@@ -35,7 +35,7 @@ bool isTextured(const aiMaterial& material) {
          material.GetTextureCount(aiTextureType_BASE_COLOR) > 0;
 }
 
-/// Collects what stands in the tree of nodes.
+/// Collects the meshes in the tree of nodes.
 class Collector {
  public:
   Collector(const aiScene& scene, std::string submesh)
@@ -142,7 +142,7 @@ MeshFile readMeshFile(const std::string& file, const std::string& submesh, bool 
   try {
     result = read(file, submesh, true);
     if (result.parts.empty() && !submesh.empty()) {
-      result = read(file, submesh, false);  // Collada nodes without a name are called by their id
+      result = read(file, submesh, false);  // Collada nodes without a name are found by their id
     }
   } catch (const std::exception& error) {
     throw std::runtime_error("the mesh " + file + " cannot be read: " + error.what());

@@ -10,13 +10,13 @@
 namespace franka_sim::physics {
 
 struct MeshFile {
-  std::vector<TriangleMesh> parts;  ///< one a colour, at least one
-  bool is_textured{false};          ///< colours come from pictures, which nobody draws
+  std::vector<TriangleMesh> parts;  ///< one per colour, at least one
+  bool is_textured{false};          ///< colours come from pictures, which are not drawn
 };
 
 /// Reads a mesh file by Debian's assimp (Collada, STL, OBJ and most others), as Gazebo and rviz do:
-/// transforms of nodes are applied, Collada's <unit> counts and its <up_axis> does not; the numbers
-/// of other kinds are metres. Any thread; may take seconds for large files.
+/// transforms of nodes are applied, Collada's <unit> counts and its <up_axis> does not; numbers in
+/// other formats are metres. Any thread; may take seconds for large files.
 /// @param submesh when not empty, only the nodes or geometries of this name
 /// @param center puts the middle of the bounding box at the origin
 /// @throws std::runtime_error with a sentence that names the file and what is wrong.

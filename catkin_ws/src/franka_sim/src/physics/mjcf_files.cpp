@@ -40,7 +40,7 @@ void loadFile(const std::string& file, const std::string& title, XMLDocument* do
   }
 }
 
-/// Expands below `parent`. MuJoCo reads each file once and relative to the main file; so do we.
+/// Expands below `parent`. Like MuJoCo, reads each file once and relative to the main file.
 void expand(XMLElement* parent, const std::string& folder, const std::string& title,
             std::set<std::string>* seen) {
   XMLElement* element = parent->FirstChildElement();
@@ -71,7 +71,7 @@ void expand(XMLElement* parent, const std::string& folder, const std::string& ti
   }
 }
 
-/// The last value of a compiler attribute; the attribute is removed.
+/// Returns the last value of a compiler attribute and removes the attribute.
 std::string takeCompiler(XMLElement* root, const char* attribute) {
   std::string value;
   for (auto* e = root->FirstChildElement("compiler"); e != nullptr;

@@ -12,7 +12,7 @@ void writeInertial(const UrdfInertial& inertial, tinyxml2::XMLElement* body) {
   if (inertial.mass == 0) {
     return;
   }
-  // Principal axes by our own hand: MuJoCo's diagonalisation is good to 1e-8 only.
+  // Principal axes are computed here: MuJoCo's diagonalisation is accurate to 1e-8 only.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.inertia);
   Eigen::Matrix3d axes = solver.eigenvectors();
   axes.col(2) = axes.col(0).cross(axes.col(1));

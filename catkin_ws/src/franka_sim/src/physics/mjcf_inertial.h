@@ -8,7 +8,7 @@
 
 namespace franka_sim::physics {
 
-/// Writes a body's <inertial>; nothing when it has no mass.
+/// Writes a body's <inertial>, unless it has no mass.
 void writeInertial(const UrdfInertial& inertial, tinyxml2::XMLElement* body);
 
 }  // namespace franka_sim::physics

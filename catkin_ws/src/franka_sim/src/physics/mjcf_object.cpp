@@ -82,7 +82,7 @@ Eigen::Isometry3d isometry(const Pose& pose, const std::string& title) {
   return result;
 }
 
-/// Compiled alone, so that errors are the object's own and every way of writing a pose is known.
+/// Compiles the object alone, so that errors are its own and every pose notation is resolved.
 void place(MjcfObject* object, const Eigen::Isometry3d& pose, const std::string& title) {
   const ModelPtr model = compile(toText(object->document), title);
   XMLElement* worldbody = object->document.RootElement()->FirstChildElement("worldbody");

@@ -14,8 +14,8 @@
 
 namespace franka_sim::physics {
 
-/// A thing put into the world while it runs: MJCF with files absolute, bodies and geoms named and
-/// the outermost bodies at their places.
+/// An object added to the running world: MJCF with absolute files, named bodies and geoms, and its
+/// top-level bodies at their poses.
 struct MjcfObject {
   std::string name;
   tinyxml2::XMLDocument document;
@@ -24,15 +24,15 @@ struct MjcfObject {
 };
 
 /// Reads an object: an SDF text with one model, an MJCF text with bodies, or a lone <body>.
-/// @param pose what stands at the text's origin is put there
-/// @param angle_unit of the world it goes into [rad]; an MJCF text must have the same
+/// @param pose of the text's origin
+/// @param angle_unit of the world [rad]; an MJCF text must use the same
 /// @throws std::runtime_error with a sentence: broken text, sections that would change the whole
-/// world, what MuJoCo refuses.
+/// world, errors of MuJoCo.
 std::shared_ptr<const MjcfObject> readObject(const std::string& name, const std::string& text,
                                              const Pose& pose, double angle_unit,
                                              const ResourceResolver& resolve);
 
-/// Gives geoms without a name one: "<prefix>/geom_<n>".
+/// Names unnamed geoms "<prefix>/geom_<n>".
 void nameGeoms(tinyxml2::XMLElement* body, const std::string& prefix, int* count);
 
 }  // namespace franka_sim::physics

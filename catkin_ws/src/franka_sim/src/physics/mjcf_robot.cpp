@@ -18,8 +18,8 @@ namespace {
 using tinyxml2::XMLElement;
 constexpr std::array<double, 4> kDefaultColour{0.85, 0.87, 0.9, 1};
 
-/// A cylinder with a ball of its radius on both ends is what a URDF can say for a capsule. MuJoCo
-/// has capsules, and collides them many times faster than cylinders.
+/// A URDF expresses a capsule as a cylinder with a ball of its radius on both ends. MuJoCo has
+/// capsules, and collides them many times faster than cylinders.
 std::vector<std::pair<UrdfGeometry, bool>> findCapsules(const std::vector<UrdfGeometry>& shapes) {
   std::vector<std::pair<UrdfGeometry, bool>> result;
   std::set<std::size_t> used;
@@ -166,7 +166,7 @@ class Writer {
     return true;
   }
 
-  /// For links whose visual cannot be read: better the collision shape than a hole in the robot.
+  /// For links whose visual cannot be read: collision shapes instead of a gap in the robot.
   void writeCollisionsToLookAt(const UrdfLink& link, const Eigen::Isometry3d& pose,
                                XMLElement* body) {
     for (const auto& [shape, is_capsule] : findCapsules(link.collisions)) {
@@ -262,11 +262,11 @@ class Writer {
     }
   }
 
-  /// Joints between two segments of the tree.
+  /// Number of joints between two segments of the tree.
   int distance(int a, int b) const {
     int count = 0;
     while (a != b) {
-      // Parents stand before children, so the later one is never an ancestor of the other.
+      // Parents precede children, so the later one is never an ancestor of the other.
       int& later = a > b ? a : b;
       later = robot_.segments[later].parent;
       ++count;
@@ -274,9 +274,8 @@ class Writer {
     return count;
   }
 
-  /// Neighbours overlap by construction, and of the next but one neighbours the convex hulls of
-  /// link5 and link7 do (their joint stops, not their shapes, keep them apart). Fingers meet at
-  /// their stop.
+  /// Neighbours overlap by construction, and the convex hulls of link5 and link7 do too (their
+  /// joint stops, not their shapes, keep them apart). Fingers meet at their stop.
   bool mayCollide(int a, int b) const {
     const bool fingers = isFinger(robot_.urdf.links[robot_.segments[a].link]) &&
                          isFinger(robot_.urdf.links[robot_.segments[b].link]);
@@ -300,8 +299,7 @@ class Writer {
     }
   }
 
-  /// What is screwed to a link stands out from it: the hand can hit the forearm, though link 7
-  /// cannot.
+  /// A part fixed to a link protrudes from it: the hand can hit the forearm, though link 7 cannot.
   void writeAttachedPairs(const Segment& with, const Segment& other) {
     for (const auto& [attached, attached_pose] : with.links) {
       if (attached == with.link || isFinger(robot_.urdf.links[other.link])) {
@@ -348,7 +346,7 @@ class Writer {
       for (const std::string& pad : geoms_of_[link.name]) {
         for (const WorldGeom& other : *target_.world) {
           if (other.graspable && other.collides) {
-            // MuJoCo would take the larger friction; a grasp is as good as the more slippery side.
+            // MuJoCo would take the larger friction; the more slippery side limits a grasp.
             writePair({pad, other.name, std::min(frictionOf(link), other.friction),
                        std::min(kTorsionalFriction, other.torsion), kGraspCondim, kGraspSolref,
                        kGraspSolimp});

@@ -48,14 +48,14 @@ std::string readText(const std::string& file) {
   return text.str();
 }
 
-/// The last element of that name below the root (robots come after everything of the world file);
-/// made when there is none.
+/// The last element of that name below the root (robots come after the world file's content); added
+/// if there is none.
 XMLElement* section(XMLElement* root, const char* name) {
   XMLElement* found = root->LastChildElement(name);
   return found != nullptr ? found : append(root, name);
 }
 
-/// Sections may appear several times; later ones win, so each is read and written in all of them.
+/// Sections may appear several times and later ones win, so all of them are read and written.
 void setEverywhere(XMLElement* root, const char* name, const char* attribute, const char* value) {
   section(root, name);
   for (auto* e = root->FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) {
@@ -63,7 +63,7 @@ void setEverywhere(XMLElement* root, const char* name, const char* attribute, co
   }
 }
 
-/// Compiler settings that would change robots behind their backs.
+/// Refuses compiler settings that would silently change robots.
 void checkCompiler(const XMLElement& root, const std::string& title) {
   for (auto* e = root.FirstChildElement("compiler"); e != nullptr;
        e = e->NextSiblingElement("compiler")) {
@@ -270,7 +270,7 @@ void MjcfWorld::inspect() {
 }
 
 /// Of two surfaces the more slippery one decides, as in Gazebo; MuJoCo would take the rougher one
-/// (decision 37). It takes the one of higher priority first, so the priority is the rank in
+/// (decision 37). It prefers the one of higher priority, so the priority is the rank in
 /// slipperiness.
 void MjcfWorld::rankFrictions(XMLElement* root) const {
   std::map<std::string, double> frictions;

@@ -15,23 +15,23 @@
 
 namespace franka_sim::physics {
 
-/// A world file (MJCF or SDF) and the objects put into it later, ready for robots to be merged in:
-/// includes expanded, file names absolute, the physics settings of this simulator set, geoms named,
-/// and compiled once as a check. Does not change once made.
+/// A world file (MJCF or SDF) and objects added later, ready to be merged with robots: includes
+/// expanded, file names absolute, the physics settings of this simulator set, geoms named, and
+/// compiled once as a check. Immutable.
 class MjcfWorld {
  public:
   /// @param file path of the MJCF or SDF; empty: ground, light and sky.
-  /// @param resolve finds what SDF files name by package:// and model://
+  /// @param resolve finds files that SDF texts name by package:// and model://
   /// @throws std::runtime_error naming the file and what is wrong.
   explicit MjcfWorld(const std::string& file, ResourceResolver resolve = {});
 
-  /// The same with one object more or less. @throws std::runtime_error with a sentence
+  /// A copy with one object more or less. @throws std::runtime_error with a sentence
   std::unique_ptr<MjcfWorld> with(const std::string& object, const std::string& text,
                                   const Pose& pose) const;
   std::unique_ptr<MjcfWorld> without(const std::string& object) const;
 
-  /// The world with robots as MJCF text. @param visuals shapes to look at for the robots.
-  /// @throws std::runtime_error as writeRobot, or when a robot's names are taken by the world.
+  /// The world with robots as MJCF text. @param visuals visual shapes for the robots
+  /// @throws std::runtime_error as writeRobot, or when the world already uses a robot's names.
   std::string merge(const std::vector<const RobotModel*>& robots, bool visuals) const;
 
   /// "World file <path>" or "The built-in world".
@@ -40,7 +40,7 @@ class MjcfWorld {
   std::vector<std::string> objects() const;
   /// Further names of bodies.
   std::vector<BodyAlias> aliases() const;
-  /// What the file, or an object, asks for and nobody simulates.
+  /// Unsupported elements of the file, or of an object.
   std::set<std::string> unsupported(const std::string& object) const;
 
  private:
@@ -60,7 +60,7 @@ class MjcfWorld {
   std::set<std::string> unsupported_;
   double angle_unit_{1};
   std::vector<WorldGeom> geoms_;
-  bool has_priorities_{false};  ///< the author decided which geom's friction counts
+  bool has_priorities_{false};  ///< the author set which geom's friction counts
 };
 
 }  // namespace franka_sim::physics

@@ -20,12 +20,12 @@ void MotorSide::startTick(const mjModel& model, const mjData& data) noexcept {
 }
 
 void MotorSide::addSubstep(const mjModel& model, const mjData& data) noexcept {
-  // The Euler step treats damping implicitly: it acts with the velocity after the step.
+  // The Euler step treats damping implicitly, with the velocity after the step.
   for (int dof = 0; dof < model.nv; ++dof) {
     sum_[dof] += data.qfrc_applied[dof] - model.dof_damping[dof] * data.qvel[dof];
   }
-  // Rows stand in the order equality, dry friction, the rest; those wanted act on one dof with
-  // factor 1.
+  // Rows are ordered: equality, dry friction, others; the relevant ones act on one dof with factor
+  // 1.
   for (int row = 0; row < data.ne + data.nf; ++row) {
     const int id = data.efc_id[row];
     if (data.efc_type[row] == mjCNSTR_FRICTION_DOF) {

@@ -8,22 +8,22 @@
 
 namespace franka_sim::physics {
 
-/// What a torque sensor between gear and link sees, the mean over a tick (decision 2):
+/// Reading of a torque sensor between gear and link, the mean over a tick (decision 2):
 /// motor torque - friction + brake - B (dq_k - dq_{k-1}) / T, per degree of freedom [Nm] or [N].
 ///
-/// Owned by the thread that steps; after `prepare` nothing allocates.
+/// Owned by the stepping thread; allocates only in `prepare`.
 class MotorSide {
  public:
-  /// Sizes everything for a model. @param brake_dofs for every equality the degree of freedom it
+  /// Allocates for a model. @param brake_dofs for every equality the degree of freedom that it
   /// brakes, or -1 for other equalities.
   void prepare(const mjModel& model, std::vector<int> brake_dofs);
-  /// Before the first substep of a tick.
+  /// Call before the first substep of a tick.
   void startTick(const mjModel& model, const mjData& data) noexcept;
-  /// After each substep, while the constraint forces of that substep are still in the data.
+  /// Call after each substep, while the constraint forces of that substep are still in the data.
   void addSubstep(const mjModel& model, const mjData& data) noexcept;
-  /// After the last substep. @param period of the tick [s].
+  /// Call after the last substep. @param period of the tick [s].
   void finishTick(const mjModel& model, const mjData& data, int substeps, double period) noexcept;
-  /// Before anything moved the sensor shows what the motor gives.
+  /// Before any motion the sensor shows the motor's torque.
   void reset(const mjData& data) noexcept;
 
   double torque(int dof) const noexcept { return torque_[dof]; }

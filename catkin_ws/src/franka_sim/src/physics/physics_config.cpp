@@ -11,7 +11,7 @@ namespace franka_sim {
 
 namespace {
 
-/// A list of seven finite numbers under `parent`; absent ones leave `values` as they are.
+/// A list of seven finite numbers under `parent`; if absent, `values` stays as it is.
 void readSeven(const YAML::Node& parent, const std::string& key, const std::string& where,
                std::array<double, 7>& values) {
   const YAML::Node node = parent[key];

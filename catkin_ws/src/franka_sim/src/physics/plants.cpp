@@ -8,10 +8,10 @@
 namespace franka_sim::physics {
 namespace {
 
-/// A number that is none would make MuJoCo reset the whole world; no torque is the lesser evil.
+/// A NaN would make MuJoCo reset the whole world; zero torque is less harmful.
 double finite(double value) noexcept { return std::isfinite(value) ? value : 0.0; }
 
-/// A joint's brake, closed or open. The equality holds q - qpos0 at its constant term.
+/// Closes or opens a joint's brake. The equality holds q - qpos0 at its constant term.
 void writeHold(mjModel& model, const JointSlot& slot, bool closed, double position) noexcept {
   if (slot.brake < 0) {
     return;

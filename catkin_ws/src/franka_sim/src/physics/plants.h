@@ -13,13 +13,13 @@
 
 namespace franka_sim::physics {
 
-/// Where a joint with one degree of freedom lives in the present model.
+/// Indices of a joint with one degree of freedom in the present model.
 struct JointSlot {
   int qpos{-1}, dof{-1};
   int brake{-1};  ///< equality, -1: it has none
 };
 
-/// What plants look at; replaced as a whole when the model is compiled anew.
+/// The model and state that plants use; replaced when the model is recompiled.
 struct PlantView {
   mjModel* model{nullptr};
   mjData* data{nullptr};
@@ -37,13 +37,13 @@ class MujocoArm final : public ArmPlant {
 
   const std::array<std::string, 7>& joints() const noexcept { return joints_; }
   using Slots = std::array<JointSlot, 7>;
-  /// After the model was compiled anew.
+  /// Call after the model was recompiled.
   void bind(const Slots& slots) noexcept { slots_ = slots; }
-  /// Writes brakes into the model as they were; for models compiled anew.
+  /// Restores the brakes in a recompiled model.
   void restoreBrakes() noexcept;
-  /// A joint was put elsewhere: closed brakes hold it there.
+  /// Call after a joint was teleported: closed brakes hold it there.
   void jointWasMoved(const std::string& joint) noexcept;
-  /// Brakes open, no torque.
+  /// Opens brakes, zero torque.
   void reset() noexcept;
 
  private:
@@ -74,7 +74,7 @@ class MujocoHand final : public HandPlant {
   std::array<JointSlot, 2> slots_{};
 };
 
-/// A joint of another device in MuJoCo's arrays. Positions are followed as brakes hold theirs.
+/// A joint of another device in MuJoCo's arrays. Positions are held in the same way as by brakes.
 class MujocoDrive final : public JointDrive {
  public:
   MujocoDrive(const PlantView* view, std::string joint);
@@ -85,13 +85,13 @@ class MujocoDrive final : public JointDrive {
 
   const std::array<std::string, 1>& joints() const noexcept { return joint_; }
   using Slots = std::array<JointSlot, 1>;
-  /// After the model was compiled anew; what is followed is followed on.
+  /// Call after the model was recompiled; follow() stays in effect.
   void bind(const Slots& slots) noexcept;
-  /// The joint was put elsewhere: what is followed is there.
+  /// Call after the joint was teleported: the followed position is there.
   void jointWasMoved(const std::string& joint) noexcept;
-  /// No effort, nothing followed.
+  /// Zero effort, nothing followed.
   void reset() noexcept;
-  /// Before each physics step of a tick, counted from 1: the target moves in even steps, too.
+  /// Call before each physics step of a tick, counted from 1: the target moves in even steps, too.
   void prepare(int substep, int substeps) noexcept;
 
  private:
@@ -102,7 +102,7 @@ class MujocoDrive final : public JointDrive {
   JointSlot slot_{};
   bool follows_{false};
   double last_target_{0},
-      target_{0};  ///< where it was to be at the last tick's end, and at this one's
+      target_{0};  ///< followed position at the last tick's end, and at this one's
 };
 
 }  // namespace franka_sim::physics

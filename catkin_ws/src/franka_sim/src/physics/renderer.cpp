@@ -15,11 +15,11 @@
 namespace franka_sim {
 namespace {
 
-constexpr int kLargestPicture = 4096;  ///< [pixel] a side
+constexpr int kLargestPicture = 4096;  ///< [pixel] per side
 constexpr int kMostGeoms = 4000;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-/// MuJoCo's free camera turns about a point it looks at.
+/// MuJoCo's free camera turns about the point it looks at.
 mjvCamera freeCamera(const Camera& camera) {
   const Eigen::Vector3d from(camera.position.data());
   const Eigen::Vector3d to(camera.target.data());
@@ -46,8 +46,8 @@ void checkSize(int width, int height) {
   }
 }
 
-/// The z-buffer's numbers (rows from the bottom) as distances (rows from the top). 1 is the far end
-/// of what is drawn: nothing was hit.
+/// Converts the z-buffer (rows from the bottom) to distances (rows from the top). 1 is the far end
+/// of the drawn range: no hit.
 std::vector<float> toMetres(const std::vector<float>& buffer, const mjModel& model, int width,
                             int height) {
   const double near = model.vis.map.znear * model.stat.extent;
@@ -92,7 +92,8 @@ struct Renderer::Impl {
     mjv_freeScene(&scene);
   }
 
-  /// Compiles and uploads only when the set of things changed or the picture outgrew the buffer.
+  /// Compiles and uploads only if the set of objects changed or the picture is larger than the
+  /// buffer.
   void prepare(const std::string& text, int width, int height) {
     const bool other_model = drawn.load(text);
     if (!other_model && width <= context.offWidth && height <= context.offHeight) {
@@ -115,7 +116,7 @@ struct Renderer::Impl {
     }
   }
 
-  /// Of the size that the picture has. @param depth null or room for as many pixels
+  /// Draws in the picture's size. @param depth null or an array with one entry per pixel
   void draw(mjvCamera* view, float* depth, Picture* picture) {
     mjvOption option;
     mjv_defaultOption(&option);

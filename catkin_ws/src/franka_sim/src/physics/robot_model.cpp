@@ -11,9 +11,9 @@
 namespace franka_sim::physics {
 namespace {
 
-/// Apparent mass of a finger when the description gives none: motor and gear of the hand are far
-/// heavier than the 15 g finger (our choice; it keeps a finger's force loop at 1 kHz well damped)
-/// [kg].
+/// Apparent mass of a finger when the description gives none [kg]. Chosen here: motor and gear of
+/// the hand are far heavier than the 15 g finger, and it keeps a finger's force loop at 1 kHz well
+/// damped.
 constexpr double kFingerArmature = 0.1;
 /// MuJoCo refuses moving bodies lighter than this [kg], [kg m^2].
 constexpr double kSmallest = 1e-12;
@@ -214,7 +214,7 @@ double RobotModel::initialPosition(const UrdfJoint& joint) const {
   }
   if (!joint.mimic.empty()) {
     const UrdfJoint& leader = urdf.joints[urdf.joint(joint.mimic)];
-    // A mimic of a mimic is not followed further, so that a loop of mimics cannot hang us.
+    // A mimic of a mimic is not followed, so that a loop of mimics ends.
     const double start = leader.mimic.empty() ? initialPosition(leader) : 0.0;
     return joint.mimic_multiplier * start + joint.mimic_offset;
   }

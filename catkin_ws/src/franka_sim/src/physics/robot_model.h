@@ -14,18 +14,18 @@
 
 namespace franka_sim::physics {
 
-/// Links that never move against each other: one MuJoCo body. Fused here rather than left as
-/// jointless bodies, because a third of the bodies costs a third of the kinematics.
+/// Links that never move against each other: one MuJoCo body. They are fused here rather than kept
+/// as jointless bodies, because a third of the bodies costs a third of the kinematics.
 struct Segment {
-  int link{-1};    ///< the link that gives the body its name and frame
+  int link{-1};    ///< the link whose name and frame the body has
   int parent{-1};  ///< index of the parent segment, -1: the world
-  int joint{-1};   ///< index of the joint that moves it against its parent, -1: fixed in the world
+  int joint{-1};   ///< index of the joint between it and its parent, -1: fixed in the world
   Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the parent's body frame
   std::vector<std::pair<int, Eigen::Isometry3d>> links;   ///< with their poses in the body frame
   UrdfInertial inertial;                                  ///< of all links together, body frame
 };
 
-/// A robot ready to be written as MJCF.
+/// A robot ready for writing as MJCF.
 struct RobotModel {
   RobotDescription description;
   UrdfRobot urdf;
@@ -34,24 +34,24 @@ struct RobotModel {
   bool moves(const std::string& joint) const noexcept;
   /// Joint stops: the description's, else the URDF's limits [rad] or [m].
   std::array<double, 2> stops(const UrdfJoint& joint) const;
-  /// Where a joint starts [rad] or [m]: the description's value, the leader's for mimic joints,
-  /// else the value nearest to zero within the stops.
+  /// Start position of a joint [rad] or [m]: the description's value, the leader's for mimic
+  /// joints, else the value nearest to zero within the stops.
   double initialPosition(const UrdfJoint& joint) const;
-  /// Apparent inertia, friction and damping of a joint by the description. When it names none:
-  /// inertia 0 (fingers: kFingerArmature), the rest as in the URDF, but 0 for Franka arms and
-  /// hands, whose URDFs mean something else by it (decision 1).
+  /// Apparent inertia, friction and damping of a joint from the description. If not given: inertia
+  /// 0 (fingers: kFingerArmature), the rest as in the URDF, but 0 for Franka arms and hands, in
+  /// whose URDFs these values have another meaning (decision 1).
   double armature(const UrdfJoint& joint) const;
   double damping(const UrdfJoint& joint) const;
   double friction(const UrdfJoint& joint) const;
-  /// Whether a link slides and carries nothing that moves: a finger, not a lift.
+  /// Whether a link slides and carries no moving link: a finger, not a lift.
   bool isFinger(const UrdfLink& link) const noexcept;
-  /// Whether a joint is one of the seven of a Franka arm or the two of a hand, by the names.
+  /// Whether a joint is, by name, one of the seven of a Franka arm or the two of a hand.
   bool isFranka(const UrdfJoint& joint) const;
 };
 
 /// Reads and checks a robot.
-/// @throws std::runtime_error with a sentence: what readUrdf refuses, moving links without mass,
-/// names of joints that do not exist, starts outside the stops, bad parameters.
+/// @throws std::runtime_error with a sentence: errors of readUrdf, moving links without mass, names
+/// of joints that do not exist, starts outside the stops, bad parameters.
 RobotModel buildRobot(const RobotDescription& description);
 
 }  // namespace franka_sim::physics

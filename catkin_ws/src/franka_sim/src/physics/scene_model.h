@@ -10,14 +10,14 @@
 
 namespace franka_sim::physics {
 
-/// The model that is drawn: compiled from a scene's text, put as the scene says. One thread owns
+/// The model that is drawn: compiled from a scene's text, posed as in the scene. One thread owns
 /// it.
 class SceneModel {
  public:
-  /// Compiles when the text is another than the last one. @returns whether it did
+  /// Compiles if the text differs from the last one. @returns whether it did
   /// @throws std::runtime_error with a sentence when the text does not compile
   bool load(const std::string& mjcf);
-  /// Puts joints and free bodies where the scene has them, all else at its start.
+  /// Poses joints and free bodies as in the scene, all others at their start.
   void pose(const Scene& scene);
 
   mjModel* model() noexcept { return model_.get(); }

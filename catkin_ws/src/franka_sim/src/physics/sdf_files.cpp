@@ -39,7 +39,7 @@ std::string ifThere(const fs::path& path) {
   return fs::exists(path, error) ? path.string() : std::string();
 }
 
-/// Text after a scheme, or empty when the URI has another one.
+/// Text after a scheme, or empty if the URI has another scheme.
 std::string after(const std::string& scheme, const std::string& uri) {
   return uri.compare(0, scheme.size(), scheme) == 0 ? uri.substr(scheme.size()) : std::string();
 }
@@ -78,7 +78,7 @@ std::string SdfFiles::find(const std::string& uri, const std::string& folder) co
       return beside;
     }
   }
-  // A model stands beside the world, beside the model that includes it, or where Gazebo looks.
+  // A model is beside the world, beside the model that includes it, or where Gazebo looks.
   for (const fs::path& base : {here, here / "models", here.parent_path(), here / "..",
                                here / ".." / "models", fs::path(folder_) / ".." / "models"}) {
     const std::string found = ifThere(base / name);
@@ -92,7 +92,7 @@ std::string SdfFiles::find(const std::string& uri, const std::string& folder) co
       return found;
     }
   }
-  // Packages export folders of models, and offer their meshes as model://<package>/...
+  // Packages export model folders, and offer their meshes as model://<package>/...
   for (const char* scheme : {"model://", "package://"}) {
     const std::string found = resolve_ ? resolve_(scheme + name) : std::string();
     if (!found.empty() && !ifThere(found).empty()) {

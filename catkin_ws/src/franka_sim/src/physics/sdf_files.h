@@ -9,7 +9,7 @@
 
 namespace franka_sim::physics {
 
-/// Finds what SDF texts name: `model://`, `package://`, `file://`, paths relative to the text.
+/// Resolves names in SDF texts: `model://`, `package://`, `file://`, paths relative to the text.
 class SdfFiles {
  public:
   SdfFiles(std::string folder, ResourceResolver resolve)
@@ -23,12 +23,11 @@ class SdfFiles {
   ResourceResolver resolve_;
 };
 
-/// Gives an included model what its <include> says of it: name, pose, static, placement_frame,
-/// plugins.
+/// Applies an <include>'s name, pose, static, placement_frame and plugins to the included model.
 void takeOver(const tinyxml2::XMLElement& include, tinyxml2::XMLElement* model);
 
-/// The text with `model://sun` and `model://ground_plane`, which every Gazebo has, written out
-/// where no such model is found. @param model_name when not empty, the root's model gets this name.
+/// Returns the text with `model://sun` and `model://ground_plane`, which every Gazebo has, inserted
+/// if no such model is found. @param model_name when not empty, the root's model gets this name.
 /// @throws std::runtime_error when it is not well-formed XML.
 std::string withStandardModels(const std::string& text, const SdfFiles& files,
                                const std::string& title, const std::string& model_name);

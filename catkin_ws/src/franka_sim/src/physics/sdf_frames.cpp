@@ -13,7 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// More references in a row than frames in any world: they form a circle.
+/// More references in a row than frames in any world mean a circle.
 constexpr int kDeepest = 200;
 
 /// Text before and after the first "::".
@@ -32,7 +32,7 @@ std::string frameOfPose(const XMLElement& element) {
   return pose == nullptr ? std::string() : optional(*pose, "relative_to");
 }
 
-/// What a frame stands in where its pose names nothing.
+/// The reference frame of an element whose pose names none.
 std::string defaultFrame(const XMLElement& element) {
   const std::string kind = element.Name();
   if (kind == "joint") {
@@ -130,7 +130,7 @@ Eigen::Isometry3d SdfFrames::pose(const std::string& frame) const {
   const Frame& found = find(first);
   Eigen::Isometry3d result = poseOf(*found.element, defaultFrame(*found.element));
   if (found.model != nullptr) {
-    // The pose of a model is that of the frame by which it is placed.
+    // The pose of a model is that of its placement frame.
     const std::string placed = optional(*found.element, "placement_frame");
     result = placed.empty() ? result : result * found.model->pose(placed).inverse();
   }

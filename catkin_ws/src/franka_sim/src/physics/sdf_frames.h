@@ -11,14 +11,14 @@
 
 namespace franka_sim::physics {
 
-/// `<pose>` of an element as it is written: metres, then roll, pitch, yaw [rad] (degrees where the
-/// text says so) or a quaternion x y z w. The identity where there is none.
-/// @throws std::runtime_error with a sentence when it does not hold six (seven) finite numbers.
+/// The <pose> of an element as written: metres, then roll, pitch, yaw [rad] (or degrees, if the
+/// text says so) or a quaternion x y z w. The identity if there is none.
+/// @throws std::runtime_error with a sentence if it is not six (seven) finite numbers.
 Eigen::Isometry3d writtenPose(const tinyxml2::XMLElement& element, const std::string& where);
 
 /// The frames of one SDF world or model, and of the models in it: SDF 1.7's pose semantics, where
-/// each pose names the frame that it is relative to. Names of inner models' frames are
-/// "model::frame". Refers to the document, which must outlive it.
+/// each pose names its reference frame. Frames of inner models are named "model::frame". Refers to
+/// the document, which must outlive it.
 class SdfFrames {
  public:
   /// @param scope <world>, <model>, or <sdf> around a lone model
@@ -30,9 +30,10 @@ class SdfFrames {
   /// @throws std::runtime_error when there is no such frame, or poses refer to each other in a
   /// circle.
   Eigen::Isometry3d pose(const std::string& frame) const;
-  /// The pose of an element that stands in `frame` unless its <pose> says otherwise, in the scope.
+  /// The pose of an element in the scope; it is relative to `frame` unless its <pose> says
+  /// otherwise.
   Eigen::Isometry3d poseOf(const tinyxml2::XMLElement& element, const std::string& frame) const;
-  /// The same, in `frame`. Exactly as written where the <pose> is relative to `frame`.
+  /// The same, in `frame`. Exact if the <pose> is relative to `frame`.
   Eigen::Isometry3d poseIn(const tinyxml2::XMLElement& element, const std::string& frame) const;
   /// The link that a frame is fixed to ("model::link" in an inner model), or "world".
   /// @throws std::runtime_error as pose().

@@ -25,7 +25,7 @@ std::string colour(const std::array<double, 3>& rgb) { return toText(rgb.data(),
 
 /// Stiffness of the simulator's own contacts [1/s^2]: 1 / time constant^2 of kContactSolref.
 constexpr double kOwnStiffness = 1 / (0.01 * 0.01);
-/// Of soft contacts the impedance does not depend on depth, so that they are linear springs.
+/// The impedance of soft contacts does not depend on depth, so that they are linear springs.
 constexpr double kSoftImpedance = 0.9;
 constexpr const char* kSoftSolimp = "0.9 0.9 0.001 0.5 2";
 
@@ -83,7 +83,7 @@ class SdfWriter {
   }
 
  private:
-  /// MuJoCo finds the contacts of a plane twice when it belongs to another body than the world.
+  /// MuJoCo finds contacts of a plane twice if it belongs to another body than the world.
   bool belongsToWorld(const SdfLink& link) const {
     return link.is_static &&
            std::any_of(link.collisions.begin(), link.collisions.end(),
@@ -93,7 +93,7 @@ class SdfWriter {
   void nameBodies(const SdfModel& model) {
     const bool alone = model.links.size() == 1;
     for (const int link : model.links) {
-      // Alone, a link takes the model's name and frame: that is what users move and look up.
+      // A single link takes the model's name and frame: users look up and move the model.
       names_[link] = alone ? model.name : scene_.links[link].name;
       const Eigen::Isometry3d& shown = alone ? model.pose : scene_.links[link].pose;
       frames_[link] = shown;
@@ -223,7 +223,7 @@ class SdfWriter {
     geom->SetAttribute("group", "3");
   }
 
-  /// @returns whether it can be had; `unsupported` says why not
+  /// @returns whether the mesh is usable; if not, `unsupported` gives the reason
   bool setSolidMesh(const SdfShape& shape, int link, XMLElement* geom) {
     try {
       const SolidMesh mesh = loadMeshToCollide(shape.mesh);
@@ -257,7 +257,7 @@ class SdfWriter {
     const double damping = surface.kd ? *surface.kd * weight : 2 * std::sqrt(stiffness);
     geom->SetAttribute("solref", toText({-stiffness, -damping}).c_str());
     geom->SetAttribute("solimp", kSoftSolimp);
-    // Its own impedance counts, not the mean with what it touches.
+    // The contact uses its own impedance, not the mean of both surfaces.
     geom->SetAttribute("solmix", "1000000");
   }
 
@@ -334,7 +334,7 @@ class SdfWriter {
     geom->SetAttribute("mesh", known->second.c_str());
   }
 
-  /// Links of a model do not touch each other unless it says <self_collide>.
+  /// Links of a model do not collide with each other unless it says <self_collide>.
   void writeExcludes(const SdfModel& model) {
     for (std::size_t a = 0; !model.self_collide && a < model.links.size(); ++a) {
       for (std::size_t b = a + 1; b < model.links.size(); ++b) {
@@ -364,7 +364,7 @@ class SdfWriter {
     e->SetAttribute("specular", colour(light.specular).c_str());
     e->SetAttribute("attenuation", colour(light.attenuation).c_str());
     e->SetAttribute("castshadow", light.shadows ? "true" : "false");
-    // OpenGL knows cones up to a right angle and, above, light to all sides (180).
+    // OpenGL's cones have up to a right angle; beyond, light to all sides (180).
     e->SetAttribute("cutoff",
                     toText({spot ? std::clamp(light.cutoff / kDegree, 1.0, 90.0) : 180.0}).c_str());
   }

@@ -38,9 +38,9 @@ std::array<double, 3> rgb(const std::array<double, 4>& colour) {
   return {colour[0], colour[1], colour[2]};
 }
 
-/// A model that is being read: where it stands, and what its poses refer to.
+/// A model that is being read: its pose and its frames.
 struct Place {
-  std::string name;  ///< with the models around it
+  std::string name;  ///< prefixed with those of the enclosing models
   const SdfFrames& frames;
   Eigen::Isometry3d pose;  ///< in the world
   bool is_static;

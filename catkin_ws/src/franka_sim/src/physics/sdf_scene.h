@@ -16,15 +16,15 @@
 
 namespace franka_sim::physics {
 
-/// How a surface touches others, as far as SDF and MuJoCo have words for it.
+/// Contact properties of a surface that both SDF and MuJoCo have.
 struct SdfSurface {
   double mu{1};                   ///< Coulomb friction, Gazebo's default
   std::optional<double> torsion;  ///< torsional friction as a lever [m]
   std::optional<double> kp, kd;   ///< contact stiffness [N/m] and damping [N s/m]
-  int bitmask{1};                 ///< two surfaces touch where these share a bit
+  int bitmask{1};                 ///< two surfaces collide if these share a bit
 };
 
-/// What has no colour of its own is drawn so.
+/// Default colour.
 inline constexpr std::array<double, 4> kGrey{{0.7, 0.7, 0.7, 1}};
 
 struct SdfShape {
@@ -37,7 +37,7 @@ struct SdfShape {
   Eigen::Isometry3d pose{
       Eigen::Isometry3d::Identity()};         ///< in the link; a plane's z is its normal
   SdfSurface surface;                         ///< of a collision
-  std::optional<std::array<double, 4>> rgba;  ///< of a visual that says one
+  std::optional<std::array<double, 4>> rgba;  ///< of a visual with a colour
   double opacity{1};                          ///< of a visual
 };
 
@@ -83,7 +83,7 @@ struct SdfJoint {
   double damping{0}, friction{0}, stiffness{0}, reference{0};
 };
 
-/// An outermost model.
+/// A top-level model.
 struct SdfModel {
   std::string name;
   Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the world
@@ -101,28 +101,28 @@ struct SdfScene {
   std::vector<SdfCamera> cameras;
   std::array<double, 3> ambient{{0.4, 0.4, 0.4}};
   std::optional<std::array<double, 3>> background;
-  std::set<std::string> unsupported;  ///< what the text asks for and nobody simulates
+  std::set<std::string> unsupported;  ///< elements of the text that are not simulated
 };
 
-/// Whether a text's root element is <sdf> (or an old <gazebo>).
+/// Whether a text's root element is <sdf> (or <gazebo>, as in old versions).
 bool looksLikeSdf(const std::string& text);
 
-/// Reads an SDF text with a world in it, or with one model. Where Debian has sdformat (Debian 12),
-/// that library checks the text and writes out includes; elsewhere `expandByTinyXml` does.
+/// Reads an SDF text with a world, or with one model. If Debian has sdformat (Debian 12), that
+/// library checks the text and expands includes; otherwise `expandByTinyXml` does.
 ///
-/// Included models and meshes are looked for by `resolve`, next to the file, in the folders of
+/// Included models and meshes are searched by `resolve`, next to the file, and in the folders of
 /// GAZEBO_MODEL_PATH, SDF_PATH and GAZEBO_RESOURCE_PATH; `model://sun` and `model://ground_plane`
-/// are there in any case. Settings of Gazebo's own solver (<physics>, min_depth, max_vel,
-/// max_contacts and the like) mean nothing to MuJoCo and are passed over; everything else that has
-/// no counterpart is named in `unsupported`.
+/// always exist. Settings of Gazebo's own solver (<physics>, min_depth, max_vel, max_contacts and
+/// similar) have no meaning in MuJoCo and are ignored; all other elements without counterpart are
+/// listed in `unsupported`.
 /// @param title names the text in errors
-/// @param model_name empty: a world (or a lone model in the place of one) is read; else the text's
-/// one model, under this name
-/// @throws std::runtime_error with a sentence: what is wrong with the text, no world in the text.
+/// @param model_name empty: a world (or a lone model in place of one) is read; else the text's one
+/// model, under this name
+/// @throws std::runtime_error with a sentence: an error in the text, no world in the text.
 SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
                  const ResourceResolver& resolve, const std::string& model_name = "");
 
-/// The same for a text of sdf_text.h. @param world whether a world is read, or a model.
+/// The same for a text of sdf_text.h. @param world whether to read a world or a model.
 SdfScene readExpandedSdf(const std::string& text, const std::string& title, bool world);
 
 }  // namespace franka_sim::physics

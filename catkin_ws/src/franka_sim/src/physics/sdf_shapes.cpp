@@ -16,7 +16,7 @@ namespace {
 using Kind = SdfShape::Kind;
 using tinyxml2::XMLElement;
 
-/// Where a collision says nothing: all bits.
+/// Default: all bits.
 constexpr unsigned kEveryBit = 65535;
 
 /// Gazebo's plain materials, by the word after "Gazebo/".

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Built where Debian has no sdformat.
+// Used if Debian has no sdformat.
 #include "physics/sdf_text.h"
 
 namespace franka_sim::physics {

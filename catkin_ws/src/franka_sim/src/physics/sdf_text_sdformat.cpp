@@ -12,7 +12,7 @@
 namespace franka_sim::physics {
 namespace {
 
-/// Only sdformat knows which file an element came from.
+/// Only sdformat knows the source file of an element.
 void makeUrisAbsolute(const sdf::ElementPtr& element, const SdfFiles& files) {
   if (element->GetName() == "mesh" && element->HasElement("uri")) {
     const sdf::ElementPtr uri = element->GetElement("uri");

@@ -16,14 +16,14 @@ namespace fs = std::filesystem;
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Models that include each other would never end.
+/// Limit for models that include each other.
 constexpr int kDeepest = 32;
 
 class Expander {
  public:
   Expander(const SdfFiles& files, const std::string& title) : files_(files), title_(title) {}
 
-  /// @param folder of the text, for what it names relative to itself; empty: the main text's.
+  /// @param folder of the text, for relative names in it; empty: the main text's.
   void expand(XMLDocument* document, const std::string& folder, int depth) {
     XMLElement* root = document->RootElement();
     if (root == nullptr) {
@@ -44,7 +44,7 @@ class Expander {
     return version[0];
   }
 
-  /// Into the terms of kSdfVersion, and files into absolute paths.
+  /// Translates into the terms of kSdfVersion, and files into absolute paths.
   void translate(XMLElement* element, double version, const std::string& folder) const {
     const std::string name = element->Name();
     if (name == "pose" && version < 1.7 && !optional(*element, "frame").empty()) {
@@ -79,7 +79,7 @@ class Expander {
     }
   }
 
-  /// The model (or light, or actor) that takes the place of an <include>.
+  /// The model (or light, or actor) that replaces an <include>.
   XMLElement* included(const XMLElement& include, XMLDocument* into, const std::string& folder,
                        int depth) {
     const std::string uri = childText(include, "uri");
@@ -115,7 +115,7 @@ class Expander {
     return fs::is_directory(found) ? fileOfModel(found) : found;
   }
 
-  /// What model.config names of the newest version of SDF.
+  /// The file of the newest SDF version in model.config.
   std::string fileOfModel(const fs::path& folder) const {
     XMLDocument config;
     std::string file = "model.sdf";

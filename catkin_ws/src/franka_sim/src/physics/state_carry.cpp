@@ -51,7 +51,7 @@ void carryState(const mjModel& from, const mjData& from_data, const mjModel& to,
   for (int j = 0; j < from.njnt; ++j) {
     carryJoint(from, from_data, j, to, counterpart(from, j, to), to_data);
   }
-  // World files come first and robots bring neither, so these keep their places.
+  // World files come first and robots have neither, so indices do not change.
   std::copy_n(from_data.mocap_pos, 3 * std::min(from.nmocap, to.nmocap), to_data->mocap_pos);
   std::copy_n(from_data.mocap_quat, 4 * std::min(from.nmocap, to.nmocap), to_data->mocap_quat);
   std::copy_n(from_data.act, std::min(from.na, to.na), to_data->act);

@@ -13,7 +13,7 @@ void keep(std::vector<T>& values, const T* from) noexcept {
   std::copy_n(from, values.size(), values.begin());
 }
 
-// Bits are not compared but numbers, for zeros of either sign do the same.
+// Compares numbers, not bits: zeros of either sign have the same effect.
 template <typename T>
 bool same(const std::vector<T>& values, const T* others) noexcept {
   return std::equal(values.begin(), values.end(), others);
@@ -34,7 +34,7 @@ std::optional<StepFault> findFault(const mjModel& model, const mjData& data) noe
   return position ? position : findFault(data.qvel, model.nv, StepFault::Where::kVelocity);
 }
 
-// What mj_step2 does, but for its reset of a world with wrong accelerations. Merged models have the
+// Like mj_step2, but without the reset of a world with wrong accelerations. Merged models use the
 // Euler integrator.
 std::optional<StepFault> finishStep(const mjModel& model, mjData* data) noexcept {
   mj_fwdActuation(&model, data);
@@ -76,7 +76,7 @@ void StepPreparation::prepare(const mjModel& model, mjData* data) noexcept {
   keep(eq_active_, model.eq_active);
   keep(gravity_, model.opt.gravity);
   mj_step1(&model, data);
-  // Until the step is taken nobody is to see that it was prepared.
+  // Restores the original positions, so that the preparation is not visible until the step.
   keep(unit_qpos_, data->qpos);
   std::copy(qpos_.begin(), qpos_.end(), data->qpos);
   ready_ = true;

@@ -13,11 +13,11 @@
 namespace franka_sim::physics {
 namespace {
 
-/// Below this part of its length a surface is flat: ten times the resolution of its numbers.
+/// Below this fraction of its length a surface is flat: ten times the resolution of its numbers.
 constexpr double kFlat = 1e-6;
 constexpr double kConvexTolerance = 0.01;             ///< of the longest extent
 constexpr double kGoldenAngle = 2.39996322972865332;  ///< pi (3 - sqrt 5)
-/// Faces times vertices that `isConvex` looks at: some milliseconds.
+/// Faces times vertices that `isConvex` checks: some milliseconds.
 constexpr std::size_t kMostComparisons = 4000000;
 
 /// Principal axes as columns, the one of the shortest extent first.
@@ -47,7 +47,7 @@ Eigen::Vector3d extentsAlong(const Eigen::Matrix3d& axes, const TriangleMesh& me
   return most - least;
 }
 
-/// Twice the area, along the outer normal.
+/// Vector of twice the area, along the outer normal.
 Eigen::Vector3d areaVector(const TriangleMesh& mesh, const std::array<int, 3>& face) {
   const Eigen::Vector3d a = mesh.vertices[face[0]].cast<double>();
   return (mesh.vertices[face[1]].cast<double>() - a)
@@ -138,7 +138,7 @@ bool isConvex(const TriangleMesh& mesh) {
     if (area.norm() == 0) {
       continue;
     }
-    // All points stand on one side of a face of a convex body, whichever way the face looks.
+    // All points of a convex body are on one side of each face, whichever way the face points.
     const Eigen::Vector3d normal = area.normalized();
     const double level = normal.dot(mesh.vertices[mesh.faces[f][0]].cast<double>());
     double least = 0, most = 0;
@@ -163,7 +163,7 @@ void keepOutermost(int most, TriangleMesh* mesh) {
                                                   static_cast<Eigen::Index>(mesh->vertices.size()));
   std::set<Eigen::Index> kept;
   for (int i = 0; i < most; ++i) {
-    // Evenly over a ball: equal steps in height, turned by the golden angle each time.
+    // Evenly over a ball: equal steps in height, each turned by the golden angle.
     const double height = 1 - (2 * i + 1.0) / most;
     const double radius = std::sqrt(1 - height * height), angle = i * kGoldenAngle;
     const Eigen::RowVector3f direction(static_cast<float>(radius * std::cos(angle)),

@@ -14,7 +14,7 @@ constexpr int kWidth = 1200, kHeight = 900;  ///< [pixel]
 constexpr int kMostGeoms = 4000;
 constexpr double kZoomStep = 0.05;
 constexpr double kContactDot = 0.004;       ///< [m]
-constexpr double kMetresPerNewton = 0.005;  ///< of the arrows of contact forces
+constexpr double kMetresPerNewton = 0.005;  ///< length of contact force arrows
 
 void toggle(mjtByte& flag) { flag = flag != 0 ? 0 : 1; }
 
@@ -109,8 +109,8 @@ struct Window::Impl {
     return geom;
   }
 
-  /// A dot where things touch and an arrow of the force. The drawn model has shapes to look at,
-  /// which touch nothing: contacts come from the simulation.
+  /// Draws a dot at each contact and an arrow for its force. The drawn model has visual shapes
+  /// only, so contacts come from the simulation.
   void drawContacts(const std::vector<Contact>& contacts) {
     for (const Contact& contact : contacts) {
       const double dot[3] = {kContactDot, kContactDot, kContactDot};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// World: what is wrong with it.
+/// World: checks for errors.
 
 #include <algorithm>
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace {
 
 using physics::StepFault;
 
-/// Bodies that rest on each other give way by less (chosen here).
+/// Penetration of bodies that rest on each other is smaller (chosen here).
 constexpr double kOverlap = 1e-3;  // [m]
 
 std::string quoted(const mjModel& model, int type, int id) {

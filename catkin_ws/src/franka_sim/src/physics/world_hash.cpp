@@ -7,7 +7,7 @@
 namespace franka_sim {
 namespace {
 
-/// FNV-1a over 64-bit words with a final mix: a word at a time is fast enough for every tick.
+/// FNV-1a over 64-bit words with a final mix: word by word is fast enough for every tick.
 class Hash {
  public:
   void add(std::uint64_t word) noexcept {
@@ -42,7 +42,7 @@ std::uint64_t World::Impl::hash() const noexcept {
   hash.add(data->mocap_pos, 3 * model->nmocap);
   hash.add(data->mocap_quat, 4 * model->nmocap);
   hash.add(motor_side.torques().data(), model->nv);
-  // Brakes, from the model: an arm nobody asked for has none closed.
+  // Brakes, from the model: an arm that was never requested has none closed.
   for (int e = 0; e < model->neq; ++e) {
     hash.add(static_cast<std::uint64_t>(model->eq_active[e]));
     hash.add(model->eq_data + mjNEQDATA * e, 1);

@@ -61,7 +61,7 @@ std::vector<std::unique_ptr<RobotModel>> World::Impl::copyRobots() const {
 
 void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
                           std::unique_ptr<physics::MjcfWorld> new_world) {
-  faultText();  // while the model that it speaks of is there
+  faultText();  // while its model still exists
   const physics::MjcfWorld& merged = new_world ? *new_world : *world;
   std::vector<const RobotModel*> list;
   for (const auto& robot : *candidates) {
@@ -84,7 +84,7 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
       torques[nameOf(*model, mjOBJ_JOINT, j)] = motor_side.torque(model->jnt_dofadr[j]);
     }
   }
-  // Nothing below throws but for lack of memory.
+  // Nothing below throws, except for lack of memory.
   robots.swap(*candidates);
   if (new_world) {
     world = std::move(new_world);
@@ -233,7 +233,7 @@ void World::Impl::updateKinematics() noexcept {
   if (kinematics_fresh) {
     return;
   }
-  // mj_kinematics normalises quaternions in place; the future must not depend on who looked.
+  // mj_kinematics normalises quaternions in place; reading must not change the future.
   std::copy_n(data->qpos, model->nq, kept_qpos.begin());
   mj_kinematics(model.get(), data.get());
   std::copy_n(kept_qpos.begin(), model->nq, data->qpos);
@@ -250,7 +250,7 @@ void World::Impl::applyPushes() noexcept {
   updateKinematics();
   mju_zero(data->xfrc_applied, 6 * model->nbody);
   for (const Push& push : pushes) {
-    // MuJoCo takes forces at the centre of mass.
+    // MuJoCo applies forces at the centre of mass.
     const Eigen::Vector3d point = poseOf(*data, push.body) * push.point;
     const Eigen::Map<const Eigen::Vector3d> com(data->xipos + 3 * push.body);
     double* wrench = data->xfrc_applied + 6 * push.body;

@@ -22,7 +22,7 @@ namespace franka_sim {
 
 /// A force at a point fixed to a body, for a number of ticks.
 struct Push {
-  std::string body_name;  ///< to find the body again in a new model
+  std::string body_name;  ///< to find the body again in a recompiled model
   int body;
   Eigen::Vector3d point;          ///< MuJoCo body frame [m]
   Eigen::Vector3d force, torque;  ///< world axes [N] [Nm]
@@ -35,7 +35,7 @@ struct GeomContact {
   std::array<double, 3> position, force;  ///< world axes [m] [N]
 };
 
-/// A link or body by its name: a MuJoCo body and the fixed pose in it.
+/// A link or body by its name: a MuJoCo body and a fixed pose in it.
 struct Frame {
   int body;
   Eigen::Isometry3d pose;
@@ -44,7 +44,7 @@ struct Frame {
 struct World::Impl {
   Impl(const std::string& file, ResourceResolver resolve);
 
-  // World file with objects, and robots, in the order they came.
+  // World file with objects, and robots, in the order of addition.
   std::unique_ptr<physics::MjcfWorld> world;
   std::vector<std::unique_ptr<physics::RobotModel>> robots;
   std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms;      ///< "<robot>/<arm_id>"
@@ -61,27 +61,28 @@ struct World::Impl {
   std::vector<Push> pushes;
   std::uint64_t ticks{0};
   physics::StepPreparation preparation;
-  // Contacts of the last step, once those of the step to come have taken their place in the data.
+  // Whether the last step's contacts are kept in kept_contacts, because the data holds those of the
+  // next step.
   bool contacts_kept{false};
   std::vector<GeomContact> kept_contacts;
   bool kinematics_fresh{false};
-  std::vector<double> kept_qpos;            ///< room for a copy, so that looking allocates nothing
-  std::optional<physics::StepFault> fault;  ///< the world stands still because of it
-  std::string fault_text;                   ///< its sentence; written when first asked for
+  std::vector<double> kept_qpos;  ///< preallocated copy, so that reading allocates nothing
+  std::optional<physics::StepFault> fault;  ///< why the world stands still
+  std::string fault_text;                   ///< its sentence; written on first use
   std::array<bool, mjNWARNING> warned{};    ///< MuJoCo's warnings that were taken
-  std::string visual_mjcf;                  ///< for pictures; written when first asked for
+  std::string visual_mjcf;                  ///< for pictures; written on first use
 
-  /// The model number: snapshots hold for one.
+  /// Number of the model; a snapshot is valid for one.
   std::uint64_t generation{0};
   std::optional<std::array<double, 3>> set_gravity;  ///< other than the world file's
 
-  /// The merged model of the given robots with the present state carried over by name. Strong
-  /// guarantee. @param new_world takes the place of the present one, unless null
+  /// Rebuilds the merged model of the given robots, with the present state carried over by name.
+  /// Strong guarantee. @param new_world replaces the present one, unless null
   void rebuild(std::vector<std::unique_ptr<physics::RobotModel>>* candidates,
                std::unique_ptr<physics::MjcfWorld> new_world = nullptr);
-  /// Copies of the present robots, to build candidates from.
+  /// Copies of the present robots, as a base for candidates.
   std::vector<std::unique_ptr<physics::RobotModel>> copyRobots() const;
-  /// @throws std::runtime_error when a body of that name is there
+  /// @throws std::runtime_error when a body of that name exists
   void checkNewBody(const std::string& body, const std::string& of) const;
   void step() noexcept;
   void prepareStep() noexcept;

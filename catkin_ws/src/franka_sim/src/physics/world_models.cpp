@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// World: its bodies seen as models, and how they move.
+/// World: its bodies grouped into models, and their velocities.
 
 #include <franka_sim/physics/world.h>
 
@@ -43,7 +43,7 @@ WorldModel modelOfRobot(const physics::RobotModel& robot, const World::Impl& wor
   model.body = robot.urdf.links[robot.urdf.root].name;
   std::set<int> bodies;
   for (const physics::UrdfLink& link : robot.urdf.links) {
-    // Robots that stand in the world share a link of this name.
+    // Robots fixed in the world share a link of this name.
     if (link.name != "world") {
       model.links.push_back(link.name);
       bodies.insert(world.frame(link.name).body);
@@ -54,7 +54,7 @@ WorldModel modelOfRobot(const physics::RobotModel& robot, const World::Impl& wor
   return model;
 }
 
-/// A model of the world file, or an object: SDF names its links name::link, MJCF each by itself.
+/// A model of the world file, or an object: SDF names its links name::link, MJCF each separately.
 WorldModel modelOfBody(const std::string& name, const Frame& frame, const World::Impl& world) {
   WorldModel model;
   model.name = model.body = name;
@@ -68,7 +68,7 @@ WorldModel modelOfBody(const std::string& name, const Frame& frame, const World:
   bodies.erase(0);
   if (model.links.empty()) {
     for (const auto& [link, place] : world.frames) {
-      // A body that stands still belongs to the world; several such ones are no single model.
+      // A static body belongs to the world; several of them are no single model.
       if (link == name || (frame.body != 0 && !link.empty() && place.body != 0 &&
                            world.model->body_rootid[place.body] == frame.body)) {
         model.links.push_back(link);
@@ -116,7 +116,7 @@ std::vector<BodyState> World::bodyStates(const std::vector<std::string>& names) 
   for (const std::string& name : names) {
     states.push_back({bodyPose(name), Twist{}});
   }
-  // Velocities of the present positions; mj_comVel writes what the next step computes anyway.
+  // Velocities at the present positions; mj_comVel writes what the next step computes anyway.
   mj_comPos(impl_->model.get(), impl_->data.get());
   mj_comVel(impl_->model.get(), impl_->data.get());
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// World: what comes, goes and is changed from outside while it runs.
+/// World: objects and external changes at run time.
 
 #include <franka_sim/physics/sizes.h>
 #include <franka_sim/physics/world.h>
@@ -54,8 +54,8 @@ std::string World::unsupported(const std::string& object) const {
   for (const std::string& what : impl_->world->unsupported(object)) {
     list += (list.empty() ? "" : "; ") + what;
   }
-  const std::string who = object.empty() ? impl_->world->title() : "Object '" + object + "'";
-  return list.empty() ? list : who + " asks for what is not simulated: " + list + ".";
+  const std::string subject = object.empty() ? impl_->world->title() : "Object '" + object + "'";
+  return list.empty() ? list : subject + " asks for what is not simulated: " + list + ".";
 }
 
 std::vector<std::string> World::bodies() const {

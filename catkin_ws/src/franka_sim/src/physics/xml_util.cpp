@@ -38,7 +38,7 @@ std::vector<double> toNumbers(const std::string& text, const std::string& where)
   std::size_t begin = text.find_first_not_of(kBlanks);
   while (begin != std::string::npos) {
     const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
-    // from_chars knows no leading plus sign, XML authors do.
+    // from_chars rejects a leading plus sign, XML authors write it.
     const char* first = text.data() + begin + (text[begin] == '+' ? 1 : 0);
     double value = 0;
     const auto result = std::from_chars(first, text.data() + end, value);

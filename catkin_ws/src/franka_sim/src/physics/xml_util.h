@@ -15,37 +15,37 @@ namespace franka_sim::physics {
 std::string toText(const double* values, std::size_t count);
 std::string toText(std::initializer_list<double> values);
 std::string toText(const Eigen::Vector3d& vector);
-/// w x y z, as MuJoCo wants it.
+/// w x y z, MuJoCo's order.
 std::string toText(const Eigen::Quaterniond& quaternion);
 
 /// Reads numbers separated by white space. Independent of the locale.
-/// @throws std::runtime_error "<where>: ..." when one is no finite number.
+/// @throws std::runtime_error "<where>: ..." if one is not a finite number.
 std::vector<double> toNumbers(const std::string& text, const std::string& where);
 
-/// The attribute's numbers; `fallback` when the attribute is missing.
-/// @throws std::runtime_error when it does not hold exactly `fallback.size()` finite numbers.
+/// The attribute's numbers; `fallback` if the attribute is missing.
+/// @throws std::runtime_error unless it has exactly `fallback.size()` finite numbers.
 std::vector<double> numbers(const tinyxml2::XMLElement& element, const char* attribute,
                             const std::vector<double>& fallback, const std::string& where);
-/// The attribute's one number. @throws std::runtime_error when it is missing or no finite number.
+/// The attribute's number. @throws std::runtime_error if missing or not finite.
 double number(const tinyxml2::XMLElement& element, const char* attribute, const std::string& where);
-/// The attribute's text. @throws std::runtime_error when missing or empty.
+/// The attribute's text. @throws std::runtime_error if missing or empty.
 std::string required(const tinyxml2::XMLElement& element, const char* attribute,
                      const std::string& where);
-/// The attribute's text, empty when missing.
+/// The attribute's text, empty if missing.
 std::string optional(const tinyxml2::XMLElement& element, const char* attribute);
 
-/// The text of a child element, empty when there is none.
+/// The text of a child element, empty if there is none.
 std::string childText(const tinyxml2::XMLElement& element, const char* name);
-/// Whether a child element says true or 1; `fallback` when there is none.
+/// Whether a child element says true or 1; `fallback` if there is none.
 bool isTrue(const tinyxml2::XMLElement& element, const char* name, bool fallback = false);
-/// The numbers in a child element; `fallback` when there is none.
-/// @throws std::runtime_error when it does not hold exactly `fallback.size()` finite numbers.
+/// The numbers in a child element; `fallback` if there is none.
+/// @throws std::runtime_error unless it has exactly `fallback.size()` finite numbers.
 std::vector<double> childNumbers(const tinyxml2::XMLElement& element, const char* name,
                                  const std::vector<double>& fallback, const std::string& where);
 
 /// Appends a child element and returns it.
 tinyxml2::XMLElement* append(tinyxml2::XMLNode* parent, const char* name);
-/// Sets position and quaternion attributes, leaving out what is the identity.
+/// Sets position and quaternion attributes, except identity values.
 void setPose(tinyxml2::XMLElement* element, const Eigen::Isometry3d& pose);
 
 /// Printed document.

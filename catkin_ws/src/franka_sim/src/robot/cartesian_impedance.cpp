@@ -17,12 +17,12 @@ using Matrix7 = Eigen::Matrix<double, 7, 7>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-// Keeps the null space projector smooth where the arm is singular. Elsewhere (smallest singular
-// value s above 0.1) it leaks less than 1e-4 of the soft null space spring into the task.
+// Keeps the null space projector smooth at singularities. Elsewhere (smallest singular value s
+// above 0.1) less than 1e-4 of the soft null space spring leaks into the task.
 constexpr double kProjectorDamping = 1e-6;
 
 struct Task {
-  Vector6 error;  // wanted minus measured, axes of K
+  Vector6 error;  // desired minus measured, axes of K
   Vector6 speed;  // the same of the twists
   Jacobian J;     // of K's origin, axes of K
 };
@@ -60,15 +60,15 @@ Task taskOf(const CartesianImpedanceInput& in) noexcept {
 
 Vector7 nullSpaceTorque(const CartesianImpedanceInput& in, const Matrix7& M,
                         const Jacobian& J) noexcept {
-  Vector7 wanted;
+  Vector7 spring;
   for (int i = 0; i < 7; i++) {
     const double damping = 2.0 * std::sqrt(in.nullspace_stiffness * M(i, i));
-    wanted[i] = in.nullspace_stiffness * (in.q_d[i] - in.q[i]) - damping * in.dq[i];
+    spring[i] = in.nullspace_stiffness * (in.q_d[i] - in.q[i]) - damping * in.dq[i];
   }
   Matrix6 gram = J.lazyProduct(J.transpose());
   gram.diagonal().array() += kProjectorDamping;
-  const Vector6 task_part = gram.llt().solve(Vector6(J.lazyProduct(wanted)));
-  return wanted - J.transpose().lazyProduct(task_part);
+  const Vector6 task_part = gram.llt().solve(Vector6(J.lazyProduct(spring)));
+  return spring - J.transpose().lazyProduct(task_part);
 }
 
 }  // namespace

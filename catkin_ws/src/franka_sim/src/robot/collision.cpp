@@ -24,7 +24,7 @@ Collision worstOf(const std::array<double, N>& values,
   Collision worst;
   for (std::size_t i = 0; i < N; i++) {
     const double value = std::abs(values[i]);
-    // Ratios, multiplied out: a threshold may be 0.
+    // Ratios, cross-multiplied: a threshold may be 0.
     if (value > upper[i] &&
         (!worst.happened || value * worst.threshold > std::abs(worst.value) * upper[i])) {
       worst = {true, i, values[i], upper[i]};

@@ -19,11 +19,11 @@ bool isDeviation(const franka_core::fci::Deviation& deviation) noexcept {
 
 bool deviates(const franka_core::RobotState& state,
               const franka_core::fci::Deviation& allowed) noexcept {
-  const Eigen::Map<const Eigen::Matrix4d> wanted(state.O_T_EE_d.data());
+  const Eigen::Map<const Eigen::Matrix4d> desired(state.O_T_EE_d.data());
   const Eigen::Map<const Eigen::Matrix4d> measured(state.O_T_EE.data());
-  const Eigen::Vector3d away = wanted.topRightCorner<3, 1>() - measured.topRightCorner<3, 1>();
+  const Eigen::Vector3d away = desired.topRightCorner<3, 1>() - measured.topRightCorner<3, 1>();
   const Eigen::Matrix3d turn =
-      measured.topLeftCorner<3, 3>().transpose() * wanted.topLeftCorner<3, 3>();
+      measured.topLeftCorner<3, 3>().transpose() * desired.topLeftCorner<3, 3>();
   return away.norm() > allowed.translation || Eigen::AngleAxisd(turn).angle() > allowed.rotation ||
          std::abs(state.elbow_d[0] - state.elbow[0]) > allowed.elbow;
 }

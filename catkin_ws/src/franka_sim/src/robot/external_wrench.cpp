@@ -17,8 +17,7 @@ using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 constexpr double kSmallestSingularValue = 0.02;  // (decision 5)
 
-// A symmetric matrix minus s^2 times one is positive definite exactly if its eigenvalues exceed
-// s^2.
+// A symmetric matrix minus s^2 I is positive definite if and only if its eigenvalues exceed s^2.
 bool isSingular(const Matrix6& gram) noexcept {
   Matrix6 shifted = gram;
   shifted.diagonal().array() -= kSmallestSingularValue * kSmallestSingularValue;
@@ -34,7 +33,7 @@ void ExternalWrench::update(const Transform& O_T_EE, const std::array<double, 42
   const Eigen::Matrix3d O_R_EE = EE.topLeftCorner<3, 3>();
   Eigen::Map<Eigen::Matrix3d>(O_R_K_.data()).noalias() = O_R_EE * K.topLeftCorner<3, 3>();
 
-  // The origin of K turns with the end effector: v_K = v_EE + w x r.
+  // The origin of K moves with the end effector: v_K = v_EE + w x r.
   Jacobian jacobian = Eigen::Map<const Jacobian>(J_EE.data());
   const Eigen::Vector3d r = O_R_EE * K.topRightCorner<3, 1>();
   for (int i = 0; i < 7; i++) {

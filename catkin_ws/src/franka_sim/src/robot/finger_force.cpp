@@ -8,7 +8,7 @@ namespace franka_sim {
 
 namespace {
 
-constexpr double kLargestIntegral = 10.0;  // [N], our choice: a stuck finger must not wind up
+constexpr double kLargestIntegral = 10.0;  // [N], chosen here: prevents windup of a stuck finger
 
 }  // namespace
 

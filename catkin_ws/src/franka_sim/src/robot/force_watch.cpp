@@ -11,7 +11,7 @@ using franka_core::RobotError;
 
 namespace {
 
-// Chosen here: see ForceWatch. No rule is published.
+// Chosen here (see ForceWatch): no rule is published.
 constexpr double kTolerance = 10.0;  // [Nm]
 constexpr int kPatience = 100;       // [ticks]
 

@@ -12,11 +12,11 @@ namespace franka_sim {
 
 namespace {
 
-constexpr double kForceRise = 0.05;  // [s] until a grasp presses with its full force (our choice)
-/// How far the asked width runs ahead before standing fingers tell of an obstacle [m] (our choice:
-/// free fingers follow long before).
+constexpr double kForceRise = 0.05;  // [s] until a grasp reaches its full force (chosen here)
+/// The desired width may lead by this [m] before fingers that stand still mean an obstacle (chosen
+/// here: free fingers follow much earlier).
 constexpr double kReportingLag = 1e-3;
-constexpr double kSlowest = 1e-5;  // [m/s]: what moves slower does not move (our choice)
+constexpr double kSlowest = 1e-5;  // [m/s]: slower counts as standing still (chosen here)
 constexpr double kPressingDamping =
     20.0;  // [N s/m] at most: stable at 1 kHz for fingers from 0.015 kg on
 
@@ -136,7 +136,7 @@ void GripperUnit::drive(double target, double speed) noexcept {
   pressing_ = false;
 }
 
-// Commands may come before the first measurement; where they start from is known in a step.
+// Commands may come before the first measurement; the start width is known only in a step.
 void GripperUnit::begin() noexcept {
   begun_ = true;
   if (state_ == GripperState::kIdle) {
@@ -197,13 +197,13 @@ bool GripperUnit::resting(double period) noexcept {
   if (pressing_ || ramp_.arrived()) {
     standstill_.countFromNow();
   } else {
-    // A slow command must not look like standstill.
+    // A slow command must not count as standstill.
     threshold = std::min(threshold, std::max(0.25 * speed_, kSlowest));
   }
-  // What an object that is let go does to the fingers is not yet the motion that was asked for.
-  const bool asked =
+  // Motion of the fingers when an object is released is not yet the commanded motion.
+  const bool commanded =
       pressing_ || ramp_.arrived() || std::abs(ramp_.width() - width()) > kReportingLag;
-  return standstill_.update(measured_.dq[0] + measured_.dq[1], threshold, period, asked);
+  return standstill_.update(measured_.dq[0] + measured_.dq[1], threshold, period, commanded);
 }
 
 void GripperUnit::advanceMove(bool resting) noexcept {
@@ -216,7 +216,7 @@ void GripperUnit::advanceMove(bool resting) noexcept {
     drive(parameters_.max_width, parameters_.homing_speed);
   } else {
     tickets_.close(GripperOutcome::kSucceeded);
-    state_ = GripperState::kIdle;  // and the ramp keeps the width asked for
+    state_ = GripperState::kIdle;  // the ramp keeps the desired width
   }
 }
 
@@ -254,7 +254,7 @@ std::array<double, 2> GripperUnit::follow(double period) noexcept {
   return force;
 }
 
-// The fingers centre on each other while they press, as the hand's mechanics do.
+// The fingers centre on each other while they press, like the mechanics of the real hand.
 std::array<double, 2> GripperUnit::press() const noexcept {
   const double rise = std::min(pressed_ / kForceRise, 1.0);
   std::array<double, 2> force;

@@ -8,7 +8,7 @@
 
 namespace franka_sim {
 
-// Outwards along the chain, everything in the axes of the link that has been reached.
+// Recursion from base to flange, in the axes of the present link.
 LinkAccelerations linkAccelerations(const franka_core::ArmModel& model,
                                     const std::array<double, 7>& q, const std::array<double, 7>& dq,
                                     const std::array<double, 7>& ddq,

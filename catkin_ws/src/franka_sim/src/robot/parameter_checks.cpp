@@ -29,8 +29,8 @@ bool allFiniteNotNegative(const std::array<double, N>& values) noexcept {
                      [](double v) { return std::isfinite(v) && v >= 0.0; });
 }
 
-// Sylvester for semidefinite matrices: no principal minor is negative. The tolerances are relative,
-// so that matrices printed with six digits pass.
+// Sylvester's criterion for semidefinite matrices: no principal minor is negative. Relative
+// tolerances, so that matrices printed with six digits pass.
 bool isInertia(const std::array<double, 9>& inertia) noexcept {
   const Eigen::Map<const Eigen::Matrix3d> I(inertia.data());
   const double scale = I.cwiseAbs().maxCoeff();
@@ -50,7 +50,7 @@ bool isInertia(const std::array<double, 9>& inertia) noexcept {
 
 constexpr double kMaxGravity = 100.0;  // [m/s^2], as the world's (physics/sizes.h)
 
-// Not std::hypot of three: it may take a number that is not finite for 0.
+// Not std::hypot of three: it may return 0 for a number that is not finite.
 double distance(double x, double y, double z) noexcept { return std::sqrt(x * x + y * y + z * z); }
 
 double distanceOf(const franka_core::Payload& payload) noexcept {

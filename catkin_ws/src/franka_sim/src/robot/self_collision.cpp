@@ -13,7 +13,7 @@ namespace franka_sim {
 namespace {
 
 constexpr double kHalfRoot = 0.70710678118654752440;  // cos and sin of 45 degrees
-constexpr double kJitter = 1e-4;  // [m], chosen here: overlaps may deepen so much at rest
+constexpr double kJitter = 1e-4;  // [m], chosen here: allowed growth of an overlap at rest
 
 struct Ends {
   Eigen::Vector3d from, to;
@@ -25,7 +25,7 @@ constexpr bool canMeet(int a, int b) noexcept {
   return high - low >= 2 && !(low == 1 && high == 3);
 }
 
-// Where the capsules are in O.
+// The capsules in O.
 std::array<Ends, kCapsuleCount> place(const franka_core::ArmModel& model,
                                       const std::array<double, 7>& q) noexcept {
   std::array<Eigen::Isometry3d, 9> frames;
@@ -60,10 +60,10 @@ double distanceOf(const Ends& a, const Ends& b) noexcept {
   const double ur = u.dot(r);
   const double vr = v.dot(r);
   const double determinant = uu * vv - uv * uv;
-  // Where on a, were both lines endless; parallel ones may start anywhere.
+  // Nearest point on a if both lines were infinite; parallel ones may start anywhere.
   double s =
       determinant > 1e-12 * uu * vv ? std::clamp((uv * vr - ur * vv) / determinant, 0.0, 1.0) : 0.0;
-  // The nearest point of b to that, and if it is beyond b's end, the nearest of a to that end.
+  // The nearest point on b to that, and if it is beyond b's end, the nearest on a to that end.
   double t = vv > 0.0 ? (uv * s + vr) / vv : 0.0;
   if (t < 0.0 || t > 1.0 || vv <= 0.0) {
     t = std::clamp(t, 0.0, 1.0);

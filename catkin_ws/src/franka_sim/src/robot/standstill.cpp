@@ -18,10 +18,10 @@ void Standstill::restart() noexcept {
   counting_ = false;
 }
 
-bool Standstill::update(double speed, double threshold, double period, bool asked) noexcept {
+bool Standstill::update(double speed, double threshold, double period, bool commanded) noexcept {
   elapsed_ += period;
   const bool moves = std::abs(speed) > threshold;
-  counting_ = counting_ || (moves && asked) || elapsed_ >= kPatience;
+  counting_ = counting_ || (moves && commanded) || elapsed_ >= kPatience;
   if (moves || !counting_) {
     below_ = 0;
     return false;

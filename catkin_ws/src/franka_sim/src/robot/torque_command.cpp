@@ -22,7 +22,7 @@ std::array<double, 7> saturate(const std::array<double, 7>& tau,
 bool TorqueCommand::jumps(const std::array<double, 7>& tau) const noexcept {
   constexpr double kStep = (1000.0 + 0.01) * kTick;
   for (std::size_t i = 0; i < 7; i++) {
-    const double step = std::min(std::abs(tau[i] - tau_[i]), std::abs(tau[i] - asked_[i]));
+    const double step = std::min(std::abs(tau[i] - tau_[i]), std::abs(tau[i] - commanded_[i]));
     if (!(step <= kStep)) {
       return true;
     }
@@ -34,7 +34,7 @@ bool TorqueCommand::receive(const std::array<double, 7>& tau) noexcept {
   if (!franka_core::allFinite(tau)) {
     return false;
   }
-  asked_ = tau;
+  commanded_ = tau;
   tau_ = saturate(tau, limit_);
   return true;
 }

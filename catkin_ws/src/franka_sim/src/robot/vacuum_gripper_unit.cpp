@@ -49,7 +49,7 @@ VacuumGripperUnit::Ticket VacuumGripperUnit::vacuum(double vacuum, std::int64_t 
     return 0;
   }
   const Ticket ticket = tickets_.open();
-  wanted_ = vacuum;
+  set_point_ = vacuum;
   begin(State::kPumping, timeout);
   return ticket;
 }
@@ -101,7 +101,7 @@ void VacuumGripperUnit::step(double period) noexcept {
   }
   elapsed_ += period;
   const bool blowing = state_ == State::kBlowing;
-  if (blowing ? level_ <= parameters_.detached_vacuum : level_ >= wanted_) {
+  if (blowing ? level_ <= parameters_.detached_vacuum : level_ >= set_point_) {
     detached_ = blowing;
     end(blowing ? State::kOff : State::kHolding, GripperOutcome::kSucceeded);
   } else if (elapsed_ >= timeout_ - 0.5 * period) {
@@ -116,9 +116,9 @@ void VacuumGripperUnit::flow(double period) noexcept {
   } else if (state_ == State::kOff) {
     approach(0.0, part_ ? p.leak_time : p.blow_time, period);
   } else if (!part_) {
-    // Air that enters through an open cup is faster than the pump.
+    // Air enters through an open cup faster than the pump works.
     approach(p.open_vacuum, level_ > p.open_vacuum ? p.blow_time : p.pump_time, period);
-  } else if (state_ == State::kPumping || level_ < wanted_) {
+  } else if (state_ == State::kPumping || level_ < set_point_) {
     approach(p.sealed_vacuum, p.pump_time, period);
   }
 }
@@ -128,14 +128,14 @@ void VacuumGripperUnit::approach(double level, double time, double period) noexc
 }
 
 double VacuumGripperUnit::power() const noexcept {
-  if (state_ == State::kPumping || (state_ == State::kHolding && level_ < wanted_)) {
+  if (state_ == State::kPumping || (state_ == State::kHolding && level_ < set_point_)) {
     return 100.0;
   }
   return state_ == State::kHolding ? parameters_.idle_power : 0.0;
 }
 
 bool VacuumGripperUnit::inControlRange() const noexcept {
-  return state_ == State::kHolding && level_ >= wanted_ - parameters_.hysteresis;
+  return state_ == State::kHolding && level_ >= set_point_ - parameters_.hysteresis;
 }
 
 }  // namespace franka_sim

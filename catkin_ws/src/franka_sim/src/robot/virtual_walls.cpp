@@ -13,7 +13,7 @@ using franka_core::fci::CartesianLimit;
 
 namespace {
 
-constexpr double kJitter = 1e-4;  // [m], chosen here: the depth may grow so much at rest
+constexpr double kJitter = 1e-4;  // [m], chosen here: allowed growth of the depth at rest
 
 }  // namespace
 
@@ -34,7 +34,7 @@ const CartesianLimit* VirtualWalls::get(std::int32_t id) const noexcept {
                                                           : nullptr;
 }
 
-// How far inside, 0 or less outside.
+// Depth inside; 0 or less outside.
 double VirtualWalls::depth(const CartesianLimit& wall,
                            const std::array<double, 16>& O_T_EE) noexcept {
   const Eigen::Map<const Eigen::Matrix4d> frame(wall.object_frame.data());

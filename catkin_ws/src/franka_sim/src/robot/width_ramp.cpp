@@ -9,7 +9,7 @@ namespace franka_sim {
 
 namespace {
 
-constexpr double kAcceleration = 1.0;  // of the width [m/s^2]: full speed within 0.1 s (our choice)
+constexpr double kAcceleration = 1.0;  // [m/s^2] full speed within 0.1 s (chosen here)
 
 }  // namespace
 

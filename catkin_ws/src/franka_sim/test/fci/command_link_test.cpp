@@ -8,7 +8,7 @@
 namespace franka_sim::fci {
 namespace {
 
-/// Sends commands 1 to `count`; the ids that come out, 0 where nothing does.
+/// Sends commands 1 to `count`; returns the ids at the output, 0 for none.
 std::vector<std::uint64_t> send(CommandLink& link, std::uint64_t count) {
   std::vector<std::uint64_t> out;
   for (std::uint64_t id = 1; id <= count; id++) {
@@ -20,31 +20,31 @@ std::vector<std::uint64_t> send(CommandLink& link, std::uint64_t count) {
   return out;
 }
 
-TEST(CommandLink, passesEverythingAtFirst) {
+TEST(CommandLink, PassesAllCommandsByDefault) {
   CommandLink link;
   EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{1, 2, 3, 4}));
   EXPECT_EQ(link.pass(nullptr), nullptr);
 }
 
-TEST(CommandLink, delaysByWholeTicks) {
+TEST(CommandLink, DelaysByWholeTicks) {
   CommandLink link;
   link.setDelay(1);
   EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{0, 1, 2, 3}));
   link.setDelay(2);
   EXPECT_EQ(send(link, 5), (std::vector<std::uint64_t>{0, 0, 1, 2, 3}));
-  // What is under way arrives though nothing follows.
+  // Commands in transit arrive even if nothing follows.
   EXPECT_EQ(link.pass(nullptr)->message_id, 4U);
   EXPECT_EQ(link.pass(nullptr)->message_id, 5U);
   EXPECT_EQ(link.pass(nullptr), nullptr);
 }
 
-TEST(CommandLink, losesTheNextOnes) {
+TEST(CommandLink, LosesTheNextCommandsOnDemand) {
   CommandLink link;
   link.loseNext(2);
   EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{0, 0, 3, 4}));
 }
 
-TEST(CommandLink, forgetsWhatIsUnderWay) {
+TEST(CommandLink, ClearDropsCommandsInTransit) {
   CommandLink link;
   link.setDelay(2);
   send(link, 5);
@@ -54,7 +54,7 @@ TEST(CommandLink, forgetsWhatIsUnderWay) {
   EXPECT_EQ(send(link, 4), (std::vector<std::uint64_t>{0, 0, 1, 2})) << "the delay stays";
 }
 
-TEST(CommandLink, losesTheSameAgainAfterARestart) {
+TEST(CommandLink, RepeatsItsLossesAfterARestart) {
   CommandLink link;
   link.setDelay(1);
   link.setLoss(0.5, 7);
@@ -64,7 +64,7 @@ TEST(CommandLink, losesTheSameAgainAfterARestart) {
   EXPECT_EQ(send(link, 100), first);
 }
 
-TEST(CommandLink, losesTheShareItIsToldAndTheSameEachTime) {
+TEST(CommandLink, LosesTheConfiguredShareRepeatably) {
   constexpr std::uint64_t kCount = 20000;
   std::vector<std::uint64_t> first;
   for (const std::uint64_t seed : {7U, 7U, 8U}) {

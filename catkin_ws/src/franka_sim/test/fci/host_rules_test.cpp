@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// When a host's time goes on, with a robot that does nothing but count.
+// When the host runs a tick, tested with a robot that only counts.
 #include <franka_sim/fci/host.h>
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ class HostRules : public ::testing::Test {
     while (steps < due && Clock::now() < deadline) {
       std::this_thread::sleep_for(milliseconds(1));
     }
-    std::this_thread::sleep_for(milliseconds(50));  // in which a world that runs would go on
+    std::this_thread::sleep_for(milliseconds(50));  // time for a running world to go on
     const int ran = steps;
     stop = true;
     running.join();
@@ -103,8 +103,8 @@ Pace waiting(PaceMode mode) {
   return pace;
 }
 
-TEST_F(HostRules, RealTimeGoesOnWithoutAnAnswer) {
-  // From the clock's start: a host that was held up makes up for it.
+TEST_F(HostRules, RealTimeDoesNotWaitForAnswers) {
+  // Measured from the clock's start: the host makes up for delays.
   const Clock::time_point begin = Clock::now();
   use(Pace{});
   robot.moving = true;
@@ -116,7 +116,7 @@ TEST_F(HostRules, RealTimeGoesOnWithoutAnAnswer) {
   EXPECT_EQ(0, robot.answered);
 }
 
-TEST_F(HostRules, APatientHostWaitsForEachAnswer) {
+TEST_F(HostRules, PatientPaceWaitsForEachAnswer) {
   use(waiting(PaceMode::kPatient));
   robot.moving = true;
   robot.delay = milliseconds(5);
@@ -124,7 +124,7 @@ TEST_F(HostRules, APatientHostWaitsForEachAnswer) {
   EXPECT_EQ(20, robot.answered);
 }
 
-TEST_F(HostRules, APatientHostIsNoFasterThanTheClock) {
+TEST_F(HostRules, PatientPaceIsNotFasterThanTheClock) {
   const Clock::time_point begin = Clock::now();
   use(waiting(PaceMode::kPatient));
   robot.moving = true;
@@ -134,15 +134,15 @@ TEST_F(HostRules, APatientHostIsNoFasterThanTheClock) {
   robot.moving = false;
   timeOf(50);
   EXPECT_GE(Clock::now() - begin, milliseconds(100));
-  EXPECT_EQ(100, robot.published) << "who looks on sees each millisecond";
+  EXPECT_EQ(100, robot.published) << "each millisecond is published";
 }
 
-TEST_F(HostRules, APatientHostGivesUpASilentClientAndWaitsForItAgainWhenItSpeaks) {
+TEST_F(HostRules, PatientPaceGivesUpASilentClientUntilItAnswersAgain) {
   use(waiting(PaceMode::kPatient));
   robot.moving = true;
   robot.answers = false;
   EXPECT_GE(timeOf(1), milliseconds(50));
-  EXPECT_LT(timeOf(20), milliseconds(20 * 50)) << "the silence is waited for once";
+  EXPECT_LT(timeOf(20), milliseconds(20 * 50)) << "waits only once for the silent client";
   EXPECT_EQ(0, robot.answered);
   robot.answers = true;
   timeOf(2);
@@ -150,7 +150,7 @@ TEST_F(HostRules, APatientHostGivesUpASilentClientAndWaitsForItAgainWhenItSpeaks
   EXPECT_GE(timeOf(3), milliseconds(30));
 }
 
-TEST_F(HostRules, WhoWasGivenUpDoesNotTakeTheOthersTime) {
+TEST_F(HostRules, AGivenUpClientDoesNotSlowOthers) {
   CountingRobot other;
   use(waiting(PaceMode::kFreeRunning));
   host.add(other);
@@ -163,7 +163,7 @@ TEST_F(HostRules, WhoWasGivenUpDoesNotTakeTheOthersTime) {
   EXPECT_EQ(10, other.answered);
 }
 
-TEST_F(HostRules, WhileOneClientIsAwaitedTheOthersSeeThatTheirRobotsAreThere) {
+TEST_F(HostRules, OtherClientsGetStatesWhileOneIsAwaited) {
   CountingRobot answered, resting;
   Pace pace = waiting(PaceMode::kLockStep);
   pace.patience = std::chrono::seconds(100);
@@ -175,15 +175,15 @@ TEST_F(HostRules, WhileOneClientIsAwaitedTheOthersSeeThatTheirRobotsAreThere) {
   timeOf(1);
   EXPECT_GE(answered.repeats, 2) << "a client gives up after a second without a state";
   EXPECT_EQ(0, answered.repeated) << "with a new number its clock would go on";
-  EXPECT_EQ(1, robot.published + robot.repeated) << "it has the state that it is to answer";
+  EXPECT_EQ(1, robot.published + robot.repeated) << "it already has the state to answer";
   EXPECT_GE(resting.repeated, 100);
   EXPECT_EQ(1, steps);
 }
 
-TEST_F(HostRules, TimeInWhichTheHostIsHeldUpIsNotItsClientsSilence) {
+TEST_F(HostRules, DelaysOfTheHostDoNotCountAsSilenceOfClients) {
   class Held : public CountingRobot {
    public:
-    // Another process has the processor while the host looks for an answer.
+    // Simulates another process that uses the processor while the host waits for an answer.
     bool receiveCommand() override {
       if (hold > 0) {
         hold--;
@@ -202,14 +202,14 @@ TEST_F(HostRules, TimeInWhichTheHostIsHeldUpIsNotItsClientsSilence) {
   EXPECT_EQ(1, held.answered);
 }
 
-TEST_F(HostRules, TimeThatFlowsHeedsNoClockBetweenMotions) {
+TEST_F(HostRules, FreeRunningIgnoresTheClockBetweenMotions) {
   use(waiting(PaceMode::kFreeRunning));
   timeOf(5000);
   EXPECT_EQ(5000, steps);
-  EXPECT_LT(robot.published, 5000) << "states go out at the wall's pace";
+  EXPECT_LT(robot.published, 5000) << "states are published at the wall's pace";
 }
 
-TEST_F(HostRules, ATickAtOnceHeedsNoClockButWaitsForTheClient) {
+TEST_F(HostRules, TickAtOnceIgnoresTheClockButWaitsForTheClient) {
   Pace slow;
   slow.factor = 0.001;
   use(slow);
@@ -223,7 +223,7 @@ TEST_F(HostRules, ATickAtOnceHeedsNoClockButWaitsForTheClient) {
   EXPECT_EQ(2, steps);
 }
 
-TEST_F(HostRules, InLockStepAnAsynchronousMotionGoesByTheClockAndWaitsForNobody) {
+TEST_F(HostRules, InLockStepAnAsynchronousMotionFollowsTheClock) {
   Pace pace = waiting(PaceMode::kLockStep);
   pace.patience = std::chrono::seconds(100);
   const Clock::time_point begin = Clock::now();
@@ -237,10 +237,10 @@ TEST_F(HostRules, InLockStepAnAsynchronousMotionGoesByTheClockAndWaitsForNobody)
   robot.moving = robot.at_leisure = false;
   robot.restless = true;
   timeOf(5000);
-  EXPECT_LT(robot.published, 5000) << "and no clock is heeded any more";
+  EXPECT_LT(robot.published, 5000) << "and the clock no longer counts";
 }
 
-TEST_F(HostRules, AnotherRobotsAnswersAreWaitedForBesideAnAsynchronousMotion) {
+TEST_F(HostRules, AsynchronousMotionStillWaitsForOtherRobotsAnswers) {
   CountingRobot other;
   use(waiting(PaceMode::kLockStep));
   host.add(other);
@@ -252,10 +252,10 @@ TEST_F(HostRules, AnotherRobotsAnswersAreWaitedForBesideAnAsynchronousMotion) {
   EXPECT_EQ(10, other.answered);
 }
 
-TEST_F(HostRules, ARobotThatNeverRestsHoldsNobodyBackForEver) {
+TEST_F(HostRules, ARobotThatNeverRestsDefersRequestsForALimitedTime) {
   use(waiting(PaceMode::kLockStep));
   robot.restless = true;
-  timeOf(1);  // in which the world was still at rest
+  timeOf(1);  // the world is still at rest
   const int before = robot.served_all;
   timeOf(9000);
   EXPECT_EQ(before, robot.served_all);
@@ -263,7 +263,7 @@ TEST_F(HostRules, ARobotThatNeverRestsHoldsNobodyBackForEver) {
   EXPECT_EQ(before + 1, robot.served_all);
 }
 
-TEST_F(HostRules, AWorldThatStandsStillIsShownWithoutATick) {
+TEST_F(HostRules, StandStillPublishesStatesWithoutATick) {
   use(waiting(PaceMode::kPatient));
   host.standStill();
   EXPECT_EQ(1U, robot.message_ids) << "states of a robot at rest count on";
@@ -276,10 +276,10 @@ TEST_F(HostRules, AWorldThatStandsStillIsShownWithoutATick) {
   EXPECT_EQ(0, robot.observed);
 }
 
-TEST_F(HostRules, AMotionsFirstStatesCountAllTicksBeforeIt) {
+TEST_F(HostRules, FirstStatesOfAMotionCountAllEarlierTicks) {
   use(waiting(PaceMode::kLockStep));
   robot.restless = true;
-  timeOf(500);  // of which few are shown
+  timeOf(500);  // few of them are published
   robot.moves_when_served = true;
   for (int i = 0; i < 100000 && !robot.moving; i++) {
     timeOf(1);
@@ -289,7 +289,7 @@ TEST_F(HostRules, AMotionsFirstStatesCountAllTicksBeforeIt) {
   EXPECT_EQ(before + 1, robot.message_ids) << "the motion's clock would jump";
 }
 
-TEST_F(HostRules, WhoWasRemovedIsLeftAlone) {
+TEST_F(HostRules, DoesNotCallRemovedRobots) {
   CountingRobot other;
   use(waiting(PaceMode::kFreeRunning));
   host.add(other);
@@ -304,13 +304,13 @@ TEST_F(HostRules, WhoWasRemovedIsLeftAlone) {
   EXPECT_EQ(3, steps);
 }
 
-TEST_F(HostRules, InLockStepAPushLetsTheWorldRunForItsTimeAndUntilAllRests) {
+TEST_F(HostRules, InLockStepAPushRunsForItsTimeAndUntilRest) {
   use(waiting(PaceMode::kLockStep));
   host.letRun(50);
   EXPECT_EQ(150, stepsUntilStill(150)) << "50, and 100 for what was set in motion";
 }
 
-TEST_F(HostRules, AWorldThatBeginsAnewRunsAsLongWhateverWasToRunBefore) {
+TEST_F(HostRules, AResetCancelsTicksThatWereToRun) {
   use(waiting(PaceMode::kLockStep));
   host.letRun(500);
   timeOf(10);

@@ -39,7 +39,7 @@ std::string urdfText() {
   return text.str();
 }
 
-/// Does what others ask for, between two ticks.
+/// Runs jobs between two ticks.
 class Jobs final : public Service {
  public:
   void serve() override {
@@ -65,10 +65,10 @@ class Jobs final : public Service {
   std::vector<std::packaged_task<void()>> due_;
 };
 
-/// A Panda on the network, in a thread of its own.
-class Stage {
+/// A Panda on the network, in its own thread.
+class Fixture {
  public:
-  explicit Stage(const Pace& pace) : host_([this] { world_.step(); }, pace) {
+  explicit Fixture(const Pace& pace) : host_([this] { world_.step(); }, pace) {
     const std::string urdf = urdfText();
     RobotDescription description;
     description.name = "panda";
@@ -93,7 +93,7 @@ class Stage {
     host_.add(jobs_);
     thread_ = std::thread([this] { host_.run(stop_); });
   }
-  ~Stage() { finish(); }
+  ~Fixture() { finish(); }
   void finish() {
     stop_ = true;
     if (thread_.joinable()) {
@@ -103,11 +103,11 @@ class Stage {
 
   std::uint16_t port() const { return robot_->server().port(); }
   std::uint16_t gripperPort() const { return robot_->gripperPort(); }
-  /// Only after finish().
+  /// Call only after finish().
   std::uint64_t hash() const { return robot_->hash(); }
   std::uint64_t ticks() const { return host_.ticks(); }
 
-  /// Lets the host's thread do something between two ticks, and waits for it.
+  /// Runs a job on the host's thread between two ticks and waits for it.
   void between(std::function<void(SimRobot&, World&, Host&)> job) {
     jobs_.run([&] { job(*robot_, world_, host_); });
   }
@@ -155,7 +155,7 @@ Status drive(TestClient& client, const codec::MoveRequest& request, int cycles,
   while (state && state->robot_mode != RobotMode::kMove) {
     state = client.state();
   }
-  state = client.state();  // the second that shows the motion is the first to be answered
+  state = client.state();  // the second state that shows the motion is the first to be answered
   if (!state) {
     return Status::kError;
   }
@@ -181,8 +181,8 @@ void swing(int cycle, const franka_core::RobotState& first, franka_core::RobotCo
 }
 
 std::uint64_t hashOfARun(unsigned delays) {
-  Stage stage(lockStep());
-  TestClient client(stage.port());
+  Fixture fixture(lockStep());
+  TestClient client(fixture.port());
   connect(client);
   std::mt19937 engine(delays);
   const Status end = drive(
@@ -194,24 +194,24 @@ std::uint64_t hashOfARun(unsigned delays) {
         swing(cycle, first, command);
       });
   EXPECT_EQ(end, Status::kSuccess);
-  // A setter's answer comes when the world has come to rest.
+  // A setter is answered after the world has come to rest.
   client.request(codec::SetLoadRequest{});
   EXPECT_TRUE(client.answer(Command::kSetLoad));
   client.close();
-  stage.finish();
-  return stage.hash();
+  fixture.finish();
+  return fixture.hash();
 }
 
-TEST(LockStep, repeatsBitForBitWhateverTheClientsPauses) {
+TEST(LockStep, RepeatsBitForBitForAnyPausesOfTheClient) {
   const std::uint64_t first = hashOfARun(0);
   for (unsigned delays = 1; delays <= 4; delays++) {
     EXPECT_EQ(hashOfARun(delays), first) << delays;
   }
 }
 
-TEST(LockStep, standsStillWhileNobodyMoves) {
-  Stage stage(lockStep());
-  TestClient client(stage.port());
+TEST(LockStep, StandsStillWithoutAMotion) {
+  Fixture fixture(lockStep());
+  TestClient client(fixture.port());
   connect(client);
   const auto first = client.state();
   ASSERT_TRUE(first);
@@ -220,16 +220,16 @@ TEST(LockStep, standsStillWhileNobodyMoves) {
     ASSERT_TRUE(next);
     EXPECT_EQ(next->q, first->q);
   }
-  stage.finish();
-  // The arm came to rest after it was put there, and then time stood still.
-  EXPECT_LT(stage.ticks(), 1500U);
+  fixture.finish();
+  // The arm came to rest after the teleport, then time stood still.
+  EXPECT_LT(fixture.ticks(), 1500U);
 }
 
-TEST(LockStep, treatsASilentClientAsLost) {
+TEST(LockStep, TreatsASilentClientAsLost) {
   Pace pace = lockStep();
   pace.patience = std::chrono::milliseconds(50);
-  Stage stage(pace);
-  TestClient client(stage.port());
+  Fixture fixture(pace);
+  TestClient client(fixture.port());
   connect(client);
   const auto begin = std::chrono::steady_clock::now();
   const codec::MoveRequest request;
@@ -246,7 +246,7 @@ TEST(LockStep, treatsASilentClientAsLost) {
     client.command(command);
     state = client.state();
   }
-  // From here on it says nothing.
+  // From here on the client is silent.
   const auto end = client.answer(Command::kMove);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->reply.status, Status::kReflexAborted);
@@ -258,7 +258,7 @@ TEST(LockStep, treatsASilentClientAsLost) {
   EXPECT_TRUE(state->errors[25]);  // communication_constraints_violation
 }
 
-/// The first state in that mode; nothing when there is none in 20 s.
+/// The first state in that mode; empty if there is none within 20 s.
 std::optional<franka_core::RobotState> stateIn(TestClient& client, RobotMode mode) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   auto state = client.state();
@@ -268,15 +268,15 @@ std::optional<franka_core::RobotState> stateIn(TestClient& client, RobotMode mod
   return state && state->robot_mode == mode ? state : std::nullopt;
 }
 
-TEST(LockStep, aClientThatDiesBeforeItsFirstCommandLeavesNoMotionBehind) {
-  Stage stage(lockStep());
+TEST(LockStep, AClientThatDiesBeforeItsFirstCommandEndsItsMotion) {
+  Fixture fixture(lockStep());
   {
-    TestClient client(stage.port());
+    TestClient client(fixture.port());
     connect(client);
     client.request(codec::MoveRequest{});
     ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
   }
-  TestClient next(stage.port());
+  TestClient next(fixture.port());
   connect(next);
   const auto state = stateIn(next, RobotMode::kReflex);
   ASSERT_TRUE(state) << "the robot is left in Move";
@@ -287,11 +287,11 @@ TEST(LockStep, aClientThatDiesBeforeItsFirstCommandLeavesNoMotionBehind) {
   EXPECT_EQ(recovered->reply.status, Status::kSuccess);
 }
 
-TEST(LockStep, anArmThatCoastsInGuidingKeepsNobodyWaiting) {
-  Stage stage(lockStep());
-  TestClient client(stage.port());
+TEST(LockStep, AnArmThatCoastsInGuidingDoesNotDeferRequests) {
+  Fixture fixture(lockStep());
+  TestClient client(fixture.port());
   connect(client);
-  stage.between([](SimRobot& robot, World& world, Host& host) {
+  fixture.between([](SimRobot& robot, World& world, Host& host) {
     robot.unit().request(Guiding{true});
     world.push("panda_link5", {0, 8, 0}, {}, 100);
     host.letRun(100);
@@ -304,53 +304,53 @@ TEST(LockStep, anArmThatCoastsInGuidingKeepsNobodyWaiting) {
   }
   double fastest = 0.0;
   std::uint64_t ticks = 0;
-  stage.between([&](SimRobot& robot, World&, Host& host) {
+  fixture.between([&](SimRobot& robot, World&, Host& host) {
     for (const double dq : robot.unit().state().dq) {
       fastest = std::max(fastest, std::abs(dq));
     }
     ticks = host.ticks();
   });
-  EXPECT_GT(fastest, 1e-3) << "the arm has come to rest by itself: this test tells nothing";
+  EXPECT_GT(fastest, 1e-3) << "the arm came to rest by itself: the test is void";
   const auto begin = client.state();
   ASSERT_TRUE(begin);
   for (int i = 0; i < 50; i++) {
     ASSERT_TRUE(client.state());
   }
-  stage.between([&](SimRobot&, World&, Host& host) { EXPECT_EQ(ticks, host.ticks()); });
+  fixture.between([&](SimRobot&, World&, Host& host) { EXPECT_EQ(ticks, host.ticks()); });
 }
 
-TEST(LockStep, aHandWhoseClientDiesFinishesWhatItDoes) {
+TEST(LockStep, AHandFinishesItsCommandAfterItsClientDies) {
   namespace hand = franka_core::fci::gripper;
-  Stage stage(lockStep());
+  Fixture fixture(lockStep());
   {
-    TestClient client(stage.gripperPort());
+    TestClient client(fixture.gripperPort());
     hand::RequestMessage message;
     hand::encodeRequest(0, hand::ConnectRequest{3, client.udpPort()}, message);
     ASSERT_TRUE(client.sendBytes(message.data, message.size));
     hand::encodeRequest(1, hand::MoveRequest{0.06, 0.02}, message);
     ASSERT_TRUE(client.sendBytes(message.data, message.size));
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (stage.width() < 0.005 && std::chrono::steady_clock::now() < deadline) {
+    while (fixture.width() < 0.005 && std::chrono::steady_clock::now() < deadline) {
     }
   }
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (std::abs(stage.width() - 0.06) > 1e-3 && std::chrono::steady_clock::now() < deadline) {
+  while (std::abs(fixture.width() - 0.06) > 1e-3 && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  EXPECT_NEAR(stage.width(), 0.06, 1e-3);
+  EXPECT_NEAR(fixture.width(), 0.06, 1e-3);
 }
 
-TEST(LockStep, stopsAMotionOnDemand) {
-  Stage stage(lockStep());
-  TestClient client(stage.port());
+TEST(LockStep, StopsAMotionOnDemand) {
+  Fixture fixture(lockStep());
+  TestClient client(fixture.port());
   connect(client);
-  bool asked = false;
+  bool requested = false;
   const Status end = drive(
       client, codec::MoveRequest{}, 100000,
       [&](int cycle, const franka_core::RobotState& first, franka_core::RobotCommand& command) {
         swing(cycle, first, command);
-        if (cycle == 500 && !asked) {
-          asked = true;
+        if (cycle == 500 && !requested) {
+          requested = true;
           client.request(codec::StopMoveRequest{});
         }
       });
@@ -358,14 +358,14 @@ TEST(LockStep, stopsAMotionOnDemand) {
   const auto stopped = client.answer(Command::kStopMove);
   ASSERT_TRUE(stopped);
   EXPECT_EQ(stopped->reply.status, Status::kSuccess);
-  // In every mode: also when there is nothing to stop.
+  // In every mode: also without a motion to stop.
   client.request(codec::StopMoveRequest{});
   EXPECT_TRUE(client.answer(Command::kStopMove));
 }
 
-TEST(RealTime, keepsToTheClock) {
-  Stage stage(Pace{});
-  TestClient client(stage.port());
+TEST(RealTime, FollowsTheClock) {
+  Fixture fixture(Pace{});
+  TestClient client(fixture.port());
   connect(client);
   const auto first = client.state();
   const auto begin = std::chrono::steady_clock::now();
@@ -377,16 +377,16 @@ TEST(RealTime, keepsToTheClock) {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
   EXPECT_EQ(last->message_id - first->message_id, 300U);
   EXPECT_GT(passed.count(), 0.25);
-  EXPECT_LT(passed.count(), 2.0);  // on a machine that does much else
+  EXPECT_LT(passed.count(), 2.0);  // for a busy machine
 }
 
-// On a machine that may stand still for longer than a robot does without commands.
-TEST(RealTime, runsAMotionByTheClockForAPatientRobot) {
+// For a machine that may pause longer than a robot does without commands.
+TEST(RealTime, PatientMotionFollowsTheClock) {
   Pace pace;
   pace.mode = PaceMode::kPatient;
   pace.factor = 0.2;
-  Stage stage(pace);
-  TestClient client(stage.port());
+  Fixture fixture(pace);
+  TestClient client(fixture.port());
   connect(client);
   const auto begin = std::chrono::steady_clock::now();
   const Status end = drive(

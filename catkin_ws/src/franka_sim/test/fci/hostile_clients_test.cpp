@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What one client, or somebody who is none, can do to the clients of another robot in the same
-// process. What counts is the processor time that the stepping thread spends between two states of
-// the other robot: on a machine that does nothing else it is the delay of those states.
+// Effect of one client, or of a stranger, on the clients of another robot in the same process. The
+// measure is the processor time of the stepping thread between two states of the other robot: on an
+// idle machine it is the delay of those states.
 #include <fcntl.h>
 #include <franka_sim/fci/gripper_server.h>
 #include <franka_sim/fci/host.h>
@@ -43,7 +43,7 @@ double residentMegabytes() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// A robot without physics: a handler, and hands that rest.
+/// A robot without physics: a request handler, and hands at rest.
 class BareRobot final : public HostedRobot {
  public:
   BareRobot() : arm(parameters(), handler) { handler.shown.robot_mode = RobotMode::kIdle; }
@@ -112,7 +112,7 @@ class Raw {
     ::fcntl(socket_.get(), F_SETFL, O_NONBLOCK);
     ::connect(socket_.get(), reinterpret_cast<sockaddr*>(&server), sizeof(server));
   }
-  /// As much of it as the system takes.
+  /// Sends as much as the system accepts.
   void send(const std::string& bytes) {
     const ssize_t size = ::send(socket_.get(), bytes.data() + sent_, bytes.size() - sent_,
                                 MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -145,7 +145,7 @@ std::string repeated(const std::string& text, int times) {
   return result;
 }
 
-/// Two robots and a control port; a good client at one robot, an attacker in a thread of its own.
+/// Two robots and a control interface; a good client at one robot, an attacker in its own thread.
 class HostileClients : public ::testing::Test {
  protected:
   HostileClients() {
@@ -169,7 +169,7 @@ class HostileClients : public ::testing::Test {
     return {attacked_.arm.port(), attacked_.hand.port(), attacked_.vacuum.port(), lines_.port()};
   }
 
-  /// Runs so many ticks while `attack` is called again and again by another thread.
+  /// Runs `ticks` ticks while another thread calls `attack` repeatedly.
   void under(const std::function<void()>& attack, int ticks = kTicks) {
     const double memory = residentMegabytes();
     std::atomic<bool> stop{false};
@@ -190,7 +190,7 @@ class HostileClients : public ::testing::Test {
     }
     stop = true;
     attacker.join();
-    EXPECT_NE(last, 0U) << "the good client has seen nothing";
+    EXPECT_NE(last, 0U) << "the good client has received nothing";
     EXPECT_LT(other_.worst, kWorstDelay) << "[s] between two states";
     EXPECT_LT(residentMegabytes() - memory, kMostMemory) << "[MB]";
     EXPECT_LE(attacked_.most_unsent, kModelSize + 1000);
@@ -198,7 +198,7 @@ class HostileClients : public ::testing::Test {
                 1e3 * other_.worst, residentMegabytes() - memory, attacked_.most_unsent);
   }
 
-  /// Ticks until a new client of the attacked robot is served; 1001 when it never is.
+  /// Ticks until a new client of the attacked robot is served; 1001 if never.
   int ticksUntilServed() {
     TestClient client(attacked_.arm.port());
     client.connect(5);
@@ -217,14 +217,14 @@ class HostileClients : public ::testing::Test {
   std::vector<std::string> told_;
 };
 
-TEST_F(HostileClients, AskForModelsAndReadNone) {
+TEST_F(HostileClients, RequestModelsWithoutReadingThem) {
   Raw attacker(attacked_.arm.port());
   attacker.send(requestBytes(codec::ConnectRequest{5, 1}));
   const std::string flood = repeated(requestBytes(codec::LoadModelLibraryRequest{}), 500);
   under([&] { attacker.send(flood); });
 }
 
-TEST_F(HostileClients, AskForWallsWithoutEndAndReadAllAnswers) {
+TEST_F(HostileClients, RequestVirtualWallsInAnEndlessLoop) {
   Raw attacker(attacked_.arm.port());
   attacker.send(requestBytes(codec::ConnectRequest{5, 1}));
   const std::string flood = repeated(requestBytes(codec::GetCartesianLimitRequest{1}), 500);
@@ -234,7 +234,7 @@ TEST_F(HostileClients, AskForWallsWithoutEndAndReadAllAnswers) {
   });
 }
 
-TEST_F(HostileClients, FloodTheHandAndTheControlPort) {
+TEST_F(HostileClients, FloodTheHandAndTheControlInterface) {
   namespace hand = franka_core::fci::gripper;
   Raw gripper(attacked_.hand.port());
   Raw control(lines_.port());
@@ -267,7 +267,7 @@ TEST_F(HostileClients, StayHalfOpenOrSendOneByte) {
   EXPECT_FALSE(told_.empty());
 }
 
-TEST_F(HostileClients, ConnectAgainAndAgainAndSendNoise) {
+TEST_F(HostileClients, ReconnectRepeatedlyAndSendNoise) {
   unsigned round = 0;
   under([&] {
     std::vector<std::unique_ptr<Raw>> connections;
@@ -281,7 +281,7 @@ TEST_F(HostileClients, ConnectAgainAndAgainAndSendNoise) {
   EXPECT_LE(ticksUntilServed(), 1000);
 }
 
-TEST_F(HostileClients, LeaveTheRobotAtOnceWhateverTheyHaveAskedFor) {
+TEST_F(HostileClients, DisconnectWithRequestsUnanswered) {
   {
     Raw attacker(attacked_.arm.port());
     attacker.send(requestBytes(codec::ConnectRequest{5, 1}));
@@ -297,12 +297,12 @@ TEST_F(HostileClients, LeaveTheRobotAtOnceWhateverTheyHaveAskedFor) {
   EXPECT_LE(ticksUntilServed(), 1000);
 }
 
-TEST_F(HostileClients, AreSlowerWithARequestThanTheirConnectionLasts) {
+TEST_F(HostileClients, TimeOutWithinARequest) {
   SlotRules rules;
   rules.request = milliseconds(20);
   ClientSlot slot("127.0.0.1", 0, rules);
-  std::vector<std::string> told;
-  slot.onRefusal([&](const std::string& what) { told.push_back(what); });
+  std::vector<std::string> refusals;
+  slot.onRefusal([&](const std::string& what) { refusals.push_back(what); });
   Raw client(slot.port());
   client.send("xy");
   bool gone = false;
@@ -319,12 +319,12 @@ TEST_F(HostileClients, AreSlowerWithARequestThanTheirConnectionLasts) {
     slot.serve(serve_one, [&] { gone = true; });
   }
   EXPECT_TRUE(gone);
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_NE(told[0].find("127.0.0.1"), std::string::npos) << told[0];
-  EXPECT_NE(told[0].find("too slow"), std::string::npos) << told[0];
+  ASSERT_EQ(refusals.size(), 1U);
+  EXPECT_NE(refusals[0].find("127.0.0.1"), std::string::npos) << refusals[0];
+  EXPECT_NE(refusals[0].find("too slow"), std::string::npos) << refusals[0];
 }
 
-TEST(Seeds, AreWholeNumbersOf64Bits) {
+TEST(Seeds, AreUnsigned64BitNumbers) {
   EXPECT_EQ(toSeed("0"), 0U);
   EXPECT_EQ(toSeed("18446744073709551615"), 18446744073709551615U);
   for (const char* word : {"-1", "18446744073709551616", "1e3", "0.5", "", "nan", "7x", "+7"}) {

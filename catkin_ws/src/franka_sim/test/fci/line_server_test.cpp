@@ -14,7 +14,7 @@ namespace {
 
 constexpr char kAddress[] = "127.0.0.1";
 
-/// The user with a terminal. Loopback delivers at once, so that nothing here waits.
+/// The user's terminal. Loopback delivers immediately, so that nothing here waits.
 class Operator {
  public:
   explicit Operator(const LineServer& server) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -32,7 +32,7 @@ class Operator {
   }
   void end() { ::shutdown(socket_.get(), SHUT_WR); }
   void leave() { socket_.close(); }
-  /// What is there now; "(nothing)", or "(end)" where the server has closed.
+  /// Returns received text; "(nothing)", or "(end)" if the server has closed.
   std::string sees() {
     char text[1000];
     const ssize_t size = ::recv(socket_.get(), text, sizeof(text), MSG_DONTWAIT);
@@ -53,7 +53,7 @@ class LineServerTest : public ::testing::Test {
         "wait", [](const LineServer::Words& /*words*/) { return "done"; },
         [this] { return ready; });
   }
-  /// One moment: what waits is served, then states go out.
+  /// Serves pending lines, then publishes states.
   void tick() {
     server.serve();
     server.published();
@@ -64,11 +64,11 @@ class LineServerTest : public ::testing::Test {
   LineServer server{kAddress, 0, std::chrono::seconds(5)};
 };
 
-TEST_F(LineServerTest, AnswersOnceStatesHaveGoneOut) {
+TEST_F(LineServerTest, AnswersAfterStatesWereSent) {
   Operator user(server);
   user.type("count\ncount\n");
   server.serve();
-  EXPECT_EQ(1, count) << "the second line waits for the answer to the first";
+  EXPECT_EQ(1, count) << "the second line waits for the first answer";
   EXPECT_EQ("(nothing)", user.sees());
   server.published();
   EXPECT_EQ("ok 1\n", user.sees());
@@ -76,7 +76,7 @@ TEST_F(LineServerTest, AnswersOnceStatesHaveGoneOut) {
   EXPECT_EQ("ok 2\n", user.sees());
 }
 
-TEST_F(LineServerTest, KeepsALineUntilItsTimeHasCome) {
+TEST_F(LineServerTest, KeepsALineUntilItIsReady) {
   Operator user(server);
   user.type("wait\ncount\n");
   tick();
@@ -97,10 +97,10 @@ TEST_F(LineServerTest, RefusesASecondClientWithASentence) {
   Operator second(server);
   second.type("count\n");
   tick();
-  const std::string told = second.sees();
-  EXPECT_EQ(0u, told.find("error: Another client holds this control interface")) << told;
+  const std::string reply = second.sees();
+  EXPECT_EQ(0u, reply.find("error: Another client holds this control interface")) << reply;
   EXPECT_EQ("(end)", second.sees());
-  EXPECT_EQ(1, count) << "and does nothing for it";
+  EXPECT_EQ(1, count) << "and runs no command of it";
   EXPECT_EQ("ok 1\n", first.sees());
   first.leave();
   Operator third(server);
@@ -109,7 +109,7 @@ TEST_F(LineServerTest, RefusesASecondClientWithASentence) {
   EXPECT_EQ("ok 2\n", third.sees());
 }
 
-TEST(LineServer, LetsAUserTypeSlowlyUntilAnotherComes) {
+TEST(LineServer, HasNoTimeLimitUntilAnotherClientComes) {
   LineServer server(kAddress, 0, std::chrono::seconds(0));
   server.add("count", [](const LineServer::Words& /*words*/) { return "1"; });
   const auto tick = [&server] {
@@ -131,13 +131,13 @@ TEST(LineServer, LetsAUserTypeSlowlyUntilAnotherComes) {
   Operator other(server);
   other.type("count\n");
   tick();
-  const std::string told = silent.sees();
-  EXPECT_EQ(0u, told.find("error: No line has come from here within")) << told;
+  const std::string reply = silent.sees();
+  EXPECT_EQ(0u, reply.find("error: No line has come from here within")) << reply;
   EXPECT_EQ("(end)", silent.sees());
   EXPECT_EQ("ok 1\n", other.sees());
 }
 
-TEST_F(LineServerTest, AnswersAllLinesOfAClientThatHasEndedItsSide) {
+TEST_F(LineServerTest, AnswersAllLinesOfAHalfClosedConnection) {
   Operator user(server);
   user.type("count\ncount\n");
   user.end();
@@ -148,14 +148,14 @@ TEST_F(LineServerTest, AnswersAllLinesOfAClientThatHasEndedItsSide) {
   EXPECT_EQ("(end)", user.sees());
 }
 
-TEST_F(LineServerTest, SaysThatALineIsTooLong) {
+TEST_F(LineServerTest, RefusesALineThatIsTooLong) {
   Operator user(server);
   user.type(std::string(4500, 'x'));
   tick();
   EXPECT_EQ("error: A line is longer than 4000 characters.\n", user.sees());
 }
 
-TEST(LineServer, SendsTheLastAnswerWhenItGoes) {
+TEST(LineServer, SendsTheLastAnswerWhenDestroyed) {
   auto server = std::make_unique<LineServer>(kAddress, 0);
   server->add("quit", [](const LineServer::Words& /*words*/) { return ""; });
   Operator user(*server);

@@ -52,7 +52,7 @@ struct Place {
   double yaw{0.0};        // [rad]
 };
 
-/// Robots in one world that speak one version each, in a thread of its own.
+/// Robots in one world, one protocol version each, in its own thread.
 class SimulatedRobots {
  public:
   explicit SimulatedRobots(const std::vector<Place>& places, bool by_clock = false)
@@ -72,7 +72,7 @@ class SimulatedRobots {
     thread_.join();
   }
 
-  /// Nothing runs for so long, as on a machine that does something else.
+  /// Nothing runs for this time, as on a busy machine.
   void holdUp(int milliseconds) { hold_up_ = milliseconds; }
   std::string gripperAddress(std::size_t robot = 0) const {
     return "127.0.0.1:" + std::to_string(robots_[robot]->gripperPort());
@@ -82,8 +82,8 @@ class SimulatedRobots {
   }
 
  private:
-  /// Waits for its clients in either case: on a machine that stands still a robot that does not
-  /// would lose their answers.
+  /// Waits for its clients in either case: on a machine that pauses, other paces would lose
+  /// answers.
   static Pace pace(bool by_clock) {
     Pace pace;
     pace.mode = by_clock ? PaceMode::kPatient : PaceMode::kLockStep;
@@ -143,7 +143,7 @@ class OwnClient : public ::testing::TestWithParam<int> {
   franka::Robot robot;
 };
 
-// From rest to rest within a second: position along a way of length one, and its speed.
+// From rest to rest within a second: position along a path of length one, and its speed.
 constexpr double kDuration = 1.0;  // [s]
 double way(double t) {
   const double s = std::min(t / kDuration, 1.0);
@@ -174,7 +174,7 @@ void swing(
   });
 }
 
-TEST_P(OwnClient, AgreesOnTheVersionAndReadsStates) {
+TEST_P(OwnClient, NegotiatesTheVersionAndReadsStates) {
   EXPECT_EQ(robot.serverVersion(), GetParam());
   const franka::RobotState first = robot.readOnce();
   EXPECT_EQ(first.robot_mode, franka::RobotMode::kIdle);
@@ -253,8 +253,9 @@ TEST_P(OwnClient, MovesTheHandByPoseAndByVelocity) {
   EXPECT_NEAR(robot.readOnce().O_T_EE[14], begin, 3e-3);
 }
 
-/// Whether a motion that commands this pose and ends is refused by the client or the robot.
-bool takes(franka::Robot& robot, const std::array<double, 16>& pose, bool limited, double cutoff) {
+/// Whether client and robot accept a motion that commands this pose and ends.
+bool accepts(franka::Robot& robot, const std::array<double, 16>& pose, bool limited,
+             double cutoff) {
   try {
     robot.control(
         [&](const franka::RobotState&, franka::Duration) {
@@ -268,24 +269,24 @@ bool takes(franka::Robot& robot, const std::array<double, 16>& pose, bool limite
   }
 }
 
-class OwnClientWithDust : public OwnClient {};
+class OwnClientWithRounding : public OwnClient {};
 
-TEST_P(OwnClientWithDust, IsTakenOrRefusedAsTheRobotDoes) {
+TEST_P(OwnClientWithRounding, IsTakenOrRefusedAsTheRobotDoes) {
   const std::array<double, 16> pose = robot.readOnce().O_T_EE_c;
   int count = 0;
-  for (const test::DustyMatrix& dusty : test::dustOn(pose)) {
+  for (const test::PerturbedMatrix& perturbed : test::perturbations(pose)) {
     count++;
-    EXPECT_EQ(dusty.accepted,
-              takes(robot, dusty.matrix, count % 2 == 0, count % 3 == 0 ? 100.0 : 1000.0))
-        << dusty;
-    if (dusty.dust == 1e-6 || dusty.dust == 1e-12) {
+    EXPECT_EQ(perturbed.accepted,
+              accepts(robot, perturbed.matrix, count % 2 == 0, count % 3 == 0 ? 100.0 : 1000.0))
+        << perturbed;
+    if (perturbed.error == 1e-6 || perturbed.error == 1e-12) {
       for (const auto& set : {&franka::Robot::setEE, &franka::Robot::setK}) {
         std::array<double, 16> frame = kIdentity;
-        frame[dusty.entry] += dusty.dust;
-        if (dusty.entry % 4 != 3) {
-          EXPECT_NO_THROW((robot.*set)(frame)) << dusty;
+        frame[perturbed.entry] += perturbed.error;
+        if (perturbed.entry % 4 != 3) {
+          EXPECT_NO_THROW((robot.*set)(frame)) << perturbed;
         } else {
-          EXPECT_THROW((robot.*set)(frame), franka::CommandException) << dusty;
+          EXPECT_THROW((robot.*set)(frame), franka::CommandException) << perturbed;
         }
         (robot.*set)(kIdentity);
       }
@@ -311,7 +312,7 @@ TEST_P(OwnClient, HoldsByTorques) {
   }
 }
 
-TEST_P(OwnClient, LoadsAModelThatKnowsWhereTheHandIs) {
+TEST_P(OwnClient, LoadsAModelThatMatchesTheState) {
   const franka::Model model = robot.loadModel();
   const franka::RobotState state = robot.readOnce();
   const std::array<double, 16> pose = model.pose(franka::Frame::kEndEffector, state);
@@ -335,7 +336,7 @@ TEST_P(OwnClient, IsStoppedByAReflexRecoversAndMovesAgain) {
           return positions;
         },
         franka::ControllerMode::kJointImpedance, false);
-    FAIL() << "A jump of 0.05 rad within a tick went unnoticed.";
+    FAIL() << "A jump of 0.05 rad within a tick raised no error.";
   } catch (const franka::ControlException& error) {
     EXPECT_NE(std::string(error.what()).find("joint_motion_generator_velocity"), std::string::npos)
         << error.what();
@@ -349,9 +350,9 @@ TEST_P(OwnClient, IsStoppedByAReflexRecoversAndMovesAgain) {
   EXPECT_NEAR(robot.readOnce().q[3], joint + kAngle, 2e-3);
 }
 
-class TwoArms : public ::testing::TestWithParam<bool> {};  // by the clock, or as fast as it goes
+class TwoArms : public ::testing::TestWithParam<bool> {};  // by the clock, or as fast as possible
 
-TEST_P(TwoArms, MoveAtOnceForAClientEach) {
+TEST_P(TwoArms, MoveSimultaneouslyForOneClientEach) {
   SimulatedRobots simulated({{5, 0.0}, {10, 1.0}}, GetParam());
   franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
   franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
@@ -364,13 +365,13 @@ TEST_P(TwoArms, MoveAtOnceForAClientEach) {
 
 INSTANTIATE_TEST_SUITE_P(Pace, TwoArms, ::testing::Bool());
 
-constexpr int kLonger = 1300;  // than clients wait for a state [ms]
+constexpr int kLonger = 1300;  // than the client's timeout for states [ms]
 
-TEST(StarvedMachine, ARobotThatWaitsForItsClientIsWaitedForByItsClient) {
+TEST(StarvedMachine, ClientAndRobotWaitForEachOther) {
   SimulatedRobots simulated(std::vector<Place>{{5}});
   franka::Robot robot(simulated.address(), franka::RealtimeConfig::kIgnore);
   swing(robot, kAngle, [&](int cycle) {
-    // From here on the client can know that the robot's time is not the wall's.
+    // From here on the client can detect that the robot's time is not the wall's.
     if (cycle == 500) {
       std::this_thread::sleep_for(std::chrono::seconds(1));
     } else if (cycle == 600) {
@@ -380,7 +381,7 @@ TEST(StarvedMachine, ARobotThatWaitsForItsClientIsWaitedForByItsClient) {
   EXPECT_NEAR(robot.readOnce().q[3], kReady[3] + kAngle, 2e-3);
 }
 
-TEST(StarvedMachine, NobodyGivesUpWhileAnotherArmsClientIsAwaited) {
+TEST(StarvedMachine, ClientsWaitWhileAnotherClientIsAwaited) {
   SimulatedRobots simulated({{5, 0.0}, {10, 1.0}});
   franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
   franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
@@ -405,7 +406,7 @@ TEST(StarvedMachine, NobodyGivesUpWhileAnotherArmsClientIsAwaited) {
   EXPECT_NEAR(fr3.readOnce().q[3], kReady[3] - kAngle, 2e-3);
 }
 
-TEST(TwoArmsInOneWorld, CanRunIntoEachOther) {
+TEST(TwoArmsInOneWorld, CanCollide) {
   SimulatedRobots simulated({{5, 0.0}, {10, 0.75, M_PI}});
   franka::Robot panda(simulated.address(0), franka::RealtimeConfig::kIgnore);
   franka::Robot fr3(simulated.address(1), franka::RealtimeConfig::kIgnore);
@@ -427,7 +428,7 @@ TEST(TwoArmsInOneWorld, CanRunIntoEachOther) {
     EXPECT_NE(std::string(error.what()).find("_reflex"), std::string::npos) << error.what();
   }
   EXPECT_GT(panda.readOnce().O_T_EE[12], begin + 0.02);
-  // The other one was pushed.
+  // The other robot was pushed.
   const franka::RobotState pushed = fr3.readOnce();
   double displaced = 0.0;
   for (std::size_t i = 0; i < 7; i++) {
@@ -437,7 +438,7 @@ TEST(TwoArmsInOneWorld, CanRunIntoEachOther) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Version, OwnClient, ::testing::Range(3, 11));
-INSTANTIATE_TEST_SUITE_P(NewestOfEachRobot, OwnClientWithDust, ::testing::Values(5, 10));
+INSTANTIATE_TEST_SUITE_P(NewestOfEachRobot, OwnClientWithRounding, ::testing::Values(5, 10));
 
 }  // namespace
 }  // namespace franka_sim::fci

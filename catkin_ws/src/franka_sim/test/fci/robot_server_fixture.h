@@ -21,7 +21,7 @@ using franka_core::MotionGeneratorMode;
 using franka_core::RobotMode;
 using franka_test::TestClient;
 
-/// Answers what the test has written down.
+/// Answers with values that the test sets.
 class FakeRequestHandler final : public ArmRequestHandler {
  public:
   FakeRequestHandler() { shown.robot_mode = RobotMode::kIdle; }
@@ -94,7 +94,7 @@ class RobotServerTest : public ::testing::Test {
     return result;
   }
 
-  /// Lets the server work until something is true; at most 5 s.
+  /// Serves until a condition holds; at most 5 s.
   bool until(const std::function<bool()>& condition) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     while (!condition()) {
@@ -105,14 +105,14 @@ class RobotServerTest : public ::testing::Test {
     }
     return true;
   }
-  /// Loopback delivers in the sender's call; a few turns let the server take it all.
+  /// Loopback delivers in the sender's call; a few calls let the server receive everything.
   void serve(bool stops_only = false) {
     for (int i = 0; i < 3; i++) {
       server_.serve(stops_only);
     }
   }
-  /// Of a server that works until it is there; at most 5 s. More connections in a millisecond than
-  /// a server accepts have to wait.
+  /// Serves until the answer arrives; at most 5 s. Connections beyond the server's limit per
+  /// millisecond have to wait.
   static std::optional<TestClient::Answer> answerOf(RobotServer& server, TestClient& client,
                                                     Command command) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);

@@ -12,7 +12,7 @@
 namespace franka_sim::fci {
 namespace {
 
-TEST_F(RobotServerTest, acceptsEachVersionOfItsRange) {
+TEST_F(RobotServerTest, AcceptsEachVersionOfItsRange) {
   for (std::uint16_t version = 3; version <= 10; version++) {
     TestClient client(server_.port());
     connect(client, version);
@@ -25,20 +25,20 @@ TEST_F(RobotServerTest, acceptsEachVersionOfItsRange) {
   }
 }
 
-TEST_F(RobotServerTest, tellsItsVersionToOthersAndTakesThemBackAtOnce) {
+TEST_F(RobotServerTest, AnswersItsVersionAndAcceptsAnImmediateReconnect) {
   RobotServerParameters panda = parameters();
   panda.newest_version = 5;
   RobotServer server(panda, handler_);
   for (const std::uint16_t version : {0, 2, 6, 10, 65535}) {
-    TestClient stranger(server.port());
-    stranger.connect(version);
-    const auto answer = answerOf(server, stranger, Command::kConnect);
+    TestClient other(server.port());
+    other.connect(version);
+    const auto answer = answerOf(server, other, Command::kConnect);
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->reply.status, Status::kIncompatibleLibraryVersion);
     EXPECT_EQ(answer->reply.server_version, 5);
     EXPECT_FALSE(server.hasClient());
-    stranger.close();
-    // The server may learn of both in one turn.
+    other.close();
+    // The server may see both events in one call.
     TestClient again(server.port());
     again.connect(5);
     const auto second = answerOf(server, again, Command::kConnect);
@@ -49,7 +49,7 @@ TEST_F(RobotServerTest, tellsItsVersionToOthersAndTakesThemBackAtOnce) {
   }
 }
 
-TEST_F(RobotServerTest, turnsASecondClientAway) {
+TEST_F(RobotServerTest, RefusesASecondClient) {
   TestClient first(server_.port());
   connect(first, 5);
   TestClient second(server_.port());
@@ -63,7 +63,7 @@ TEST_F(RobotServerTest, turnsASecondClientAway) {
   connect(third, 5);
 }
 
-TEST_F(RobotServerTest, countsStatesOnAndOn) {
+TEST_F(RobotServerTest, NumbersStatesContinuously) {
   std::uint64_t last = 0;
   for (int client_number = 0; client_number < 3; client_number++) {
     TestClient client(server_.port());
@@ -80,7 +80,7 @@ TEST_F(RobotServerTest, countsStatesOnAndOn) {
   }
 }
 
-TEST_F(RobotServerTest, runsAMotionFromStartToEnd) {
+TEST_F(RobotServerTest, RunsAMotionFromStartToEnd) {
   for (std::uint16_t version = 3; version <= 10; version++) {
     TestClient client(server_.port());
     connect(client, version);
@@ -108,7 +108,7 @@ TEST_F(RobotServerTest, runsAMotionFromStartToEnd) {
     EXPECT_EQ(taken->q_c[2], 0.25);
     EXPECT_EQ(server_.takeCommand(), nullptr);
     EXPECT_TRUE(server_.motionHasBegun());
-    // The end: first in the state, then in the reply.
+    // The end shows first in the state, then in the reply.
     handler_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
     serve();
     EXPECT_FALSE(client.answer(Command::kMove, 20));
@@ -126,7 +126,7 @@ TEST_F(RobotServerTest, runsAMotionFromStartToEnd) {
   }
 }
 
-TEST_F(RobotServerTest, takesTheAnswerToTheLastStateAlone) {
+TEST_F(RobotServerTest, AcceptsOnlyTheAnswerToTheLastState) {
   TestClient client(server_.port());
   connect(client, 5);
   handler_.startMotion();
@@ -147,12 +147,12 @@ TEST_F(RobotServerTest, takesTheAnswerToTheLastStateAlone) {
   EXPECT_TRUE(isTaken(id));
   server_.publish();
   EXPECT_FALSE(isTaken(id));
-  // Time stands still: the answer to either state of the moment counts.
+  // Time stands still: an answer to either state of the moment counts.
   server_.publish(1, true);
   EXPECT_TRUE(isTaken(id + 1));
 }
 
-TEST_F(RobotServerTest, takesTargetsOfAnAsynchronousMotionWheneverTheyCome) {
+TEST_F(RobotServerTest, AcceptsTargetsOfAnAsynchronousMotionAtAnyTime) {
   TestClient client(server_.port());
   connect(client, 10);
   server_.publish();
@@ -178,11 +178,11 @@ TEST_F(RobotServerTest, takesTargetsOfAnAsynchronousMotionWheneverTheyCome) {
     server_.receiveCommand();
     return server_.takeCommand() != nullptr;
   };
-  EXPECT_TRUE(isTaken(first)) << "its client has read no other state";
-  EXPECT_FALSE(isTaken(before)) << "that was of the time before";
-  EXPECT_FALSE(isTaken(first + 50)) << "that has not been sent yet";
+  EXPECT_TRUE(isTaken(first)) << "its client has received no later state";
+  EXPECT_FALSE(isTaken(before)) << "that state is from before the motion";
+  EXPECT_FALSE(isTaken(first + 50)) << "that state has not been sent yet";
   EXPECT_TRUE(isTaken(first + 49));
-  // The next motion is none of that kind.
+  // The next motion is not asynchronous.
   handler_.endMotion(Status::kSuccess, RobotMode::kIdle);
   server_.publish();
   handler_.startMotion();
@@ -192,7 +192,7 @@ TEST_F(RobotServerTest, takesTargetsOfAnAsynchronousMotionWheneverTheyCome) {
   EXPECT_FALSE(server_.asynchronous());
 }
 
-TEST_F(RobotServerTest, tellsTheDeskOnceThatItsClientHasGone) {
+TEST_F(RobotServerTest, ReportsADisconnectOnceToTheRequestHandler) {
   TestClient client(server_.port());
   connect(client, 5);
   EXPECT_EQ(handler_.disconnections, 0);
@@ -202,14 +202,14 @@ TEST_F(RobotServerTest, tellsTheDeskOnceThatItsClientHasGone) {
   EXPECT_EQ(handler_.disconnections, 1);
 }
 
-TEST_F(RobotServerTest, switchedOffTellsItsClientHowTheMotionEndedAndRefusesAllUntilItIsOn) {
+TEST_F(RobotServerTest, SwitchedOffEndsTheMotionAndRefusesConnections) {
   TestClient client(server_.port());
   connect(client, 5);
   handler_.startMotion();
   client.request(codec::MoveRequest{});
   serve();
   ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
-  TestClient waiting(server_.port());  // not yet taken
+  TestClient waiting(server_.port());  // not yet accepted
   handler_.on = false;
   handler_.endMotion(Status::kAborted, RobotMode::kIdle);
   serve();
@@ -221,7 +221,7 @@ TEST_F(RobotServerTest, switchedOffTellsItsClientHowTheMotionEndedAndRefusesAllU
   EXPECT_FALSE(TestClient(server_.port()).connected());
   std::vector<pollfd> fds;
   server_.addDescriptors(fds);
-  EXPECT_TRUE(fds.empty()) << "a closed port wakes nobody up";
+  EXPECT_TRUE(fds.empty()) << "a closed port has nothing to poll";
   for (int i = 0; i < 2; i++) {
     handler_.on = true;
     serve();
@@ -235,7 +235,7 @@ TEST_F(RobotServerTest, switchedOffTellsItsClientHowTheMotionEndedAndRefusesAllU
   }
 }
 
-TEST_F(RobotServerTest, switchedOffDropsWhoHasNotSaidWhoItIs) {
+TEST_F(RobotServerTest, SwitchedOffDropsUnconfirmedConnections) {
   TestClient client(server_.port());
   serve();
   handler_.on = false;
@@ -243,7 +243,7 @@ TEST_F(RobotServerTest, switchedOffDropsWhoHasNotSaidWhoItIs) {
   EXPECT_TRUE(client.ended());
 }
 
-TEST_F(RobotServerTest, refusesAConnectWithinAMotionWhichGoesOn) {
+TEST_F(RobotServerTest, RefusesAConnectDuringAMotionAndContinuesIt) {
   for (const std::uint16_t other : {5, 6, 10}) {
     TestClient client(server_.port());
     connect(client, 5);
@@ -275,7 +275,7 @@ TEST_F(RobotServerTest, refusesAConnectWithinAMotionWhichGoesOn) {
   }
 }
 
-TEST_F(RobotServerTest, repeatsAStateByteForByte) {
+TEST_F(RobotServerTest, RepeatsAStateByteForByte) {
   TestClient client(server_.port());
   connect(client, 5);
   server_.publish();
@@ -288,7 +288,7 @@ TEST_F(RobotServerTest, repeatsAStateByteForByte) {
   EXPECT_EQ(first->q, second->q);
 }
 
-TEST_F(RobotServerTest, dropsDatagramsThatAreNoCommands) {
+TEST_F(RobotServerTest, DropsInvalidDatagrams) {
   TestClient client(server_.port());
   connect(client, 5);
   handler_.startMotion();
@@ -305,21 +305,21 @@ TEST_F(RobotServerTest, dropsDatagramsThatAreNoCommands) {
     std::copy(bytes.begin(), bytes.end(), cut.begin());
     if (size != codec::commandSize(5)) {
       client.sendDatagram(cut.data(), size);
-      server_.serve();  // which makes room for more of them
+      server_.serve();  // so that more of them fit
       EXPECT_FALSE(server_.receiveCommand()) << size;
     }
   }
   bytes[312] = 7;
   client.sendDatagram(bytes.data(), codec::commandSize(5));
   EXPECT_FALSE(server_.receiveCommand());
-  // What is not a number is the control unit's to judge.
+  // The control unit checks for values that are not finite.
   command.q_c[0] = std::nan("");
   client.command(command);
   ASSERT_TRUE(server_.receiveCommand());
   EXPECT_TRUE(std::isnan(server_.takeCommand()->q_c[0]));
 }
 
-TEST_F(RobotServerTest, answersASetterAfterTheStateThatShowsIt) {
+TEST_F(RobotServerTest, AnswersASetterAfterTheStateThatContainsIt) {
   TestClient client(server_.port());
   connect(client, 5);
   client.request(codec::SetLoadRequest{1.5, {}, {}});
@@ -330,7 +330,7 @@ TEST_F(RobotServerTest, answersASetterAfterTheStateThatShowsIt) {
   EXPECT_EQ(client.answer(Command::kSetLoad)->reply.status, Status::kSuccess);
 }
 
-TEST_F(RobotServerTest, passesOnEveryStatusOfASetter) {
+TEST_F(RobotServerTest, ForwardsEveryStatusOfASetter) {
   TestClient client(server_.port());
   connect(client, 10);
   for (const Status status :
@@ -340,7 +340,7 @@ TEST_F(RobotServerTest, passesOnEveryStatusOfASetter) {
   }
 }
 
-TEST_F(RobotServerTest, answersStopAndRecoveryWhenTheyEnd) {
+TEST_F(RobotServerTest, AnswersStopAndRecoveryWhenTheyEnd) {
   TestClient client(server_.port());
   connect(client, 5);
   handler_.answer = std::nullopt;
@@ -354,7 +354,7 @@ TEST_F(RobotServerTest, answersStopAndRecoveryWhenTheyEnd) {
   EXPECT_EQ(client.answer(Command::kAutomaticErrorRecovery)->reply.status, Status::kAborted);
 }
 
-TEST_F(RobotServerTest, leavesAllButStopsForLaterWhenAsked) {
+TEST_F(RobotServerTest, DefersAllRequestsExceptStops) {
   TestClient client(server_.port());
   connect(client, 5);
   const int before = handler_.handled;
@@ -368,7 +368,7 @@ TEST_F(RobotServerTest, leavesAllButStopsForLaterWhenAsked) {
   EXPECT_EQ(handler_.handled, before + 2);
 }
 
-TEST_F(RobotServerTest, servesModelsWhereTheVersionHasThem) {
+TEST_F(RobotServerTest, ServesModelsToVersionsThatHaveThem) {
   TestClient client(server_.port());
   connect(client, 9);
   const auto library = ask(client, codec::LoadModelLibraryRequest{});
@@ -384,7 +384,7 @@ TEST_F(RobotServerTest, servesModelsWhereTheVersionHasThem) {
   EXPECT_EQ(ask(client, other)->reply.status, Status::kError);
 }
 
-TEST_F(RobotServerTest, tellsOfVirtualWalls) {
+TEST_F(RobotServerTest, ReportsVirtualWalls) {
   TestClient client(server_.port());
   connect(client, 5);
   EXPECT_EQ(
@@ -394,7 +394,7 @@ TEST_F(RobotServerTest, tellsOfVirtualWalls) {
             Status::kInvalidArgumentRejected);
 }
 
-TEST_F(RobotServerTest, readsRequestsThatComeInPieces) {
+TEST_F(RobotServerTest, ReadsRequestsThatComeInPieces) {
   TestClient client(server_.port());
   connect(client, 5);
   codec::RequestMessage message;
@@ -408,7 +408,7 @@ TEST_F(RobotServerTest, readsRequestsThatComeInPieces) {
   EXPECT_EQ(std::get<codec::SetLoadRequest>(handler_.last).mass, 2.5);
 }
 
-TEST_F(RobotServerTest, refusesWhatItCannotUnderstand) {
+TEST_F(RobotServerTest, RefusesInvalidRequests) {
   TestClient client(server_.port());
   connect(client, 5);
   codec::RequestMessage message;
@@ -417,14 +417,14 @@ TEST_F(RobotServerTest, refusesWhatItCannotUnderstand) {
   client.sendBytes(message.data, message.size);
   serve();
   EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kInvalidArgumentRejected);
-  // A command of no version, and a length of no command: the stream means nothing any more.
+  // An unknown command and an invalid length: the rest of the stream is undefined.
   const std::uint32_t unknown[3] = {77, 4, 12};
   client.sendBytes(unknown, sizeof(unknown));
   serve();
   EXPECT_TRUE(client.ended());
 }
 
-TEST_F(RobotServerTest, endsAConnectionThatBeginsWithAnythingButConnect) {
+TEST_F(RobotServerTest, ClosesConnectionsThatDoNotStartWithConnect) {
   TestClient client(server_.port());
   client.request(codec::StopMoveRequest{});
   serve();
@@ -432,8 +432,8 @@ TEST_F(RobotServerTest, endsAConnectionThatBeginsWithAnythingButConnect) {
   EXPECT_EQ(handler_.handled, 0);
 }
 
-// Whatever arrives, the server neither falls nor stops taking clients.
-TEST_F(RobotServerTest, outlivesNoise) {
+// The server neither crashes nor stops accepting clients.
+TEST_F(RobotServerTest, SurvivesRandomBytes) {
   std::mt19937 engine(5);
   for (int round = 0; round < 200; round++) {
     TestClient client(server_.port());
@@ -455,7 +455,7 @@ TEST_F(RobotServerTest, outlivesNoise) {
   connect(client, 5);
 }
 
-TEST_F(RobotServerTest, takesAThousandClientsOneAfterTheOther) {
+TEST_F(RobotServerTest, AcceptsAThousandClientsInSequence) {
   for (int i = 0; i < 1000; i++) {
     TestClient client(server_.port());
     ASSERT_TRUE(client.connected());
@@ -464,7 +464,7 @@ TEST_F(RobotServerTest, takesAThousandClientsOneAfterTheOther) {
   }
 }
 
-TEST(RobotServerPort, inUseIsSaid) {
+TEST(RobotServerPort, ReportsAPortInUse) {
   FakeRequestHandler handler;
   RobotServerParameters parameters;
   parameters.port = 0;

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The models that a robot serves, loaded as clients load them and held against the control unit's
-// own and against KDL-independent numbers.
+// The models that a robot serves, loaded as clients load them, compared with the control unit's own
+// model and with numbers independent of KDL.
 #include <dlfcn.h>
 #include <franka_core/arm_model.h>
 #include <franka_core/limits.h>
@@ -33,7 +33,7 @@ std::string readText(const std::string& name) {
   return text.str();
 }
 
-/// The library as a client keeps it: a file, opened with dlopen.
+/// The library as a client stores it: a file, opened with dlopen.
 class Loaded {
  public:
   explicit Loaded(const std::vector<std::uint8_t>& bytes) {
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, ServedModel, ::testing::Values("panda", "fr3"))
 constexpr std::array<double, 16> kF_T_EE{0.6, 0.8, 0, 0, -0.8, 0.6,  0,   0,
                                          0,   0,   1, 0, 0.01, 0.02, 0.3, 1};
 
-TEST_P(ServedModel, answersAsTheControlUnitsModel) {
+TEST_P(ServedModel, MatchesTheControlUnitsModel) {
   const Loaded library(servedLibrary(arm_));
   ASSERT_TRUE(library.good()) << dlerror();
   for (int round = 0; round < 100; round++) {
@@ -140,7 +140,7 @@ TEST_P(ServedModel, answersAsTheControlUnitsModel) {
   }
 }
 
-TEST_P(ServedModel, hasTheDynamicsWithAPayload) {
+TEST_P(ServedModel, MatchesTheDynamicsWithAPayload) {
   const Loaded library(servedLibrary(arm_));
   ASSERT_TRUE(library.good()) << dlerror();
   for (int round = 0; round < 100; round++) {
@@ -161,8 +161,8 @@ TEST_P(ServedModel, hasTheDynamicsWithAPayload) {
   }
 }
 
-// A client's machine has libc and libm, and nothing else need be there.
-TEST_P(ServedModel, needsLibcAndLibmAlone) {
+// A client's machine may have only libc and libm.
+TEST_P(ServedModel, NeedsOnlyLibcAndLibm) {
   const Loaded library(servedLibrary(arm_));
   std::FILE* pipe = popen(("readelf -d " + library.path()).c_str(), "r");
   ASSERT_NE(pipe, nullptr);
@@ -183,8 +183,8 @@ TEST_P(ServedModel, needsLibcAndLibmAlone) {
   EXPECT_LE(needed, 2);
 }
 
-// The arm comes back out of the URDF as it went in.
-TEST_P(ServedModel, isTheSameAsAUrdf) {
+// The arm read back from the URDF is the same.
+TEST_P(ServedModel, UrdfReadsBackTheSameArm) {
   const std::string text = servedUrdf(arm_, 10);
   const ArmModel again = ArmModel::fromUrdf(text);
   for (int round = 0; round < 20; round++) {
@@ -201,7 +201,7 @@ TEST_P(ServedModel, isTheSameAsAUrdf) {
   }
 }
 
-TEST_P(ServedModel, hasInItsUrdfWhatClientsDemand) {
+TEST_P(ServedModel, UrdfHasAllElementsThatClientsNeed) {
   for (const unsigned version : {8U, 9U, 10U}) {
     tinyxml2::XMLDocument document;
     const std::string text = servedUrdf(arm_, version);
@@ -240,7 +240,7 @@ TEST_P(ServedModel, hasInItsUrdfWhatClientsDemand) {
   }
 }
 
-TEST(ServedLibrary, holdsTheParametersOfItsArm) {
+TEST(ServedLibrary, ContainsTheParametersOfItsArm) {
   const ArmModel arm = ArmModel::fromUrdf(readText("panda.urdf"));
   auto links = arm.links();
   links[3].mass += 1.0;

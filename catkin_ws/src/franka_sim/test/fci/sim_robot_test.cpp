@@ -1,8 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A robot with its unit, link and server, ticked by hand: what happens in which tick is the test's
-// to say.
+// A robot with its unit, link and server, ticked by the test.
 #include <franka_core/limits.h>
 #include <franka_sim/fci/served_models.h>
 #include <franka_sim/fci/serving.h>
@@ -94,9 +93,9 @@ class Panda : public SimRobotTest {
   Panda() : SimRobotTest(5, {3, 5}) {}
 };
 
-// The client repeats "finished" until it hears of the end; what is then still under way must not
-// end the motion that it starts at once.
-TEST_F(Panda, startsAMotionFreeOfWhatADelayedLinkStillCarries) {
+// The client repeats "finished" until it receives the end; commands then still in transit must not
+// end the motion that it starts next.
+TEST_F(Panda, StartsAMotionWithoutDelayedCommandsOfTheLast) {
   for (const double delay : {1.0, 2.0}) {
     robot.link().setDelay(delay);
     TestClient client(robot.server().port());
@@ -137,7 +136,7 @@ TEST_F(Panda, startsAMotionFreeOfWhatADelayedLinkStillCarries) {
   }
 }
 
-TEST_F(SimRobotTest, reachesATargetSentOnceAndEndsWhenItsClientGoes) {
+TEST_F(SimRobotTest, ReachesATargetSentOnceAndEndsAfterADisconnect) {
   TestClient client(robot.server().port());
   connect(client, 10);
   codec::MoveRequest request;
@@ -171,7 +170,7 @@ TEST_F(SimRobotTest, reachesATargetSentOnceAndEndsWhenItsClientGoes) {
   EXPECT_TRUE(state().reflex_reason[25]);  // communication_constraints_violation
 }
 
-TEST_F(SimRobotTest, holdsAClientToItsOwnLimitsAlsoWhereAnotherOnesMotionStillRan) {
+TEST_F(SimRobotTest, AppliesAClientsLimitsAfterAnotherClientsMotion) {
   const auto upper = [this] { return robot.unit().limits().arm.q_max; };
   {
     TestClient first(robot.server().port());
@@ -191,7 +190,7 @@ TEST_F(SimRobotTest, holdsAClientToItsOwnLimitsAlsoWhereAnotherOnesMotionStillRa
   EXPECT_EQ(upper(), franka_core::limitsOfProtocol(6).q_max);
 }
 
-TEST_F(SimRobotTest, servesEachVersionTheUrdfOfItsOwnLimits) {
+TEST_F(SimRobotTest, ServesEachVersionAUrdfWithItsLimits) {
   for (const std::uint16_t version : {8, 9, 10}) {
     TestClient client(robot.server().port());
     connect(client, version);
@@ -206,7 +205,7 @@ TEST_F(SimRobotTest, servesEachVersionTheUrdfOfItsOwnLimits) {
   }
 }
 
-TEST_F(SimRobotTest, losesTheSameCommandsAgainAfterARestart) {
+TEST_F(SimRobotTest, RepeatsLostCommandsAfterARestart) {
   robot.link().setLoss(0.3, 11);
   const auto lost = [this] {
     TestClient client(robot.server().port());
@@ -233,13 +232,13 @@ TEST_F(SimRobotTest, losesTheSameCommandsAgainAfterARestart) {
   EXPECT_EQ(lost(), first);
 }
 
-TEST_F(Panda, SaysOnceWhichLinksCameTooClose) {
-  std::vector<std::string> told;
-  robot.onCollision([&](const std::string& what) { told.push_back(what); });
+TEST_F(Panda, ReportsTheLinksOfASelfCollisionOnce) {
+  std::vector<std::string> reports;
+  robot.onCollision([&](const std::string& what) { reports.push_back(what); });
   ASSERT_EQ(Status::kMotionStarted, robot.unit().request(torqueControl()));
   EXPECT_EQ(std::string::npos, describe(robot).find("hand"));
   const std::array<double, 7> folded{{0, -0.566, 0, -3.0, 0.085, 0.783, 0.785}};
-  for (int i = 1; i <= 1000 && told.empty(); i++) {
+  for (int i = 1; i <= 1000 && reports.empty(); i++) {
     std::array<double, 7> q = test::kReady;
     for (std::size_t j = 0; j < 7; j++) {
       q[j] += 1e-3 * i * (folded[j] - q[j]);
@@ -248,14 +247,14 @@ TEST_F(Panda, SaysOnceWhichLinksCameTooClose) {
     tick();
   }
   tick();
-  ASSERT_EQ(1u, told.size());
+  ASSERT_EQ(1u, reports.size());
   EXPECT_EQ("its link2 and hand came too close to each other (self_collision_avoidance_violation).",
-            told.front());
+            reports.front());
   EXPECT_NE(std::string::npos,
             describe(robot).find("self_collision_avoidance_violation (link2 and hand)"));
 }
 
-TEST_F(SimRobotTest, aResetAnswersWhoeverWaitsForTheArmToComeToRest) {
+TEST_F(SimRobotTest, AResetAnswersRequestsThatWaitForRest) {
   TestClient client(robot.server().port());
   connect(client, 10);
   startMotion(client);
@@ -295,22 +294,22 @@ TEST_F(SimRobotTest, aResetAnswersWhoeverWaitsForTheArmToComeToRest) {
   startMotion(client);
 }
 
-TEST_F(Panda, SaysWhatACollisionWasFelt) {
-  std::vector<std::string> told;
-  robot.onCollision([&](const std::string& what) { told.push_back(what); });
+TEST_F(Panda, ReportsValueAndThresholdOfACollision) {
+  std::vector<std::string> reports;
+  robot.onCollision([&](const std::string& what) { reports.push_back(what); });
   arm.push = {{0, 0, -60, 0, 0, 0}};
   for (int i = 0; i < 20; i++) {
     tick();
   }
-  ASSERT_FALSE(told.empty());
+  ASSERT_FALSE(reports.empty());
   for (const char* part : {"it met something", "external", "upper threshold", "_reflex)."}) {
-    EXPECT_NE(std::string::npos, told.front().find(part)) << told.front();
+    EXPECT_NE(std::string::npos, reports.front().find(part)) << reports.front();
   }
   EXPECT_NE(std::string::npos, describe(robot).find("upper threshold")) << describe(robot);
 }
 
-// An encoder never shows a target to the last bit, and clients divide by the way that is left.
-TEST(RestingNear, IsAWayOfATenthOfAMilliradianFromTheTarget) {
+// An encoder never shows a target to the last bit, and clients divide by the remaining distance.
+TEST(RestingNear, DiffersFromTheTargetByATenthOfAMilliradian) {
   const ControlUnitParameters unit = unitOf(5);
   const std::array<double, 7> rest = restingNear(test::kReady, unit.joint_stiffness);
   for (std::size_t i = 0; i < 7; i++) {

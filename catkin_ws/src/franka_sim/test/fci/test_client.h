@@ -21,12 +21,12 @@ namespace franka_test {
 
 namespace codec = franka_core::fci;
 
-/// A client in slow motion: every step of the protocol is a call of its own. Blocks at most 5 s.
+/// A client in single steps: every step of the protocol is one call. Blocks at most 5 s.
 class TestClient {
  public:
   explicit TestClient(std::uint16_t port, const char* address = "127.0.0.1")
       : tcp_(::socket(AF_INET, SOCK_STREAM, 0)), udp_(::socket(AF_INET, SOCK_DGRAM, 0)) {
-    const int at_once = 1;  // small requests are not held back for each other
+    const int at_once = 1;  // sends small requests without delay
     ::setsockopt(tcp_, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof(at_once));
     sockaddr_in server{};
     server.sin_family = AF_INET;
@@ -76,8 +76,8 @@ class TestClient {
     codec::Reply reply;
     std::vector<std::uint8_t> model;
   };
-  /// The next reply, read as one to `command`; nothing when the connection has ended or nothing
-  /// comes within `timeout_ms`.
+  /// The next reply, read as one to `command`; empty if the connection has ended or no reply
+  /// arrives within `timeout_ms`.
   std::optional<Answer> answer(codec::Command command, int timeout_ms = 5000) {
     std::vector<std::uint8_t> bytes;
     if (!read(bytes, codec::kHeaderSize, timeout_ms)) {
@@ -102,7 +102,7 @@ class TestClient {
     return !read(bytes, 1, timeout_ms) && ended_;
   }
 
-  /// The next state; nothing when none comes.
+  /// The next state; empty if none arrives.
   std::optional<franka_core::RobotState> state(int timeout_ms = 5000) {
     pollfd waiting{udp_, POLLIN, 0};
     if (::poll(&waiting, 1, timeout_ms) != 1) {
@@ -134,8 +134,8 @@ class TestClient {
         return false;
       }
       std::uint8_t buffer[65536];
-      const std::size_t wanted = std::min(sizeof(buffer), size - bytes.size());
-      const ssize_t received = ::recv(tcp_, buffer, wanted, 0);
+      const std::size_t chunk = std::min(sizeof(buffer), size - bytes.size());
+      const ssize_t received = ::recv(tcp_, buffer, chunk, 0);
       if (received <= 0) {
         ended_ = true;
         return false;

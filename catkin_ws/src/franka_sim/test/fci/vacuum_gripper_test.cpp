@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The vacuum gripper alone, and as our own client finds it on the network.
+// The vacuum gripper alone, and through our own client.
 #include <franka/exception.h>
 #include <franka/vacuum_gripper.h>
 #include <franka_sim/fci/vacuum_server.h>
@@ -29,7 +29,7 @@ void run(VacuumGripperUnit& unit, int ticks) {
   }
 }
 
-/// @returns milliseconds until the command has ended; 100000 when it never does.
+/// @returns milliseconds until the command has ended; 100000 if never.
 int finish(VacuumGripperUnit& unit, VacuumGripperUnit::Ticket ticket) {
   for (int i = 0; i < 100000; i++) {
     if (unit.outcome(ticket) != GripperOutcome::kRunning) {
@@ -40,22 +40,22 @@ int finish(VacuumGripperUnit& unit, VacuumGripperUnit::Ticket ticket) {
   return 100000;
 }
 
-TEST(VacuumGripperUnit, ReachesAVacuumWhenThePumpsLawSaysAndHoldsIt) {
+TEST(VacuumGripperUnit, ReachesAVacuumAtTheTimeOfThePumpsLawAndHoldsIt) {
   const VacuumGripperParameters parameters;
   VacuumGripperUnit unit;
   unit.setPart(true);
-  for (const double wanted : {100.0, 400.0, 700.0}) {
+  for (const double target : {100.0, 400.0, 700.0}) {
     unit.restart();
-    const auto ticket = unit.vacuum(wanted, 5000);
+    const auto ticket = unit.vacuum(target, 5000);
     EXPECT_EQ(unit.power(), 100.0);
     EXPECT_FALSE(unit.inControlRange());
     const double time =
-        -parameters.pump_time * std::log(1.0 - wanted / parameters.sealed_vacuum);  // closed form
+        -parameters.pump_time * std::log(1.0 - target / parameters.sealed_vacuum);  // closed form
     EXPECT_NEAR(finish(unit, ticket), 1e3 * time, 1.0);
     EXPECT_EQ(unit.outcome(ticket), GripperOutcome::kSucceeded);
     run(unit, 1000);
-    EXPECT_GE(unit.vacuum(), wanted);
-    EXPECT_LE(unit.vacuum(), wanted + 10.0);
+    EXPECT_GE(unit.vacuum(), target);
+    EXPECT_LE(unit.vacuum(), target + 10.0);
     EXPECT_TRUE(unit.inControlRange());
     EXPECT_TRUE(unit.partPresent());
     EXPECT_FALSE(unit.partDetached());
@@ -63,7 +63,7 @@ TEST(VacuumGripperUnit, ReachesAVacuumWhenThePumpsLawSaysAndHoldsIt) {
   }
 }
 
-TEST(VacuumGripperUnit, WithoutAPartTheTimeoutEndsIt) {
+TEST(VacuumGripperUnit, TimesOutWithoutAPart) {
   VacuumGripperUnit unit;
   const auto ticket = unit.vacuum(500.0, 300);
   run(unit, 299);
@@ -74,7 +74,7 @@ TEST(VacuumGripperUnit, WithoutAPartTheTimeoutEndsIt) {
   EXPECT_EQ(unit.power(), 0.0);
 }
 
-TEST(VacuumGripperUnit, APartThatIsLostShowsAndOneThatComesBackIsHeldAgain) {
+TEST(VacuumGripperUnit, ReportsALostPartAndHoldsItAgain) {
   VacuumGripperUnit unit;
   unit.setPart(true);
   finish(unit, unit.vacuum(500.0, 5000));
@@ -90,7 +90,7 @@ TEST(VacuumGripperUnit, APartThatIsLostShowsAndOneThatComesBackIsHeldAgain) {
   EXPECT_TRUE(unit.inControlRange());
 }
 
-TEST(VacuumGripperUnit, DropsOffAndSaysSoUntilTheNextCommand) {
+TEST(VacuumGripperUnit, ReportsADetachedPartUntilTheNextCommand) {
   const VacuumGripperParameters parameters;
   VacuumGripperUnit unit;
   unit.setPart(true);
@@ -110,7 +110,7 @@ TEST(VacuumGripperUnit, DropsOffAndSaysSoUntilTheNextCommand) {
   EXPECT_FALSE(unit.partDetached());
 }
 
-TEST(VacuumGripperUnit, StopAndAnotherCommandInterrupt) {
+TEST(VacuumGripperUnit, StopAndOtherCommandsInterrupt) {
   const VacuumGripperParameters parameters;
   VacuumGripperUnit unit;
   unit.setPart(true);
@@ -126,7 +126,7 @@ TEST(VacuumGripperUnit, StopAndAnotherCommandInterrupt) {
   EXPECT_NEAR(unit.vacuum(), begin * std::exp(-0.2 / parameters.leak_time), 1e-9);
 }
 
-TEST(VacuumGripperUnit, RefusesWhatMakesNoSense) {
+TEST(VacuumGripperUnit, RefusesInvalidArguments) {
   VacuumGripperUnit unit;
   EXPECT_EQ(unit.vacuum(0.0, 100), 0U);
   EXPECT_EQ(unit.vacuum(-1.0, 100), 0U);
@@ -139,7 +139,7 @@ TEST(VacuumGripperUnit, RefusesWhatMakesNoSense) {
   EXPECT_THROW(VacuumGripperUnit{parameters}, std::invalid_argument);
 }
 
-TEST(VacuumGripperUnit, APumpThatFailsEndsWhatRuns) {
+TEST(VacuumGripperUnit, APumpFailureEndsTheCommand) {
   VacuumGripperUnit unit;
   unit.setPart(true);
   const auto ticket = unit.vacuum(500.0, 5000);
@@ -151,7 +151,7 @@ TEST(VacuumGripperUnit, APumpThatFailsEndsWhatRuns) {
   EXPECT_EQ(unit.vacuum(500.0, 5000), 0U);
 }
 
-/// The unit behind its server, in a thread of its own, a few times faster than the wall.
+/// The unit behind its server, in its own thread, a few times faster than the wall clock.
 class VacuumGripperOnTheNetwork : public ::testing::Test {
  protected:
   VacuumGripperOnTheNetwork() : server_("127.0.0.1", 0, unit_), thread_([this] { serve(); }) {}
@@ -168,7 +168,7 @@ class VacuumGripperOnTheNetwork : public ::testing::Test {
     const std::lock_guard<std::mutex> lock(mutex_);
     change(unit_);
   }
-  /// Waits for a state that fulfils the condition, up to 5 s.
+  /// Waits up to 5 s for a state that fulfils the condition.
   template <typename Condition>
   static bool becomes(const franka::VacuumGripper& gripper, Condition&& condition) {
     const auto end = std::chrono::steady_clock::now() + 5s;
@@ -200,13 +200,13 @@ class VacuumGripperOnTheNetwork : public ::testing::Test {
   std::thread thread_;
 };
 
-TEST_F(VacuumGripperOnTheNetwork, VacuumsHoldsAndDropsAPart) {
+TEST_F(VacuumGripperOnTheNetwork, PicksHoldsAndDropsAPart) {
   const franka::VacuumGripper gripper = client();
   EXPECT_EQ(gripper.serverVersion(), 1);
   change([](VacuumGripperUnit& unit) { unit.setPart(true); });
   using Profile = franka::VacuumGripper::ProductionSetupProfile;
   for (const Profile profile : {Profile::kP3, Profile::kP2, Profile::kP1, Profile::kP0}) {
-    EXPECT_TRUE(gripper.vacuum(50, 5s, profile)) << "they make no difference";
+    EXPECT_TRUE(gripper.vacuum(50, 5s, profile)) << "profiles have no effect";
   }
   EXPECT_TRUE(becomes(gripper, [](const franka::VacuumGripperState& state) {
     return state.part_present && state.in_control_range && !state.part_detached &&
@@ -220,7 +220,7 @@ TEST_F(VacuumGripperOnTheNetwork, VacuumsHoldsAndDropsAPart) {
   EXPECT_TRUE(gripper.stop());
 }
 
-TEST_F(VacuumGripperOnTheNetwork, TellsWhatDidNotWork) {
+TEST_F(VacuumGripperOnTheNetwork, ReportsFailures) {
   const franka::VacuumGripper gripper = client();
   EXPECT_FALSE(gripper.vacuum(50, 100ms, franka::VacuumGripper::ProductionSetupProfile::kP3));
   EXPECT_THROW(gripper.vacuum(0, 100ms), franka::CommandException);
@@ -231,7 +231,7 @@ TEST_F(VacuumGripperOnTheNetwork, TellsWhatDidNotWork) {
   }));
 }
 
-TEST_F(VacuumGripperOnTheNetwork, StopEndsWhatAnotherThreadWaitsFor) {
+TEST_F(VacuumGripperOnTheNetwork, StopInterruptsACommandOfAnotherThread) {
   const franka::VacuumGripper gripper = client();
   auto waiting = std::async(std::launch::async, [&] { return gripper.vacuum(50, 60s); });
   ASSERT_TRUE(becomes(
@@ -240,7 +240,7 @@ TEST_F(VacuumGripperOnTheNetwork, StopEndsWhatAnotherThreadWaitsFor) {
   EXPECT_THROW(waiting.get(), franka::CommandException);
 }
 
-TEST_F(VacuumGripperOnTheNetwork, ASecondClientIsTurnedAwayAndMayComeLater) {
+TEST_F(VacuumGripperOnTheNetwork, RefusesASecondClientUntilTheFirstLeaves) {
   {
     const franka::VacuumGripper first = client();
     EXPECT_THROW(client(), franka::Exception);

@@ -21,7 +21,7 @@ class ArmPlantTest : public ::testing::TestWithParam<const char*> {
   std::unique_ptr<ArmHolder> holder_;
 };
 
-TEST_P(ArmPlantTest, startsWhereTheDescriptionSays) {
+TEST_P(ArmPlantTest, StartsAtTheInitialPositions) {
   put(robot(id()));
   const ArmMeasurement m = arm_->measure();
   for (int i = 0; i < 7; ++i) {
@@ -31,8 +31,8 @@ TEST_P(ArmPlantTest, startsWhereTheDescriptionSays) {
   }
 }
 
-/// At rest the sensor shows the torque of gravity, which is what the motors give.
-TEST_P(ArmPlantTest, torqueAtRestIsGravity) {
+/// At rest the sensor shows the torque of gravity, which the motors apply.
+TEST_P(ArmPlantTest, TorqueAtRestIsGravity) {
   put(robot(id()));
   for (int k = 0; k < 3000; ++k) {
     holder_->hold(kHome);
@@ -46,9 +46,9 @@ TEST_P(ArmPlantTest, torqueAtRestIsGravity) {
   }
 }
 
-/// In motion tau_J = M_link a + c + g at a point between the ticks (decision 3): the rotors' share
-/// is not in it. Independent answer: ArmModel.
-TEST_P(ArmPlantTest, torqueInMotionIsThatOfTheLinksAlone) {
+/// In motion tau_J = M_link a + c + g at a point between the ticks (decision 3), without the
+/// rotors' share. Independent reference: ArmModel.
+TEST_P(ArmPlantTest, TorqueInMotionExcludesTheRotors) {
   put(robot(id()));
   double worst = 0, rotor = 0;
   ArmMeasurement last = arm_->measure();
@@ -81,7 +81,7 @@ TEST_P(ArmPlantTest, torqueInMotionIsThatOfTheLinksAlone) {
   EXPECT_GT(rotor, 0.3) << "the motion was too slow to show anything";
 }
 
-TEST_P(ArmPlantTest, frictionIsBetweenMotorAndSensor) {
+TEST_P(ArmPlantTest, FrictionActsBetweenMotorAndSensor) {
   RobotDescription description = robot(id());
   const std::string joint = id() + "_joint1";
   description.coulomb_friction[joint] = 1.5;
@@ -100,8 +100,8 @@ TEST_P(ArmPlantTest, frictionIsBetweenMotorAndSensor) {
   EXPECT_NEAR(0.0, m.tau_J[0], 5e-3);
 }
 
-/// Torque below dry friction does not move the arm; the sensor then shows nothing of it.
-TEST_P(ArmPlantTest, dryFrictionHoldsAndTheSensorDoesNotSeeIt) {
+/// Torque below dry friction does not move the arm, and the sensor does not show it.
+TEST_P(ArmPlantTest, DryFrictionHoldsTheJointAndIsNotMeasured) {
   RobotDescription description = robot(id());
   description.coulomb_friction[id() + "_joint1"] = 1.5;
   put(description);
@@ -115,7 +115,7 @@ TEST_P(ArmPlantTest, dryFrictionHoldsAndTheSensorDoesNotSeeIt) {
   EXPECT_LT(std::abs(arm_->measure().dq[0]), 1e-2);
 }
 
-TEST_P(ArmPlantTest, closedBrakesHoldForTenSecondsWithoutTorque) {
+TEST_P(ArmPlantTest, ClosedBrakesHoldForTenSecondsWithoutTorque) {
   put(robot(id()));
   for (int k = 0; k < 200; ++k) {
     holder_->hold(kHome);
@@ -135,11 +135,11 @@ TEST_P(ArmPlantTest, closedBrakesHoldForTenSecondsWithoutTorque) {
   for (int i = 0; i < 7; ++i) {
     EXPECT_NEAR(before.q[i], after.q[i], 1e-9);
     EXPECT_NEAR(kHome[i], after.q[i], 2e-5);
-    EXPECT_NEAR(gravity[i], after.tau_J[i], 1e-3) << "the sensor shows what the brake carries";
+    EXPECT_NEAR(gravity[i], after.tau_J[i], 1e-3) << "the sensor shows the brake's torque";
   }
 }
 
-TEST_P(ArmPlantTest, brakesHoldAgainstAPushAndOpenAgain) {
+TEST_P(ArmPlantTest, BrakesHoldAgainstAPushAndOpenAgain) {
   put(robot(id()));
   arm_->setBrakes(true);
   world_.push(id() + "_hand", {60, 40, -50}, {}, 2000);
@@ -157,7 +157,7 @@ TEST_P(ArmPlantTest, brakesHoldAgainstAPushAndOpenAgain) {
   EXPECT_GT(std::abs(arm_->measure().q[1] - kHome[1]), 1e-2) << "it must fall";
 }
 
-TEST_P(ArmPlantTest, brakesStopAMovingArm) {
+TEST_P(ArmPlantTest, BrakesStopAMovingArm) {
   put(robot(id()));
   for (int k = 0; k < 500; ++k) {
     auto tau = holder_->torques(kHome);
@@ -175,7 +175,7 @@ TEST_P(ArmPlantTest, brakesStopAMovingArm) {
   EXPECT_NEAR(q, arm_->measure().q[0], 1e-4);
 }
 
-TEST_P(ArmPlantTest, torquesThatAreNoNumbersAreNone) {
+TEST_P(ArmPlantTest, NonFiniteTorquesCountAsZero) {
   put(robot(id()));
   arm_->applyTorques({NAN, INFINITY, 0, 0, 0, 0, 0});
   world_.step();
@@ -183,7 +183,7 @@ TEST_P(ArmPlantTest, torquesThatAreNoNumbersAreNone) {
   EXPECT_EQ(1u, world_.ticks());
 }
 
-TEST_P(ArmPlantTest, stopsEndTheTravel) {
+TEST_P(ArmPlantTest, JointStopsLimitTheTravel) {
   RobotDescription description = robot(id());
   description.stops[id() + "_joint1"] = {-0.3, 0.5};
   put(description);
@@ -196,7 +196,7 @@ TEST_P(ArmPlantTest, stopsEndTheTravel) {
   EXPECT_NEAR(0.5, arm_->measure().q[0], 0.01);
 }
 
-TEST_P(ArmPlantTest, fingersMoveTogetherBetweenTheirStops) {
+TEST_P(ArmPlantTest, FingersMoveTogetherBetweenTheirStops) {
   put(robot(id()));
   ASSERT_TRUE(world_.hasHand(id(), id()));
   HandPlant& hand = world_.hand(id(), id());
@@ -217,7 +217,7 @@ TEST_P(ArmPlantTest, fingersMoveTogetherBetweenTheirStops) {
   EXPECT_NEAR(0.0, hand.measure().q[1], 5e-4);
 }
 
-TEST_P(ArmPlantTest, missingJointsAreNamed) {
+TEST_P(ArmPlantTest, NamesMissingJoints) {
   put(robot(id()));
   expectSentence([&] { world_.arm(id(), "left"); }, {"'left_joint1'", id().c_str()});
   expectSentence([&] { world_.hand(id(), "left"); }, {"'left_finger_joint1'"});

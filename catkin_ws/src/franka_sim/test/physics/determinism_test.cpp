@@ -17,8 +17,8 @@ RobotDescription atTheTable() {
   return description;
 }
 
-/// Drives arm and hand for a while with contacts, a push and the brakes, and notes every state.
-/// @param prepared steps are prepared before it is known what the arm will do
+/// Drives arm and hand for a while with contacts, a push and the brakes, and logs every state.
+/// @param prepared prepares steps before the arm's command is known
 std::vector<std::uint64_t> drive(World* world, int ticks, bool prepared = false) {
   ArmPlant& arm = world->arm("panda", "panda");
   HandPlant& hand = world->hand("panda", "panda");
@@ -44,14 +44,14 @@ std::vector<std::uint64_t> drive(World* world, int ticks, bool prepared = false)
   return hashes;
 }
 
-TEST(DeterminismTest, sameInputsGiveTheSameStatesBitForBit) {
+TEST(DeterminismTest, SameInputsGiveTheSameStatesBitForBit) {
   World one(test::world("stone")), other(test::world("stone"));
   one.addRobot(atTheTable());
   other.addRobot(atTheTable());
   EXPECT_EQ(drive(&one, 1500), drive(&other, 1500));
 }
 
-TEST(DeterminismTest, resetStartsTheSameRunAgain) {
+TEST(DeterminismTest, ResetStartsTheSameRunAgain) {
   World world(test::world("stone"));
   world.addRobot(atTheTable());
   const std::uint64_t start = world.stateHash();
@@ -65,7 +65,7 @@ TEST(DeterminismTest, resetStartsTheSameRunAgain) {
   EXPECT_EQ(first, drive(&world, 1500));
 }
 
-TEST(DeterminismTest, hashSeesTheLastBitOfAState) {
+TEST(DeterminismTest, HashDependsOnTheLastBitOfTheState) {
   World world(test::world("stone"));
   world.addRobot(atTheTable());
   const std::uint64_t before = world.stateHash();
@@ -75,7 +75,7 @@ TEST(DeterminismTest, hashSeesTheLastBitOfAState) {
   EXPECT_EQ(before, world.stateHash());
 }
 
-TEST(DeterminismTest, lookingDoesNotChangeTheFuture) {
+TEST(DeterminismTest, ReadingDoesNotChangeTheFuture) {
   World one(test::world("stone")), other(test::world("stone"));
   one.addRobot(atTheTable());
   other.addRobot(atTheTable());
@@ -89,7 +89,7 @@ TEST(DeterminismTest, lookingDoesNotChangeTheFuture) {
   }
 }
 
-TEST(DeterminismTest, preparedStepsAreTheSameBitForBit) {
+TEST(DeterminismTest, PreparedStepsAreEqualBitForBit) {
   World one(test::world("stone")), other(test::world("stone"));
   one.addRobot(atTheTable());
   other.addRobot(atTheTable());
@@ -104,7 +104,7 @@ void expectSame(const std::vector<Contact>& one, const std::vector<Contact>& oth
   }
 }
 
-TEST(DeterminismTest, nobodySeesThatAStepIsPrepared) {
+TEST(DeterminismTest, APreparedStepIsNotVisible) {
   World one(test::world("stone")), other(test::world("stone"));
   one.addRobot(atTheTable());
   other.addRobot(atTheTable());
@@ -128,7 +128,7 @@ TEST(DeterminismTest, nobodySeesThatAStepIsPrepared) {
   EXPECT_GT(seen, 100u);
 }
 
-TEST(DeterminismTest, whatChangesAfterAStepWasPreparedCounts) {
+TEST(DeterminismTest, ChangesAfterPreparationTakeEffect) {
   const std::vector<std::function<void(World*)>> changes{
       [](World* world) { world->setBodyPose("stone", {{0.2, 0.1, 0.5}, {1, 0, 0, 0}}); },
       [](World* world) { world->setBodyTwist("stone", {{0.1, 0, 1}, {0, 0, 3}}); },
@@ -160,7 +160,7 @@ TEST(DeterminismTest, whatChangesAfterAStepWasPreparedCounts) {
   }
 }
 
-TEST(DeterminismTest, aTickNeitherAllocatesNorLocks) {
+TEST(DeterminismTest, ATickNeitherAllocatesNorLocks) {
   World world(test::world("stone"));
   world.addRobot(atTheTable());
   ArmPlant& arm = world.arm("panda", "panda");

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// A stone between two fingers, held by friction alone.
+// A stone between two fingers, held only by friction.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -34,7 +34,7 @@ class GraspTest : public ::testing::TestWithParam<const char*> {
 
   std::string id() const { return GetParam(); }
 
-  /// The stone between the open fingers, its 32 mm along the fingers' way.
+  /// Puts the stone between the open fingers, its 32 mm along their direction of motion.
   void placeStone() { world_.setBodyPose("stone", world_.bodyPose(id() + "_hand_tcp")); }
 
   void tick(double force, const std::array<double, 7>& q_d,
@@ -69,7 +69,7 @@ class GraspTest : public ::testing::TestWithParam<const char*> {
   std::unique_ptr<ArmHolder> holder_;
 };
 
-TEST_P(GraspTest, padsPressWithTheFingersForceAndCarryTheWeight) {
+TEST_P(GraspTest, PadsPressWithTheFingerForceAndCarryTheWeight) {
   placeStone();
   for (int k = 0; k < 2000; ++k) {
     tick(kFingerForce, kHome);
@@ -85,7 +85,7 @@ TEST_P(GraspTest, padsPressWithTheFingersForceAndCarryTheWeight) {
   EXPECT_NEAR(0.032, hand_->measure().q[0] + hand_->measure().q[1], 5e-4);
 }
 
-TEST_P(GraspTest, stoneStaysInTheFingersForAMinuteOfCarrying) {
+TEST_P(GraspTest, StoneStaysGraspedForAMinuteOfMotion) {
   placeStone();
   for (int k = 0; k < 1000; ++k) {
     tick(kFingerForce, kHome);
@@ -123,7 +123,7 @@ TEST_P(GraspTest, stoneStaysInTheFingersForAMinuteOfCarrying) {
 }
 
 /// Two pads with friction 0.6 carry at most 2 * 0.6 * F: below 0.84 N the stone must slip.
-TEST_P(GraspTest, tooLittleForceLosesTheStone) {
+TEST_P(GraspTest, StoneSlipsWithTooLittleForce) {
   placeStone();
   for (int k = 0; k < 1500; ++k) {
     tick(0.6, kHome);
@@ -131,7 +131,7 @@ TEST_P(GraspTest, tooLittleForceLosesTheStone) {
   EXPECT_GT(stoneInHand().z(), 0.1034 + 0.02) << "friction of the stone (0.6) decides, not 1.13";
 }
 
-TEST_P(GraspTest, openFingersLetGo) {
+TEST_P(GraspTest, OpenFingersReleaseTheStone) {
   placeStone();
   for (int k = 0; k < 500; ++k) {
     tick(kFingerForce, kHome);
@@ -143,8 +143,8 @@ TEST_P(GraspTest, openFingersLetGo) {
   EXPECT_GT(stoneInHand().z(), 0.15);
 }
 
-/// With closed brakes the fingers still hold: the arm stands like a rock.
-TEST_P(GraspTest, graspOutlivesTheBrakes) {
+/// With closed brakes the fingers still hold, and the arm does not move.
+TEST_P(GraspTest, GraspHoldsWithClosedBrakes) {
   placeStone();
   for (int k = 0; k < 1000; ++k) {
     tick(kFingerForce, kHome);

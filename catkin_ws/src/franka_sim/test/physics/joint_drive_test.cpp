@@ -8,7 +8,7 @@
 namespace franka_sim::test {
 namespace {
 
-constexpr double kWeight = 12 * 9.81;  ///< of all that the lift carries [N]
+constexpr double kWeight = 12 * 9.81;  ///< of the lift's load [N]
 
 class JointDriveTest : public ::testing::Test {
  protected:
@@ -32,16 +32,16 @@ class JointDriveTest : public ::testing::Test {
   JointDrive *lift_{nullptr}, *wheel_{nullptr};
 };
 
-TEST_F(JointDriveTest, effortsAct) {
+TEST_F(JointDriveTest, AppliesEfforts) {
   lift_->applyEffort(kWeight + 1.2);
   step(1000);
-  // A constant acceleration of 1.2 N / 12 kg; Euler's steps are half a step ahead.
+  // A constant acceleration of 1.2 N / 12 kg; Euler steps lead by half a step.
   EXPECT_NEAR(0.1, lift_->measure().velocity, 1e-9);
   EXPECT_NEAR(0.5 + 0.05, lift_->measure().position, 1e-4);
   EXPECT_NEAR(kWeight + 1.2, lift_->measure().effort, 1e-9);
 }
 
-TEST_F(JointDriveTest, aPositionIsKeptWhateverItCarries) {
+TEST_F(JointDriveTest, HoldsAPositionUnderAnyLoad) {
   lift_->follow(0.5);
   step(500);
   EXPECT_NEAR(0.5, lift_->measure().position, 1e-5);
@@ -52,7 +52,7 @@ TEST_F(JointDriveTest, aPositionIsKeptWhateverItCarries) {
   EXPECT_NEAR(kWeight + 500, lift_->measure().effort, 1e-2);
 }
 
-TEST_F(JointDriveTest, aSteadyMotionIsFollowedFourMillisecondsLate) {
+TEST_F(JointDriveTest, FollowsASteadyMotionWithFourMillisecondsLag) {
   const double v = 0.2;
   double target = 0.5;
   for (int i = 0; i < 500; ++i) {
@@ -64,18 +64,18 @@ TEST_F(JointDriveTest, aSteadyMotionIsFollowedFourMillisecondsLate) {
   EXPECT_NEAR(target - v * 0.004, lift_->measure().position, v * 0.001);
 }
 
-TEST_F(JointDriveTest, frictionAndDampingAreThoseOfTheUrdf) {
+TEST_F(JointDriveTest, UsesFrictionAndDampingOfTheUrdf) {
   lift_->follow(0.5);
   wheel_->applyEffort(1.2);
   step(500);  // 25 time constants I / d
   EXPECT_NEAR((1.2 - 0.2) / 0.5, wheel_->measure().velocity, 1e-6);
   wheel_->applyEffort(0.19);
   step(500);
-  // Below the dry friction, which MuJoCo lets creep: the damping alone would allow 0.38 rad/s.
+  // Below the dry friction, at which MuJoCo creeps: the damping alone would allow 0.38 rad/s.
   EXPECT_LT(wheel_->measure().velocity, 0.02);
 }
 
-TEST_F(JointDriveTest, nothingIsLetGoWhenSomethingElseComesOrIsPutElsewhere) {
+TEST_F(JointDriveTest, HoldsWhenObjectsAreAddedOrMoved) {
   lift_->follow(0.5);
   step(100);
   world_.addRobot(robot("panda"));
@@ -94,10 +94,10 @@ TEST_F(JointDriveTest, nothingIsLetGoWhenSomethingElseComesOrIsPutElsewhere) {
   EXPECT_NEAR(0.8, lift_->measure().position, 1e-5);
   world_.reset();
   step(100);
-  EXPECT_LT(lift_->measure().position, 0.48) << "after a reset nobody holds it";
+  EXPECT_LT(lift_->measure().position, 0.48) << "nothing holds it after a reset";
 }
 
-TEST_F(JointDriveTest, aNumberThatIsNoneIsNoCommand) {
+TEST_F(JointDriveTest, IgnoresNonFiniteCommands) {
   lift_->follow(0.5);
   lift_->follow(std::numeric_limits<double>::quiet_NaN());
   wheel_->applyEffort(std::numeric_limits<double>::infinity());
@@ -106,7 +106,7 @@ TEST_F(JointDriveTest, aNumberThatIsNoneIsNoCommand) {
   EXPECT_EQ(0.0, wheel_->measure().velocity);
 }
 
-TEST_F(JointDriveTest, onlyJointsThatMoveHaveADrive) {
+TEST_F(JointDriveTest, OnlyMovingJointsHaveADrive) {
   EXPECT_THROW(world_.drive("lift_and_wheel", "elevator"), std::runtime_error);
   EXPECT_THROW(world_.drive("elevator", "lift"), std::runtime_error);
 }

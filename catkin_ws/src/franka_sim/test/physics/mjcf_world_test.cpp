@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// World files of other people: what is carried over, and what is refused with which sentence.
+// World files by other authors: what is kept, and what is refused with which sentence.
 #include <unistd.h>
 
 #include <cstdio>
@@ -40,7 +40,7 @@ class MjcfWorldTest : public ::testing::Test {
   std::vector<std::string> files_;
 };
 
-TEST_F(MjcfWorldTest, saysWhatIsWrong) {
+TEST_F(MjcfWorldTest, ReportsErrorsWithTheirCause) {
   expectSentence([] { World world("/nowhere/world.xml"); }, {"/nowhere/world.xml", "opened"});
   expectSentence([] { World world("/tmp"); }, {"/tmp"});
   refuses("", {"not well-formed"});
@@ -54,7 +54,7 @@ TEST_F(MjcfWorldTest, saysWhatIsWrong) {
   refuses("<mujoco><asset><mesh name='m' file='gone.stl'/></asset></mujoco>", {"gone.stl"});
 }
 
-TEST_F(MjcfWorldTest, degreesAndDefaultsOfTheWorldDoNotReachTheRobot) {
+TEST_F(MjcfWorldTest, UnitsAndDefaultsOfTheWorldDoNotAffectTheRobot) {
   const std::string file = write("world.xml", R"(<mujoco>
     <compiler angle="degree"/>
     <default><joint damping="7" armature="3" stiffness="5" frictionloss="2" limited="false"/>
@@ -85,7 +85,7 @@ TEST_F(MjcfWorldTest, degreesAndDefaultsOfTheWorldDoNotReachTheRobot) {
   EXPECT_EQ(1, a->geom_contype[ours]);
 }
 
-TEST_F(MjcfWorldTest, includesAndRelativeFilesWork) {
+TEST_F(MjcfWorldTest, IncludesAndRelativeFilesWork) {
   // A binary STL of a tetrahedron.
   std::string stl(80, ' ');
   const auto add = [&stl](const void* data, std::size_t size) {
@@ -119,7 +119,7 @@ TEST_F(MjcfWorldTest, includesAndRelativeFilesWork) {
   EXPECT_LT(z, 0.2) << "it fell onto the ground";
 }
 
-TEST_F(MjcfWorldTest, aGraspIsPreparedForEveryFreeBody) {
+TEST_F(MjcfWorldTest, EveryFreeBodyHasGraspContacts) {
   World world(write("world.xml", R"(<mujoco><worldbody>
     <geom name="floor" type="plane" size="5 5 1"/>
     <body name="a" pos="2 0 1"><freejoint/><geom size="0.03" friction="0.3 0.002 0.0001"/></body>
@@ -144,7 +144,7 @@ TEST_F(MjcfWorldTest, aGraspIsPreparedForEveryFreeBody) {
   EXPECT_EQ(2 * 2 * 4, grasps) << "two fingers of four pads with two bodies";
 }
 
-TEST_F(MjcfWorldTest, missingCollisionMeshIsNamed) {
+TEST_F(MjcfWorldTest, NamesAMissingCollisionMesh) {
   World world;
   RobotDescription description = robot("panda");
   const std::string box =
@@ -162,8 +162,8 @@ TEST_F(MjcfWorldTest, missingCollisionMeshIsNamed) {
   EXPECT_TRUE(world.robots().empty());
 }
 
-/// A visual that cannot be read shows the collision shapes: never a hole in the robot.
-TEST_F(MjcfWorldTest, missingVisualMeshShowsTheCollisionShapes) {
+/// A visual that cannot be read shows the collision shapes instead of a gap.
+TEST_F(MjcfWorldTest, MissingVisualMeshShowsTheCollisionShapes) {
   World world;
   RobotDescription description = robot("panda");
   const std::string mesh =

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// MuJoCo's model of the merged robot against ArmModel, which never saw MuJoCo.
+// MuJoCo's model of the merged robot against ArmModel, which does not use MuJoCo.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -76,7 +76,7 @@ class ModelAgreement : public ::testing::TestWithParam<const char*> {
   std::array<double, 7> q_{}, dq_{};
 };
 
-TEST_P(ModelAgreement, massMatrixOnRandomStates) {
+TEST_P(ModelAgreement, MassMatrixOnRandomStates) {
   std::vector<double> full(reference_.model->nv * reference_.model->nv);
   double worst = 0;
   for (int k = 0; k < kStates; ++k) {
@@ -95,7 +95,7 @@ TEST_P(ModelAgreement, massMatrixOnRandomStates) {
   EXPECT_LT(worst, 1e-12);
 }
 
-TEST_P(ModelAgreement, biasOnRandomStates) {
+TEST_P(ModelAgreement, BiasOnRandomStates) {
   double worst = 0;
   for (int k = 0; k < kStates; ++k) {
     draw();
@@ -110,7 +110,7 @@ TEST_P(ModelAgreement, biasOnRandomStates) {
   EXPECT_LT(worst, 1e-11);
 }
 
-TEST_P(ModelAgreement, jacobianAndPoseOfTheFlangeOnRandomStates) {
+TEST_P(ModelAgreement, JacobianAndPoseOfTheFlangeOnRandomStates) {
   const int nv = reference_.model->nv;
   std::vector<double> linear(3 * nv), angular(3 * nv);
   double worst = 0;
@@ -135,8 +135,8 @@ TEST_P(ModelAgreement, jacobianAndPoseOfTheFlangeOnRandomStates) {
   EXPECT_LT(worst, 1e-13);
 }
 
-/// MuJoCo's joints against the pose, without ArmModel: central differences of the flange.
-TEST_P(ModelAgreement, jacobianAgainstFiniteDifferences) {
+/// MuJoCo's Jacobian against central differences of the flange's pose, without ArmModel.
+TEST_P(ModelAgreement, JacobianAgainstFiniteDifferences) {
   constexpr double kStep = 1e-6;
   for (int k = 0; k < 20; ++k) {
     draw();

@@ -43,19 +43,19 @@ class RendererTest : public ::testing::Test {
 std::unique_ptr<Renderer> RendererTest::renderer_;
 std::unique_ptr<World> RendererTest::world_;
 
-TEST_F(RendererTest, usesTheBackendThatWasAskedFor) {
-  const char* asked = std::getenv("FRANKA_SIM_RENDERER");
+TEST_F(RendererTest, UsesTheRequestedBackend) {
+  const char* requested = std::getenv("FRANKA_SIM_RENDERER");
   const std::string backend = renderer_->backend();
-  if (asked == nullptr) {
+  if (requested == nullptr) {
     EXPECT_TRUE(backend == "EGL" || backend == "OSMesa");
   } else {
-    EXPECT_EQ(std::string(asked) == "egl" ? "EGL" : "OSMesa", backend);
+    EXPECT_EQ(std::string(requested) == "egl" ? "EGL" : "OSMesa", backend);
   }
 }
 
-/// From above: x of the world points up in the picture, y to the left; blue tray right, red tray
-/// left.
-TEST_F(RendererTest, showsTheTraysWhereTheyStand) {
+/// Seen from above: x of the world points up in the picture, y to the left; blue tray right, red
+/// tray left.
+TEST_F(RendererTest, ShowsTheTraysAtTheirPositions) {
   const Picture picture = renderer_->render(captureScene(*world_), above(), 320, 240);
   ASSERT_EQ(3u * 320 * 240, picture.rgb.size());
   std::array<double, 2> blue_sum{}, red_sum{};
@@ -81,7 +81,7 @@ TEST_F(RendererTest, showsTheTraysWhereTheyStand) {
   EXPECT_GT(std::abs(blue_x - red_x), 40);
 }
 
-TEST_F(RendererTest, samePictureForTheSameMoment) {
+TEST_F(RendererTest, SameSceneGivesTheSamePicture) {
   const Scene scene = captureScene(*world_);
   const Picture one = renderer_->render(scene, above(), 200, 100);
   const Picture big = renderer_->render(scene, above(), 1000, 800);  // the buffer grows
@@ -90,7 +90,7 @@ TEST_F(RendererTest, samePictureForTheSameMoment) {
   EXPECT_EQ(1000, big.width);
 }
 
-TEST_F(RendererTest, showsTheRobotMoving) {
+TEST_F(RendererTest, ShowsTheRobotMoving) {
   const Picture before = renderer_->render(captureScene(*world_), Camera(), 200, 150);
   world_->setJointPosition("panda_joint1", 0.8);
   const Picture after = renderer_->render(captureScene(*world_), Camera(), 200, 150);
@@ -99,7 +99,7 @@ TEST_F(RendererTest, showsTheRobotMoving) {
   EXPECT_EQ(before.rgb, renderer_->render(captureScene(*world_), Camera(), 200, 150).rgb);
 }
 
-TEST_F(RendererTest, showsTheStoneThatWasMoved) {
+TEST_F(RendererTest, ShowsAMovedStone) {
   const Pose start = world_->bodyPose("stone");
   const Picture before = renderer_->render(captureScene(*world_), above(), 320, 240);
   Pose other = start;
@@ -110,7 +110,7 @@ TEST_F(RendererTest, showsTheStoneThatWasMoved) {
   world_->setBodyPose("stone", start);
 }
 
-TEST_F(RendererTest, newRobotAppears) {
+TEST_F(RendererTest, ShowsANewRobot) {
   World empty;
   const Picture before = renderer_->render(captureScene(empty), Camera(), 200, 150);
   empty.addRobot(robot("fr3"));
@@ -118,7 +118,7 @@ TEST_F(RendererTest, newRobotAppears) {
   EXPECT_NE(before.rgb, after.rgb);
 }
 
-TEST_F(RendererTest, saysWhatItCannotDraw) {
+TEST_F(RendererTest, RefusesInvalidSizesAndCameras) {
   const Scene scene = captureScene(*world_);
   expectSentence([&] { renderer_->render(scene, above(), 0, 10); }, {"0 x 10"});
   expectSentence([&] { renderer_->render(scene, above(), 100, 100000); }, {"100000"});
@@ -130,12 +130,12 @@ TEST_F(RendererTest, saysWhatItCannotDraw) {
   expectSentence([&] { renderer_->render(scene, camera, 10, 10); }, {"field of view"});
 }
 
-TEST(RendererChoice, refusesUnknownBackends) {
-  const char* asked = std::getenv("FRANKA_SIM_RENDERER");
-  const std::string kept = asked == nullptr ? "" : asked;
+TEST(RendererChoice, RefusesUnknownBackends) {
+  const char* requested = std::getenv("FRANKA_SIM_RENDERER");
+  const std::string kept = requested == nullptr ? "" : requested;
   setenv("FRANKA_SIM_RENDERER", "vulkan", 1);
   expectSentence([] { Renderer renderer; }, {"FRANKA_SIM_RENDERER", "vulkan", "osmesa"});
-  if (asked == nullptr) {
+  if (requested == nullptr) {
     unsetenv("FRANKA_SIM_RENDERER");
   } else {
     setenv("FRANKA_SIM_RENDERER", kept.c_str(), 1);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of SDF worlds and of robots: where they stand, how they look, and what is wrong with them.
+// Meshes of SDF worlds and of robots: poses, colours, and errors.
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -50,7 +50,7 @@ std::string geometry(const std::string& id, const std::string& positions, int ve
          "</vcount><p>" + corners + "</p></polylist></mesh></geometry>";
 }
 
-/// A red box from 0 0 0 to 2 4 6 and a blue square from 0 0 6 to 2 2 6 looking up, in centimetres.
+/// A red box from 0 0 0 to 2 4 6 and a blue square from 0 0 6 to 2 2 6 facing up, in centimetres.
 std::string collada(const std::string& nodes, const std::string& up = "Z_UP",
                     const std::string& blue = "<color>0.1 0.2 0.9 1</color>") {
   return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
@@ -95,7 +95,7 @@ std::string model(const std::string& content, const std::string& pose = "0 0 0 0
          content + "</link></model>";
 }
 
-/// What the meshes of a body reach to, in the body's frame, and their surface [m^2].
+/// Bounding box of a body's meshes in the body's frame, and their surface [m^2].
 struct Reach {
   Box box;
   double area{0};
@@ -139,9 +139,9 @@ void expectReach(const Box& box, const Vector& least, const Vector& most) {
 
 class SdfMeshTest : public SdfTest {};
 
-/// The numbers are those that Gazebo's own reader of Collada (libignition-common4-graphics) gives:
-/// units and nodes count, the axis that is said to be up does not.
-TEST_F(SdfMeshTest, colladaStandsWhereGazeboPutsIt) {
+/// Expected numbers are those of Gazebo's own Collada reader (libignition-common4-graphics): units
+/// and nodes count, the declared up axis does not.
+TEST_F(SdfMeshTest, ColladaPosesMatchGazebo) {
   const std::string nodes =
       node("outer", "<translate>10 0 0</translate><rotate>0 0 1 90</rotate>" +
                         node("inner", "<translate>0 0 20</translate><scale>2 1 1</scale>" + kBox));
@@ -157,14 +157,14 @@ TEST_F(SdfMeshTest, colladaStandsWhereGazeboPutsIt) {
   }
 }
 
-TEST_F(SdfMeshTest, scaleAndPoseApply) {
+TEST_F(SdfMeshTest, ScaleAndPoseApply) {
   write("a.dae", collada(node("n", kBox)));
   World world(file(model("<visual name='v'><pose>0 0 1 0 0 1.5707963267948966</pose>" +
                          mesh("a.dae", "<scale>10 -5 2</scale>") + "</visual>")));
   expectReach(reachOf(world, "m").box, {0, 0, 1}, {0.2, 0.2, 1.12});
 }
 
-TEST_F(SdfMeshTest, submeshesAreFoundByTheirNodesAndCentred) {
+TEST_F(SdfMeshTest, SubmeshesAreFoundByTheirNodesAndCentred) {
   write("a.dae", collada(node("body", kBox) + node("top", "<translate>0 0 4</translate>" + kLid) +
                          "<node id='anonymous'>" + kLid + "</node>"));
   const auto boxOf = [&](const std::string& submesh) {
@@ -183,7 +183,7 @@ TEST_F(SdfMeshTest, submeshesAreFoundByTheirNodesAndCentred) {
   EXPECT_THAT(world.unsupported(), HasSubstr("no triangles of the name 'legs'"));
 }
 
-TEST_F(SdfMeshTest, coloursAreThoseOfTheMaterialElseOfTheMesh) {
+TEST_F(SdfMeshTest, MaterialColoursOverrideMeshColours) {
   write("a.dae", collada(node("n", kBox + kLid)));
   write("b.stl",
         "solid b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
@@ -208,7 +208,7 @@ TEST_F(SdfMeshTest, coloursAreThoseOfTheMaterialElseOfTheMesh) {
   EXPECT_EQ(colours(visual("b.stl")), (Colours{{0.7F, 0.7F, 0.7F, 1}}));
 }
 
-TEST_F(SdfMeshTest, texturesAreNamed) {
+TEST_F(SdfMeshTest, ReportsTextures) {
   const std::string textured =
       collada(node("n", kBox + kLid), "Z_UP", "<texture texture='picture' texcoord='UV'/>");
   write("a.dae", textured);
@@ -220,8 +220,8 @@ TEST_F(SdfMeshTest, texturesAreNamed) {
   EXPECT_EQ(coloured.unsupported(), "");
 }
 
-/// A tetrahedron in three ways of writing.
-TEST_F(SdfMeshTest, kindsOfFilesAgree) {
+/// A tetrahedron in three formats.
+TEST_F(SdfMeshTest, FileFormatsGiveTheSameMesh) {
   const float p[4][3] = {{0, 0, 0}, {0.25F, 0, 0}, {0, 0.5F, 0}, {0, 0, 0.125F}};
   const int corners[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   std::string text = "solid t\n", binary(80, ' ');
@@ -267,7 +267,7 @@ const std::string kGround =
     "<model name='floor'><static>true</static><link name='l'><collision name='c'><geometry><plane>"
     "<normal>0 0 1</normal><size>5 5</size></plane></geometry></collision></link></model>";
 
-TEST_F(SdfMeshTest, aBoxFromAMeshRestsOnItsFace) {
+TEST_F(SdfMeshTest, ABoxFromAMeshRestsOnItsFace) {
   write("a.dae", collada(node("n", "<translate>-1 -2 -3</translate>" + kBox)));
   World world(file(kGround + model(collision("a.dae"), "0 0 0.035 0 0 0")));
   run(world, 1000);
@@ -276,9 +276,8 @@ TEST_F(SdfMeshTest, aBoxFromAMeshRestsOnItsFace) {
   EXPECT_GE(world.contacts().size(), 3u);
 }
 
-/// What has no volume has no hull; a ball rests on the flat mesh all the same, and does not fall
-/// through it from 1 m.
-TEST_F(SdfMeshTest, flatMeshesCarry) {
+/// A flat mesh has no hull; a ball still rests on it, and does not fall through it from 1 m.
+TEST_F(SdfMeshTest, FlatMeshesSupportBodies) {
   write("a.dae", collada(node("n", "<scale>100 100 1</scale>" + kLid)));
   World world(file("<model name='sheet'><static>true</static><link name='l'>" + visual("a.dae") +
                    collision("a.dae") +
@@ -292,8 +291,8 @@ TEST_F(SdfMeshTest, flatMeshesCarry) {
   EXPECT_NEAR(world.bodyPose("ball").position[2], 0.06 + 0.05, 1e-3);
 }
 
-TEST_F(SdfMeshTest, hollowsThatAreFilledAreNamed) {
-  // An L: a box, and another one on one end of it.
+TEST_F(SdfMeshTest, ReportsMeshesThatAreNotConvex) {
+  // An L: a box with another one at its end.
   write("l.dae", collada(node("a", kBox) + node("b",
                                                 "<translate>2 0 0</translate>"
                                                 "<scale>3 1 0.3</scale>" +
@@ -304,7 +303,7 @@ TEST_F(SdfMeshTest, hollowsThatAreFilledAreNamed) {
   EXPECT_THAT(world.unsupported(), Not(HasSubstr("visual")));
 }
 
-TEST_F(SdfMeshTest, whatIsTooSmallToTouchIsNamed) {
+TEST_F(SdfMeshTest, ReportsMeshesTooSmallToCollide) {
   write("a.dae", collada(node("n", kBox)));
   World world(file(model(visual("a.dae", "<scale>1e-4 1e-4 1e-4</scale>") +
                          collision("a.dae", "<scale>1e-4 1e-4 1e-4</scale>"))));
@@ -313,7 +312,7 @@ TEST_F(SdfMeshTest, whatIsTooSmallToTouchIsNamed) {
   EXPECT_THAT(world.unsupported(), Not(HasSubstr("visual")));
 }
 
-TEST_F(SdfMeshTest, brokenFilesAreNamedAndTheWorldRuns) {
+TEST_F(SdfMeshTest, ReportsBrokenFilesAndRunsTheWorld) {
   const std::string whole = collada(node("n", kBox));
   const std::pair<std::string, std::string> files[] = {
       {"empty.dae", ""},
@@ -339,7 +338,7 @@ TEST_F(SdfMeshTest, brokenFilesAreNamedAndTheWorldRuns) {
   }
 }
 
-TEST_F(SdfMeshTest, filesCutAnywhereAreNamed) {
+TEST_F(SdfMeshTest, RefusesTruncatedFiles) {
   const std::string whole = collada(node("n", kBox + kLid));
   for (std::size_t size = 0; size < whole.size(); size += 11) {
     const std::string path = write("cut.dae", whole.substr(0, size));
@@ -347,7 +346,7 @@ TEST_F(SdfMeshTest, filesCutAnywhereAreNamed) {
   }
 }
 
-TEST_F(SdfMeshTest, anObjectPutInLaterHasItsMesh) {
+TEST_F(SdfMeshTest, AddedObjectsHaveTheirMesh) {
   write("a.dae", collada(node("n", kBox)));
   World world(file(kGround));
   for (const char* name : {"one", "two"}) {
@@ -358,8 +357,8 @@ TEST_F(SdfMeshTest, anObjectPutInLaterHasItsMesh) {
   }
 }
 
-/// A file that changes is read again.
-TEST_F(SdfMeshTest, newFilesAreReadAnew) {
+/// A changed file is read again.
+TEST_F(SdfMeshTest, ReadsChangedFilesAgain) {
   for (const double width : {0.02, 0.2}) {
     write("a.dae", collada(node("n", width < 0.1 ? kBox : "<scale>10 1 1</scale>" + kBox)));
     World world(file(model(visual("a.dae"))));
@@ -367,7 +366,7 @@ TEST_F(SdfMeshTest, newFilesAreReadAnew) {
   }
 }
 
-TEST_F(SdfMeshTest, robotsMayHaveMeshesOfAnyKind) {
+TEST_F(SdfMeshTest, RobotsMayHaveMeshesOfAnyFormat) {
   const std::string path = write("a.dae", collada(node("n", kBox)));
   RobotDescription description = robot("panda");
   const std::string link = "<link name=\"panda_link5\">";
@@ -384,14 +383,14 @@ TEST_F(SdfMeshTest, robotsMayHaveMeshesOfAnyKind) {
   EXPECT_NE(world.mjcf(true).find("rgba=\"0.8"), std::string::npos);
 }
 
-TEST(KeptFilesTest, theSameContentIsKeptOnce) {
+TEST(KeptFilesTest, StoresEqualContentOnce) {
   const std::string one = physics::keepFile("one", ".msh");
   EXPECT_EQ(one, physics::keepFile("one", ".msh"));
   EXPECT_NE(one, physics::keepFile("two", ".msh"));
   EXPECT_THAT(one, HasSubstr(".msh"));
 }
 
-/// Six times the volume, from the faces as they look.
+/// Six times the volume, from oriented faces.
 double sixVolumes(const TriangleMesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.faces) {
@@ -406,7 +405,7 @@ TriangleMesh tetrahedron() {
           {}};
 }
 
-TEST(TriangleMeshTest, mirroringKeepsTheOutsideOutside) {
+TEST(TriangleMeshTest, MirroringKeepsTheOrientation) {
   for (const Vector& scale :
        {Vector(2, 3, 4), Vector(-2, 3, 4), Vector(-2, -3, 4), Vector(-2, -3, -4)}) {
     TriangleMesh mesh = tetrahedron();
@@ -415,7 +414,7 @@ TEST(TriangleMeshTest, mirroringKeepsTheOutsideOutside) {
   }
 }
 
-TEST(TriangleMeshTest, flatOnesGetABackBehindTheirFront) {
+TEST(TriangleMeshTest, FlatMeshesGetABackBehindTheirFront) {
   const Eigen::Matrix3f turn =
       Eigen::AngleAxisf(1, Eigen::Vector3f(1, 2, 3).normalized()).toRotationMatrix();
   TriangleMesh sheet{{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}, {}};
@@ -433,7 +432,7 @@ TEST(TriangleMeshTest, flatOnesGetABackBehindTheirFront) {
   EXPECT_EQ(body.vertices.size(), 4u);
 }
 
-TEST(TriangleMeshTest, fewOfManyPointsMakeNearlyTheSameHull) {
+TEST(TriangleMeshTest, OutermostPointsGiveNearlyTheSameHull) {
   TriangleMesh ball;
   constexpr int kRings = 200;
   for (int i = 0; i <= kRings; ++i) {
@@ -459,13 +458,13 @@ TEST(TriangleMeshTest, fewOfManyPointsMakeNearlyTheSameHull) {
   EXPECT_EQ(body.vertices.size(), 4u);
 }
 
-TEST(TriangleMeshTest, hollowsAreSeen) {
+TEST(TriangleMeshTest, DetectsConcaveMeshes) {
   TriangleMesh mesh = tetrahedron();
   EXPECT_TRUE(isConvex(mesh));
   for (auto& face : mesh.faces) {
     std::swap(face[0], face[1]);
   }
-  EXPECT_TRUE(isConvex(mesh)) << "faces that look inwards bound the same body";
+  EXPECT_TRUE(isConvex(mesh)) << "inward faces bound the same body";
   TriangleMesh beside = tetrahedron();
   for (Eigen::Vector3f& vertex : beside.vertices) {
     vertex.x() += 2;

@@ -13,7 +13,7 @@
 
 namespace franka_sim::test {
 
-/// Writes SDF texts and what they name into a folder of their own.
+/// Writes SDF texts and their files into a temporary folder.
 class SdfTest : public ::testing::Test {
  protected:
   SdfTest() {
@@ -31,7 +31,7 @@ class SdfTest : public ::testing::Test {
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
-  /// A world file of this content.
+  /// Writes a world file with this content.
   std::string file(const std::string& content, const std::string& version = "1.6") {
     return write("test.world", "<?xml version='1.0'?><!-- a world --><sdf version='" + version +
                                    "'><world name='w'>" + content + "</world></sdf>");

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What our reader understands by itself, where Debian has no sdformat. Where it has, the same scene
-// must come out both ways.
+// Results of our own reader, used where Debian has no sdformat. With sdformat, both readers must
+// give the same scene.
 #include "physics/sdf_text.h"
 
 #include <gmock/gmock.h>
@@ -57,7 +57,7 @@ class SdfTextTest : public SdfTest {
     return "<sdf version='" + version + "'><world name='w'>" + content + "</world></sdf>";
   }
 
-  /// The scene that our own reader finds, after a comparison with sdformat's where that is there.
+  /// The scene of our own reader, compared with sdformat's if that is available.
   SdfScene both(const std::string& text) const { return both(text, folder_); }
 
   static SdfScene both(const std::string& text, const std::string& folder) {
@@ -136,7 +136,7 @@ class SdfTextTest : public SdfTest {
   }
 };
 
-TEST_F(SdfTextTest, ShippedWorldsReadAlike) {
+TEST_F(SdfTextTest, BothReadersAgreeOnShippedWorlds) {
   const std::string folder = std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world";
   const SdfScene scene = both(contentOf(folder + "/stone.sdf"), folder);
   EXPECT_GE(scene.models.size(), 5u);  // the ground, a table, two trays, a stone
@@ -173,8 +173,8 @@ TEST_F(SdfTextTest, PosesFollowTheirFrames) {
   EXPECT_EQ((*scene.joints[0].limits)[0], -1);
 }
 
-/// Before SDF 1.7 frames are those of joints; whether axes are the model's, a version decides.
-TEST_F(SdfTextTest, OldAxesAreExpressedAsTheirVersionSays) {
+/// Before SDF 1.7 axes are in the joint's frame; a version decides whether in the model's.
+TEST_F(SdfTextTest, OldAxesUseTheFrameOfTheirVersion) {
   const auto text = [](const std::string& in_axis) {
     return "<model name='m'><pose>0 0 0 0.3 0 0</pose><link name='a'/><link name='b'><pose>0 0 1 0 "
            "0.4 0</pose></link><joint name='j' type='prismatic'><parent>a</parent><child>b</child>"
@@ -194,7 +194,7 @@ TEST_F(SdfTextTest, OldAxesAreExpressedAsTheirVersionSays) {
   EXPECT_LT((axis(old_way, "1.6") - of_model).norm(), 1e-12);
 }
 
-TEST_F(SdfTextTest, NestedModelsAndIncludesAreWrittenOut) {
+TEST_F(SdfTextTest, ExpandsNestedModelsAndIncludes) {
   write("crate/model.config",
         "<model><name>crate</name><sdf version='1.4'>old.sdf</sdf>"
         "<sdf version='1.6'>model.sdf</sdf></model>");
@@ -244,7 +244,7 @@ TEST_F(SdfTextTest, LightsCamerasAndColoursKeepTheirDefaults) {
   EXPECT_EQ(scene.links.at(0).visuals.at(0).opacity, 0.75);
 }
 
-TEST_F(SdfTextTest, RefusesWithASentence) {
+TEST_F(SdfTextTest, RefusesInvalidTexts) {
   const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
     expectSentence([&] { byTinyXml(text); }, parts);
   };

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// SDF worlds and models against closed forms: what a text says is what MuJoCo moves.
+// SDF worlds and models against closed forms: MuJoCo moves what the text describes.
 #include <gmock/gmock.h>
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kGravity = 9.8;  ///< SDF's, where the text says nothing
+constexpr double kGravity = 9.8;  ///< SDF's default
 
 std::string box(const std::string& model, const std::string& pose, const std::string& surface,
                 const std::string& more = "") {
@@ -37,7 +37,7 @@ std::string ground(double mu) {
 
 class SdfWorldTest : public SdfTest {};
 
-TEST_F(SdfWorldTest, theTwoStoneWorldsAreOne) {
+TEST_F(SdfWorldTest, MjcfAndSdfStoneWorldsAgree) {
   World sdf(std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world/stone.sdf");
   World mjcf(std::string(FRANKA_SIM_WORLDS) + "/stone.xml");
   EXPECT_EQ(sdf.unsupported(), "");
@@ -66,7 +66,7 @@ TEST_F(SdfWorldTest, theTwoStoneWorldsAreOne) {
   }
 }
 
-TEST_F(SdfWorldTest, inertiasAndPosesAreThoseOfTheText) {
+TEST_F(SdfWorldTest, InertiasAndPosesMatchTheText) {
   World world(
       file("<model name='m'><pose>1 2 3 0 0 1.5707963267948966</pose><link name='a'>"
            "<pose>0.1 0 0 0 0.3 0</pose><inertial><pose>0.01 0.02 0.03 0.4 0.5 "
@@ -83,7 +83,7 @@ TEST_F(SdfWorldTest, inertiasAndPosesAreThoseOfTheText) {
             Eigen::AngleAxisd(r, Eigen::Vector3d::UnitX()))
         .toRotationMatrix();
   };
-  // The link stands in the model, its inertia frame in the link.
+  // The link is posed in the model, its inertia frame in the link.
   const Eigen::Matrix3d link = rpy(0, 0.3, 0);
   const Eigen::Vector3d com = Eigen::Vector3d(0.1, 0, 0) + link * Eigen::Vector3d(0.01, 0.02, 0.03);
   EXPECT_LT((com - Eigen::Map<const Eigen::Vector3d>(model.body_ipos + 3 * body)).norm(), 1e-12);
@@ -105,16 +105,16 @@ TEST_F(SdfWorldTest, inertiasAndPosesAreThoseOfTheText) {
   EXPECT_NEAR(world.bodyPose("m").position[1], 2, 1e-12);
 }
 
-/// On a slope a block rests below atan(mu) and slides above, where the floor pulls back with mu
-/// times what it carries. Gravity is tilted, not the floor. Of two surfaces the more slippery one
+/// On a slope a block rests below atan(mu) and slides above, where the floor decelerates it with mu
+/// times its normal force. Gravity is tilted, not the floor. The more slippery of two surfaces
 /// counts.
-TEST_F(SdfWorldTest, frictionDecidesOnASlope) {
+TEST_F(SdfWorldTest, FrictionDecidesOnASlope) {
   const double mu = 0.4;
   for (const double angle : {std::atan(mu) - 0.03, std::atan(mu) + 0.1}) {
     const std::string tilted = "<gravity>" + std::to_string(kGravity * std::sin(angle)) + " 0 " +
                                std::to_string(-kGravity * std::cos(angle)) + "</gravity>";
     World world(file(tilted + ground(1.0) + box("b", "0 0 0.05 0 0 0", friction(mu))));
-    run(world, 300);  // settle
+    run(world, 300);  // settles
     const double before = world.bodyTwist("b").linear[0];
     double along = 0, across = 0;
     for (int i = 0; i < 500; ++i) {
@@ -133,12 +133,12 @@ TEST_F(SdfWorldTest, frictionDecidesOnASlope) {
   }
 }
 
-TEST_F(SdfWorldTest, softContactsSinkInByTheirStiffness) {
+TEST_F(SdfWorldTest, SoftContactsDeflectByTheirStiffness) {
   const double kp = 2000;
   const std::string soft = "<surface><contact><ode><kp>2000</kp></ode></contact></surface>";
   World world(file(ground(1.0) + box("b", "0 0 0.05 0 0 0", soft)));
   run(world, 3000);
-  // Four corners, each a spring: the box rests m g / (4 kp) deep.
+  // Four corners, each a spring: the box sinks by m g / (4 kp).
   const double depth = 0.05 - world.bodyPose("b").position[2];
   EXPECT_NEAR(depth, 2 * kGravity / (4 * kp), 1e-3 * depth);
   EXPECT_EQ(world.contacts().size(), 4u);
@@ -146,7 +146,7 @@ TEST_F(SdfWorldTest, softContactsSinkInByTheirStiffness) {
   EXPECT_NEAR(world.contacts().front().force[2], 2 * kGravity / 4, 1e-3);
 }
 
-TEST_F(SdfWorldTest, hingesSwingLikeAPendulum) {
+TEST_F(SdfWorldTest, HingesSwingLikeAPendulum) {
   // A point-like mass at 0.5 m: T = 2 pi sqrt((m l^2 + I) / (m g l)) for small swings.
   World world(file(
       "<model name='p'><pose>0 0 2 0 0 0</pose><link name='bob'><pose>0 0 -0.5 0 0 0</pose>"
@@ -162,7 +162,7 @@ TEST_F(SdfWorldTest, hingesSwingLikeAPendulum) {
   EXPECT_THROW(world.setJointPosition("p::pin", -1.1), std::runtime_error);
 }
 
-TEST_F(SdfWorldTest, slidesFallAlongTheirAxisAgainstDamping) {
+TEST_F(SdfWorldTest, SlidesFallAlongTheirAxisAgainstDamping) {
   World world(file(
       "<model name='s'><link name='base'><inertial><mass>1</mass></inertial></link>"
       "<joint name='hold' type='fixed'><parent>world</parent><child>base</child></joint>"
@@ -178,7 +178,7 @@ TEST_F(SdfWorldTest, slidesFallAlongTheirAxisAgainstDamping) {
   EXPECT_DOUBLE_EQ(world.bodyPose("s::base").position[2], 0);
 }
 
-TEST_F(SdfWorldTest, fixedJointsWeldAndModelsDoNotTouchThemselves) {
+TEST_F(SdfWorldTest, FixedJointsWeldAndModelsDoNotCollideWithThemselves) {
   const std::string two =
       "<link name='a'><inertial><mass>1</mass></inertial><collision name='c'><geometry><sphere>"
       "<radius>0.1</radius></sphere></geometry></collision></link>"
@@ -203,7 +203,7 @@ TEST_F(SdfWorldTest, fixedJointsWeldAndModelsDoNotTouchThemselves) {
   EXPECT_NEAR(world.bodyPose("welded::a").position[0], 0.5 * 1.0 * 1.0, 2e-3);
 }
 
-TEST_F(SdfWorldTest, includesAndMeshesAreFound) {
+TEST_F(SdfWorldTest, IncludesAndMeshesAreFound) {
   write("crate/model.config",
         "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
   write(
@@ -232,7 +232,7 @@ TEST_F(SdfWorldTest, includesAndMeshesAreFound) {
   EXPECT_DOUBLE_EQ(world.bodyPose("second").position[2], 0.5);
 }
 
-TEST_F(SdfWorldTest, whatNobodySimulatesIsNamedInOneSentence) {
+TEST_F(SdfWorldTest, ReportsUnsupportedElementsInOneSentence) {
   World world(file(
       "<plugin name='wind_maker' filename='libw.so'/>" +
       box("b", "0 0 1 0 0 0",
@@ -251,7 +251,7 @@ TEST_F(SdfWorldTest, whatNobodySimulatesIsNamedInOneSentence) {
       0.2);
 }
 
-TEST_F(SdfWorldTest, saysWhatIsWrong) {
+TEST_F(SdfWorldTest, ReportsErrorsWithTheirCause) {
   const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
     const std::string file = write("bad.sdf", text);
     expectSentence([&] { World world(file); }, parts);
@@ -274,8 +274,8 @@ TEST_F(SdfWorldTest, saysWhatIsWrong) {
       {"a"});
 }
 
-/// A robot that says so passes through itself: the hand through the forearm.
-TEST_F(SdfWorldTest, urdfsSelfCollideIsRead) {
+/// A robot with self_collide false passes through itself: the hand through the forearm.
+TEST_F(SdfWorldTest, ReadsSelfCollideOfAUrdf) {
   for (const bool collides : {true, false}) {
     World world;
     RobotDescription arm = robot("panda");
@@ -295,7 +295,7 @@ TEST_F(SdfWorldTest, urdfsSelfCollideIsRead) {
   }
 }
 
-TEST_F(SdfWorldTest, camerasKeepTheirViewAndSize) {
+TEST_F(SdfWorldTest, CamerasKeepTheirViewAndSize) {
   World world(file(
       "<model name='m'><static>true</static><pose>0 0 1 0 0 0</pose><link name='l'>"
       "<sensor name='eye' type='camera'><update_rate>5</update_rate><camera>"
@@ -309,7 +309,7 @@ TEST_F(SdfWorldTest, camerasKeepTheirViewAndSize) {
   EXPECT_DOUBLE_EQ(cameras[0].rate, 5);
   EXPECT_NEAR(cameras[0].field_of_view, 2 * std::atan(std::tan(0.6) * 200 / 320) * 180 / M_PI,
               1e-9);
-  // It looks along the link's x: MuJoCo's cameras look along their -z.
+  // The camera looks along the link's x; MuJoCo's cameras look along their -z.
   const double* q = world.impl().model->cam_quat;
   const Eigen::Matrix3d turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
   EXPECT_LT((turn * -Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitX()).norm(), 1e-12);

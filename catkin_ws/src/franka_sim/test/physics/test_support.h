@@ -43,7 +43,7 @@ inline std::string replaceAll(std::string text, const std::string& from, const s
   return text;
 }
 
-/// A robot at home whose arm_id is `arm_id` and whose numbers are those of `kind`.
+/// A robot in its home pose, named `arm_id`, with the numbers of `kind`.
 inline RobotDescription robot(const std::string& kind, const std::string& arm_id) {
   RobotDescription description;
   description.name = arm_id;
@@ -72,8 +72,7 @@ inline franka_core::Payload handPayload() {
   franka_core::Payload hand = body(0.73, {-0.01, 0, 0.03}, {0.001, 0.0025, 0.0017});
   hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
   hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
-  // The hand is turned by -45 degrees about the flange's z: R diag-like I R^T, done by hand in the
-  // plane.
+  // The hand is turned by -45 degrees about the flange's z: R I R^T, written out in the plane.
   constexpr double kC = 0.70710678118654752440;
   franka_core::Payload turned = hand;
   turned.com = {kC * hand.com[0] + kC * hand.com[1], -kC * hand.com[0] + kC * hand.com[1],
@@ -81,14 +80,14 @@ inline franka_core::Payload handPayload() {
   const double xx = hand.inertia[0], yy = hand.inertia[4];
   turned.inertia[0] = turned.inertia[4] = 0.5 * (xx + yy);
   turned.inertia[1] = turned.inertia[3] = 0.5 * (yy - xx);
-  // Products with z do not appear: the hand's com has no y, its product xz turns like a vector.
+  // Products with z vanish: the hand's com has y = 0, and its product xz transforms like a vector.
   const double xz = hand.inertia[6], yz = hand.inertia[7];
   turned.inertia[2] = turned.inertia[6] = kC * xz + kC * yz;
   turned.inertia[5] = turned.inertia[7] = -kC * xz + kC * yz;
   return turned;
 }
 
-/// Holds or leads the arm with gravity compensation and joint springs.
+/// Holds or moves the arm by gravity compensation and joint springs.
 class ArmHolder {
  public:
   ArmHolder(ArmPlant* arm, const franka_core::ArmModel& model)
@@ -120,7 +119,7 @@ class ArmHolder {
   franka_core::Payload payload_;
 };
 
-/// Expects a std::runtime_error whose sentence contains all of the parts.
+/// Expects a std::runtime_error whose sentence contains all parts.
 template <typename Function>
 void expectSentence(Function function, std::initializer_list<const char*> parts) {
   try {

@@ -14,7 +14,7 @@ constexpr const char* kInertial =
     "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
     "iyz='0'/></inertial>";
 
-/// base -j-> arm, with what the test wants in between.
+/// base -j-> arm, with the given joint.
 std::string twoLinks(const std::string& joint, const std::string& arm = kInertial) {
   return "<robot name='r'><link name='base'/><link name='arm'>" + arm + "</link>" + joint +
          "</robot>";
@@ -29,7 +29,7 @@ void refuses(const std::string& urdf, std::initializer_list<const char*> parts) 
   expectSentence([&] { physics::readUrdf(urdf, "rob"); }, parts);
 }
 
-TEST(UrdfRobotTest, readsThePanda) {
+TEST(UrdfRobotTest, ReadsThePanda) {
   const physics::UrdfRobot robot = physics::readUrdf(urdfOf("panda"), "panda");
   EXPECT_EQ("panda_link0", robot.links[robot.root].name);
   const auto& joint4 = robot.joints[robot.joint("panda_joint4")];
@@ -46,7 +46,7 @@ TEST(UrdfRobotTest, readsThePanda) {
   EXPECT_TRUE(robot.links[robot.link("panda_link3_sc")].collisions.empty());
 }
 
-TEST(UrdfRobotTest, turnsRollPitchYawAboutFixedAxes) {
+TEST(UrdfRobotTest, RollPitchYawUsesFixedAxes) {
   const auto robot = physics::readUrdf(
       twoLinks(hinge("<origin rpy='0.3 -0.4 0.5'/><limit lower='-1' upper='1'/>")), "rob");
   const Eigen::Matrix3d r = robot.joints[0].origin.linear();
@@ -57,7 +57,7 @@ TEST(UrdfRobotTest, turnsRollPitchYawAboutFixedAxes) {
   EXPECT_NEAR(std::sin(0.5) * std::cos(-0.4), r(1, 0), 1e-15);
 }
 
-TEST(UrdfRobotTest, saysWhatIsWrong) {
+TEST(UrdfRobotTest, ReportsErrorsWithTheirCause) {
   refuses("", {"'rob'", "XML"});
   refuses("<robot><link name='a'></robot>", {"'rob'", "not well-formed"});
   refuses("<mujoco/>", {"no <robot>"});
@@ -92,7 +92,7 @@ TEST(UrdfRobotTest, saysWhatIsWrong) {
   refuses(twoLinks(hinge(), "<visual><geometry><mesh/></geometry></visual>"), {"'filename'"});
 }
 
-TEST(UrdfRobotTest, refusesLoopsAndTwoParents) {
+TEST(UrdfRobotTest, RefusesLoopsAndTwoParents) {
   const std::string loop =
       "<robot name='r'><link name='root'/><link name='a'/><link name='b'/>"
       "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
@@ -103,7 +103,7 @@ TEST(UrdfRobotTest, refusesLoopsAndTwoParents) {
           {"'arm'", "two joints", "'j'", "'k'"});
 }
 
-TEST(RobotModelTest, refusesWhatDoesNotFitTheUrdf) {
+TEST(RobotModelTest, RefusesParametersThatDoNotFitTheUrdf) {
   const auto refusesRobot = [](RobotDescription description,
                                std::initializer_list<const char*> parts) {
     expectSentence([&] { physics::buildRobot(description); }, parts);
@@ -137,7 +137,7 @@ TEST(RobotModelTest, refusesWhatDoesNotFitTheUrdf) {
   refusesRobot(d, {"'arm'", "no mass", "gazebo:=true"});
 }
 
-TEST(RobotModelTest, fusesWhatDoesNotMove) {
+TEST(RobotModelTest, FusesFixedLinks) {
   const physics::RobotModel model = physics::buildRobot(robot("panda"));
   EXPECT_EQ(10u, model.segments.size()) << "link0, seven links, two fingers";
   for (const physics::Segment& segment : model.segments) {

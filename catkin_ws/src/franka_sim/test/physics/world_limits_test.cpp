@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// Sizes no robot can meet are refused; a world that diverges all the same stops, says why, and can
-/// be reset; a robot that begins within something is told of.
+/// Numbers beyond any robot are refused; a world that diverges nevertheless stops, reports why, and
+/// can be reset; overlaps of a new robot are reported.
 
 #include <franka_sim/physics/sizes.h>
 
@@ -19,13 +19,13 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// So light that a force the world accepts makes it diverge.
+/// Light enough that a permitted force makes it diverge.
 constexpr char kFeather[] =
     R"(<body name="feather"><freejoint name="feather_joint"/>
          <inertial pos="0 0 0" mass="1e-7" diaginertia="1e-7 1e-7 1e-7"/>
          <geom type="sphere" size="0.01"/></body>)";
 
-/// A wheel that turns without end.
+/// A wheel without stops.
 constexpr char kWheel[] =
     R"(<body name="wheel"><joint name="axle" type="hinge" axis="0 0 1"/>
          <geom type="cylinder" size="0.05 0.01" mass="0.1"/></body>)";
@@ -42,7 +42,7 @@ Pose at(double x, double y, double z) {
 struct Entrance {
   const char* name;
   const char* unit;
-  double largest;  ///< that is taken
+  double largest;  ///< accepted number
   void (*put)(World& world, double size);
 };
 
@@ -78,7 +78,7 @@ const Entrance kEntrances[] = {
 
 class Sizes : public ::testing::TestWithParam<Entrance> {};
 
-TEST_P(Sizes, BeyondAnyRobotAreRefusedInWords) {
+TEST_P(Sizes, BeyondTheLimitsAreRefusedWithASentence) {
   const Entrance& entrance = GetParam();
   World world(test::world("stone"));
   world.addObject("turner", kWheel, at(3, 3, 1));
@@ -90,7 +90,7 @@ TEST_P(Sizes, BeyondAnyRobotAreRefusedInWords) {
     EXPECT_EQ(hash, world.stateHash()) << "nothing changes";
   }
   EXPECT_NO_THROW(entrance.put(world, entrance.largest));
-  // Light bodies may fly apart even so: then in words.
+  // Light bodies may still diverge: then with a sentence.
   for (std::uint64_t k = 1; k <= 20; k++) {
     world.step();
     ASSERT_EQ(world.stopped(), !world.fault().empty());
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(All, Sizes, ::testing::ValuesIn(kEntrances), [](const a
   return name;
 });
 
-TEST(Divergence, StopsTheWorldSaysWhyAndIsUndoneByAReset) {
+TEST(Divergence, StopsTheWorldUntilAReset) {
   World world(test::world("stone"));
   world.addObject("feather", kFeather, at(5, 5, 5));
   for (int k = 0; k < 10; k++) {
@@ -123,7 +123,7 @@ TEST(Divergence, StopsTheWorldSaysWhyAndIsUndoneByAReset) {
     world.step();
     EXPECT_TRUE(world.stopped());
     EXPECT_EQ(10u, world.ticks()) << "time stands still";
-    EXPECT_EQ(stone.position, world.bodyPose("stone").position) << "and nothing has begun anew";
+    EXPECT_EQ(stone.position, world.bodyPose("stone").position) << "and nothing was reset";
     EXPECT_EQ(feather.position, world.bodyPose("feather").position);
   }
   const std::string fault = world.fault();
@@ -133,14 +133,14 @@ TEST(Divergence, StopsTheWorldSaysWhyAndIsUndoneByAReset) {
   expectSentence([&] { world.push("stone", {}, {}, 1); }, {"diverged"});
   expectSentence([&] { world.snapshot(); }, {"diverged"});
   world.removeObject("feather");
-  EXPECT_EQ(fault, world.fault()) << "also when what it speaks of has gone";
+  EXPECT_EQ(fault, world.fault()) << "even after its body was removed";
   world.reset();
   EXPECT_FALSE(world.stopped());
   world.step();
   EXPECT_EQ(1u, world.ticks());
 }
 
-TEST(Divergence, OfAWorldFileIsSeenBeforeItsFirstStep) {
+TEST(Divergence, OfAWorldFileIsDetectedBeforeTheFirstStep) {
   World world;
   world.addObject("far", R"(<mujoco><worldbody><body name="far" pos="1e11 0 0"><freejoint/>
       <geom type="sphere" size="0.1" mass="1"/></body></worldbody></mujoco>)",
@@ -151,7 +151,7 @@ TEST(Divergence, OfAWorldFileIsSeenBeforeItsFirstStep) {
   EXPECT_NE(std::string::npos, world.fault().find("position of body 'far")) << world.fault();
 }
 
-TEST(Divergence, IsUndoneByASnapshotToo) {
+TEST(Divergence, EndsWhenASnapshotIsRestored) {
   World world(test::world("stone"));
   world.addObject("feather", kFeather, at(5, 5, 5));
   const Snapshot before = world.snapshot();
@@ -166,7 +166,7 @@ TEST(Divergence, IsUndoneByASnapshotToo) {
   EXPECT_EQ(10u, world.ticks());
 }
 
-TEST(Divergence, ARobotsMeasurementsStayFinite) {
+TEST(Divergence, KeepsMeasurementsOfRobotsFinite) {
   World world;
   world.addRobot(robot("panda"));
   ArmPlant& arm = world.arm("panda", "panda");
@@ -181,7 +181,7 @@ TEST(Divergence, ARobotsMeasurementsStayFinite) {
   }
 }
 
-TEST(Warnings, OfMujocoAreTakenOnce) {
+TEST(Warnings, OfMujocoAreReportedOnce) {
   // Room for one contact, and four spheres on the ground.
   std::string bodies;
   for (int i = 0; i < 4; i++) {
@@ -203,7 +203,7 @@ TEST(Warnings, OfMujocoAreTakenOnce) {
   EXPECT_FALSE(world.stopped());
 }
 
-TEST(Overlaps, AreToldOfARobotThatBeginsInTheTable) {
+TEST(Overlaps, AreReportedForARobotThatStartsInTheTable) {
   World world(test::world("stone"));
   world.addRobot(robot("fr3"));
   const std::string text = world.describeOverlaps("fr3");

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Objects that come and go, states that are set, snapshots that continue to the last bit.
+// Objects that are added and removed, states that are set, snapshots that continue to the last bit.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ void run(World& world, int ticks) {
   }
 }
 
-TEST(WorldObjects, comeAndGoWhileTheOthersKeepTheirStates) {
+TEST(WorldObjects, AddAndRemoveKeepOtherStates) {
   World world;
   world.addObject("ball", kBall, at(1, 0, 0.5));
   EXPECT_DOUBLE_EQ(world.bodyPose("ball").position[0], 1);
@@ -57,7 +57,7 @@ TEST(WorldObjects, comeAndGoWhileTheOthersKeepTheirStates) {
   EXPECT_NEAR(world.bodyPose("other cube::link").position[1], -1, 1e-3);
 }
 
-TEST(WorldObjects, robotsStandThroughTheirComing) {
+TEST(WorldObjects, AddingObjectsDoesNotMoveRobots) {
   World world;
   world.addRobot(robot("panda"));
   run(world, 10);
@@ -72,7 +72,7 @@ TEST(WorldObjects, robotsStandThroughTheirComing) {
   expectSentence([&] { world.addObject("panda", kCube, at(2, 2, 2)); }, {"panda", "robot"});
 }
 
-TEST(WorldObjects, saysWhatIsWrongAndChangesNothing) {
+TEST(WorldObjects, ErrorsHaveACauseAndChangeNothing) {
   World world;
   world.addObject("ball", kBall, at(0, 0, 1));
   const auto refuses = [&](const char* name, const char* text,
@@ -98,10 +98,10 @@ TEST(WorldObjects, saysWhatIsWrongAndChangesNothing) {
   EXPECT_THAT(world.bodies(), Not(Contains("x")));
 }
 
-TEST(WorldObjects, twistsAreThoseOfTheBodysOrigin) {
+TEST(WorldObjects, TwistsReferToTheBodysOrigin) {
   World world;
   world.setGravity({0, 0, 0});
-  // The centre of mass stands 0.2 m from the origin: spinning about it moves the origin.
+  // The centre of mass is 0.2 m from the origin: rotation about it moves the origin.
   world.addObject("club",
                   "<body name='club'><freejoint/><inertial pos='0.2 0 0' mass='1' "
                   "diaginertia='0.01 0.01 0.01'/></body>",
@@ -126,7 +126,7 @@ TEST(WorldObjects, twistsAreThoseOfTheBodysOrigin) {
   }
 }
 
-TEST(WorldObjects, gravityIsWhatWasSetAlsoAfterChanges) {
+TEST(WorldObjects, GravitySettingSurvivesChanges) {
   World world;
   world.addObject("cube", kCube, at(0, 0, 5));
   world.setGravity({0, 0, -1.62});
@@ -139,7 +139,7 @@ TEST(WorldObjects, gravityIsWhatWasSetAlsoAfterChanges) {
   expectSentence([&] { world.setGravity({0, INFINITY, 0}); }, {"Gravity", "numbers"});
 }
 
-TEST(WorldObjects, snapshotsContinueToTheLastBit) {
+TEST(WorldObjects, SnapshotsContinueBitForBit) {
   World world;
   world.addRobot(robot("panda"));
   world.addObject("cube", kCube, at(0.5, 0, 0.8));
@@ -155,7 +155,7 @@ TEST(WorldObjects, snapshotsContinueToTheLastBit) {
       world.step();
     }
   };
-  go(300);  // the cube bounces about by now
+  go(300);  // the cube bounces by now
   world.push("cube", {3, 1, 0}, {0, 0, 0.1}, 100);
   go(50);
   arm.setBrakes(true);
@@ -184,7 +184,7 @@ TEST(WorldObjects, snapshotsContinueToTheLastBit) {
   expectSentence([&] { world.restore(Snapshot()); }, {"snapshot"});
 }
 
-TEST(WorldObjects, namesWhatIsThere) {
+TEST(WorldObjects, ListsModelsAndJoints) {
   World world;
   EXPECT_THAT(world.objects(), IsEmpty());
   world.addRobot(robot("panda"));

@@ -19,7 +19,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-TEST(WorldTest, emptyWorldHasGravityAndTime) {
+TEST(WorldTest, EmptyWorldHasGravityAndTime) {
   World world;
   EXPECT_EQ((std::array<double, 3>{0, 0, -9.81}), world.gravity());
   run(&world, 10);
@@ -28,14 +28,14 @@ TEST(WorldTest, emptyWorldHasGravityAndTime) {
   EXPECT_TRUE(world.robots().empty());
 }
 
-TEST(WorldTest, emptyWorldFileCompiles) {
+TEST(WorldTest, EmptyWorldFileCompiles) {
   World world(test::world("empty"));
   world.addRobot(robot("panda"));
   EXPECT_EQ(std::vector<std::string>{"panda"}, world.robots());
 }
 
-/// The stone neither sinks nor creeps nor trembles on its tray.
-TEST(WorldTest, stoneRestsOnTheBlueTray) {
+/// The stone neither sinks nor creeps nor vibrates on its tray.
+TEST(WorldTest, StoneRestsOnTheBlueTray) {
   World world(test::world("stone"));
   run(&world, 1000);
   const Pose before = world.bodyPose("stone");
@@ -54,7 +54,7 @@ TEST(WorldTest, stoneRestsOnTheBlueTray) {
   EXPECT_NEAR(1.0, std::abs(last.orientation[0]), 1e-6);
 }
 
-TEST(WorldTest, contactForcesCarryTheStone) {
+TEST(WorldTest, ContactForcesCarryTheStone) {
   World world(test::world("stone"));
   run(&world, 1000);
   double up = 0;
@@ -66,7 +66,7 @@ TEST(WorldTest, contactForcesCarryTheStone) {
   EXPECT_NEAR(0.1024 * 9.81, up, 1e-6);
 }
 
-TEST(WorldTest, stoneCanBePutOntoTheRedTray) {
+TEST(WorldTest, StoneCanBeMovedToTheRedTray) {
   World world(test::world("stone"));
   Pose pose;
   pose.position = {0.004103, 0.219654, 0.5};
@@ -80,13 +80,14 @@ TEST(WorldTest, stoneCanBePutOntoTheRedTray) {
   EXPECT_NEAR(0.219654, world.bodyPose("stone").position[1], 1e-3);
 }
 
-/// The more slippery of two surfaces decides: 0.6 of the stone, not 1 of the table.
-TEST(WorldTest, smallerFrictionDecidesBetweenStoneAndTable) {
+/// The smaller friction of two surfaces decides: 0.6 of the stone, not 1 of the table.
+TEST(WorldTest, SmallerFrictionDecides) {
   for (const double ratio : {0.5, 0.75}) {
     World world(test::world("stone"));
     Pose pose;
     pose.position = {0.0, 0.0, 0.4198 + 0.0125};
-    pose.orientation = {std::cos(M_PI / 4), 0, std::sin(M_PI / 4), 0};  // lying: does not tip over
+    pose.orientation = {std::cos(M_PI / 4), 0, std::sin(M_PI / 4),
+                        0};  // lying, so that it does not tip over
     world.setBodyPose("stone", pose);
     run(&world, 500);
     const Pose before = world.bodyPose("stone");
@@ -101,7 +102,7 @@ TEST(WorldTest, smallerFrictionDecidesBetweenStoneAndTable) {
   }
 }
 
-TEST(WorldTest, twoArmsOfAnyNameWorkSideBySide) {
+TEST(WorldTest, TwoArmsOfAnyNameWorkSideBySide) {
   World world;
   RobotDescription left = robot("panda", "left");
   left.base.position = {0, 0.5, 0};
@@ -126,7 +127,7 @@ TEST(WorldTest, twoArmsOfAnyNameWorkSideBySide) {
               1e-4);
 }
 
-TEST(WorldTest, linkPosesAreThoseOfArmModel) {
+TEST(WorldTest, LinkPosesMatchArmModel) {
   World world;
   RobotDescription description = robot("panda");
   description.base.position = {0.3, -0.2, 0.1};
@@ -144,7 +145,7 @@ TEST(WorldTest, linkPosesAreThoseOfArmModel) {
   EXPECT_NEAR(0.1034, distance(tcp.position, link8.position), 1e-12);
 }
 
-TEST(WorldTest, robotsComeAndGoWhileTheRestGoesOnBitForBit) {
+TEST(WorldTest, AddingAndRemovingRobotsKeepsTheRestBitForBit) {
   World alone(test::world("stone")), changing(test::world("stone"));
   RobotDescription first = robot("panda");
   first.base.position = {-0.5, 0, 0};
@@ -170,7 +171,7 @@ TEST(WorldTest, robotsComeAndGoWhileTheRestGoesOnBitForBit) {
     changing.step();
     const ArmMeasurement x = undisturbed.measure(), y = kept.measure();
     for (int i = 0; i < 7; ++i) {
-      // While the visitor is there the solver's stopping rule differs in the last digits.
+      // While the second robot is there the solver stops at other last digits.
       ASSERT_NEAR(x.q[i], y.q[i], 1e-9) << "tick " << k;
       ASSERT_NEAR(x.tau_J[i], y.tau_J[i], 1e-5) << "tick " << k;
     }
@@ -180,7 +181,7 @@ TEST(WorldTest, robotsComeAndGoWhileTheRestGoesOnBitForBit) {
   EXPECT_EQ(std::vector<std::string>{"panda"}, changing.robots());
 }
 
-TEST(WorldTest, addingARobotChangesNoBitOfTheState) {
+TEST(WorldTest, AddingARobotChangesNoBitOfTheState) {
   World world(test::world("stone"));
   RobotDescription first = robot("panda");
   first.base.position = {-0.5, 0, 0};
@@ -205,7 +206,7 @@ TEST(WorldTest, addingARobotChangesNoBitOfTheState) {
   EXPECT_EQ(300u, world.ticks());
 }
 
-TEST(WorldTest, refusesNamesThatAreTaken) {
+TEST(WorldTest, RefusesDuplicateNames) {
   World world;
   world.addRobot(robot("panda"));
   const std::uint64_t hash = world.stateHash();
@@ -217,7 +218,7 @@ TEST(WorldTest, refusesNamesThatAreTaken) {
   EXPECT_EQ(hash, world.stateHash()) << "nothing changes when it throws";
 }
 
-TEST(WorldTest, refusesUnknownBodiesAndJoints) {
+TEST(WorldTest, RefusesUnknownBodiesAndJoints) {
   World world(test::world("stone"));
   world.addRobot(robot("panda"));
   expectSentence([&] { world.bodyPose("ston"); }, {"no body 'ston'"});
@@ -232,7 +233,7 @@ TEST(WorldTest, refusesUnknownBodiesAndJoints) {
   expectSentence([&] { world.push("stone", {NAN, 0, 0}, {}, 1); }, {"not finite"});
 }
 
-TEST(WorldTest, jointsCanBePutElsewhere) {
+TEST(WorldTest, JointsCanBeTeleported) {
   World world;
   world.addRobot(robot("panda"));
   ArmPlant& arm = world.arm("panda", "panda");
@@ -240,11 +241,11 @@ TEST(WorldTest, jointsCanBePutElsewhere) {
   world.setJointPosition("panda_joint4", -1.5);
   EXPECT_EQ(-1.5, world.joint("panda_joint4").position);
   run(&world, 200);
-  EXPECT_NEAR(-1.5, arm.measure().q[3], 1e-4) << "the brake holds it where it was put";
+  EXPECT_NEAR(-1.5, arm.measure().q[3], 1e-4) << "the brake holds the new position";
 }
 
 /// A push of 1 N for 1 s moves a stone in free fall sideways by F / (2 m) t^2.
-TEST(WorldTest, pushesActForTheirTicksAndNoLonger) {
+TEST(WorldTest, PushesActForExactlyTheirTicks) {
   World world(test::world("stone"));
   Pose high;
   high.position = {5, 5, 50};
@@ -256,7 +257,7 @@ TEST(WorldTest, pushesActForTheirTicksAndNoLonger) {
   EXPECT_NEAR(6.5, world.bodyPose("stone").position[0], 1e-3) << "then it flies on at 1 m/s";
 }
 
-TEST(WorldTest, pushAtAPointTurnsTheBody) {
+TEST(WorldTest, PushAtAPointTurnsTheBody) {
   World world(test::world("stone"));
   Pose high;
   high.position = {5, 5, 50};
@@ -268,8 +269,8 @@ TEST(WorldTest, pushAtAPointTurnsTheBody) {
   EXPECT_NEAR(0.5 * 1e-5 / 1.407e-5 * 0.01, 2 * turn[3], 5e-5);
 }
 
-/// A push on the hand arrives in the joints as J^T F.
-TEST(WorldTest, pushOnTheHandIsCarriedByTheArm) {
+/// A push on the hand acts on the joints as J^T F.
+TEST(WorldTest, PushOnTheHandIsCarriedByTheArm) {
   World world;
   world.addRobot(robot("panda"));
   ArmPlant& arm = world.arm("panda", "panda");
@@ -287,8 +288,9 @@ TEST(WorldTest, pushOnTheHandIsCarriedByTheArm) {
   }
 }
 
-/// The hand folded back meets the forearm (joint 6 at its lower end), and nothing touches at home.
-TEST(WorldTest, handMeetsTheForearmAndNeighboursDoNot) {
+/// The hand folded back touches the forearm (joint 6 at its lower end), and nothing touches at
+/// home.
+TEST(WorldTest, HandCollidesWithTheForearmButNeighboursDoNot) {
   World world;
   world.addRobot(robot("panda"));
   world.step();
@@ -304,7 +306,7 @@ TEST(WorldTest, handMeetsTheForearmAndNeighboursDoNot) {
   EXPECT_TRUE(touches);
 }
 
-TEST(WorldTest, noWeldAndNoAdhesionIsInTheModel) {
+TEST(WorldTest, ModelHasNoWeldAndNoAdhesion) {
   World world(test::world("stone"));
   world.addRobot(robot("panda"));
   const auto model = physics::compile(world.mjcf(false), "the merged model");

@@ -24,7 +24,7 @@ class ArmTest : public ::testing::Test {
     arm.push_frame = parameters.F_T_NE;
   }
 
-  /// A new unit with what the test has changed in the parameters.
+  /// A new unit with the test's parameters.
   void rebuild() { unit = ControlUnit(parameters); }
 
   /// Idle, then Move under external torque control.

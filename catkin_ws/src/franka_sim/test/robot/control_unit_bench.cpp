@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// One tick of a ControlUnit without physics, beside the model evaluation it contains.
+// One tick of a ControlUnit without physics, compared with its model evaluation.
 #include <benchmark/benchmark.h>
 #include <franka_sim/robot/control_unit.h>
 
@@ -47,7 +47,7 @@ void tick(benchmark::State& state, bool motion) {
 void idleTick(benchmark::State& state) { tick(state, false); }
 void torqueControlTick(benchmark::State& state) { tick(state, true); }
 
-/// A whole tick as over the FCI, with every check; the arm does as it is told.
+/// A complete tick as over the FCI, with every check; the arm follows its commands.
 void fciTick(benchmark::State& state, franka_core::MotionGeneratorMode generator,
              franka_core::ControllerMode controller) {
   ControlUnitParameters p = parameters();

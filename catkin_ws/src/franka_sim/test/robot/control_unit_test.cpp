@@ -72,8 +72,8 @@ TEST_F(ArmTest, ZeroTorqueAtRestDriftsLessThanATenthOfAMilliradianInTenSeconds) 
   EXPECT_LT(moment, 1e-4);
 }
 
-TEST_F(ArmTest, ForgettingTheFingersInTheLoadLetsTheArmDrift) {
-  // What the previous test would not notice if the plant were glued to the spot.
+TEST_F(ArmTest, AMissingFingerMassInTheLoadLetsTheArmDrift) {
+  // Shows that the previous test can fail: the plant is not fixed in place.
   arm.payload.mass += 0.03;
   startTorqueControl();
   const franka_core::RobotCommand zero;
@@ -94,7 +94,7 @@ TEST_F(ArmTest, AppliedTorqueIsCommandPlusGravityOfTheConfiguredLoad) {
   }
 }
 
-TEST_F(ArmTest, ReportsTheTorqueThatActedAndWhatTheSensorSaw) {
+TEST_F(ArmTest, ReportsAppliedAndMeasuredTorque) {
   startTorqueControl();
   const std::array<double, 7> tau{{0.1, -0.2, 0.3, -0.4, 0.05, -0.06, 0.07}};
   const franka_core::RobotCommand command = torques(tau);
@@ -113,7 +113,7 @@ TEST_F(ArmTest, ReportsTheTorqueThatActedAndWhatTheSensorSaw) {
 
 TEST_F(ArmTest, DerivativeOfTheTorqueFollowsARampThroughTheFilter) {
   startTorqueControl();
-  // Locked joints see exactly the ramp on the sensor.
+  // Locked joints measure exactly the ramp.
   ArmMeasurement m;
   m.q = kReady;
   m.tau_J = unit.state().tau_J;
@@ -126,7 +126,7 @@ TEST_F(ArmTest, DerivativeOfTheTorqueFollowsARampThroughTheFilter) {
   EXPECT_NEAR(0.0, unit.state().dtau_J[4], 1e-9);
 }
 
-TEST_F(ArmTest, CommandsBeyondTheMotorsAreCutBeforeGravityIsAdded) {
+TEST_F(ArmTest, CommandsSaturateBeforeGravityIsAdded) {
   startTorqueControl();
   const franka_core::RobotCommand command = torques({{200, -200, 88, -88, 13, -13, 12.5}});
   unit.observe(arm.measure());
@@ -139,7 +139,7 @@ TEST_F(ArmTest, CommandsBeyondTheMotorsAreCutBeforeGravityIsAdded) {
   EXPECT_EQ(expected, unit.observe(arm.measure()).tau_J_d);
 }
 
-TEST_F(ArmTest, MissingOrNotFiniteCommandsLetTheLastTorqueStand) {
+TEST_F(ArmTest, MissingOrNonFiniteCommandsKeepTheLastTorque) {
   startTorqueControl();
   const std::array<double, 7> tau{{0.5, 0, 0, 0, 0, 0, 0}};
   const franka_core::RobotCommand good = torques(tau);
@@ -176,7 +176,7 @@ TEST_F(ArmTest, FrictionIsCompensatedOnlyWhereAJointMoves) {
   }
 }
 
-TEST_F(ArmTest, FrictionOfTheJointsIsNoExternalForce) {
+TEST_F(ArmTest, JointFrictionIsNotAnExternalForce) {
   parameters.coulomb_friction = {{1.137, 1.137, 1.137, 1.137, 0.763, 0.44, 0.248}};
   parameters.viscous_friction.fill(0.21);
   rebuild();
@@ -215,7 +215,7 @@ TEST_F(ArmTest, ElbowFlipsAtItsAngle) {
   EXPECT_EQ(-1.0, unit.observe(m).elbow[1]);
 }
 
-TEST_F(ArmTest, FirstSampleShowsNoForcesAndGravityOnTheSensors) {
+TEST_F(ArmTest, FirstStateHasNoExternalForceAndGravityAsTorque) {
   arm.push = {{30, 0, 0, 0, 0, 0}};
   const RobotState& state = unit.observe(arm.measure());
   EXPECT_EQ((std::array<double, 7>{}), state.tau_ext_hat_filtered);
@@ -233,7 +233,7 @@ TEST_F(ArmTest, TakesOverAMovingArmWithoutAJump) {
   EXPECT_EQ((std::array<double, 7>{}), unit.observe(m).tau_ext_hat_filtered);
 }
 
-TEST_F(ArmTest, SamplesThatAreNotFiniteLeaveNoTrace) {
+TEST_F(ArmTest, NonFiniteSamplesAreIgnored) {
   run(50);
   ArmMeasurement bad = arm.measure();
   bad.dq[2] = std::numeric_limits<double>::quiet_NaN();
@@ -251,7 +251,7 @@ TEST_F(ArmTest, SamplesThatAreNotFiniteLeaveNoTrace) {
   EXPECT_EQ((std::array<double, 7>{}), unit.state().joint_collision);
 }
 
-TEST_F(ArmTest, TiltedGravityIsHeldToo) {
+TEST_F(ArmTest, HoldsUnderTiltedGravity) {
   parameters.gravity = {{4.905, 0, -8.4957}};
   rebuild();
   arm.gravity = parameters.gravity;

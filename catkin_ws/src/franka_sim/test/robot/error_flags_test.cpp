@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Each error that the robot can raise, through the whole control unit, alone (decision 45).
+// Each error of the robot, raised alone through the whole control unit (decision 45).
 #include <random>
 
 #include "fci_fixture.h"
@@ -9,10 +9,10 @@ namespace franka_sim::test {
 
 namespace {
 
-/// A pose that is nearly a self-collision, and the way into it.
+/// A pose close to a self-collision, and the direction into it.
 struct NearlyOne {
   std::array<double, 7> q{};  ///< [rad]
-  std::size_t joint{0};       ///< whose motion leads there the shortest way
+  std::size_t joint{0};       ///< the joint that leads there on the shortest path
   double direction{0.0};      ///< -1 or 1
 };
 
@@ -48,7 +48,7 @@ NearlyOne nearlyOne(const franka_core::ArmModel& model) {
 
 class ErrorFlags : public FciTest {
  protected:
-  /// The motion ended by exactly this.
+  /// The motion ended with exactly this flag.
   void expectReflex(int flag) {
     EXPECT_EQ(std::vector<int>{flag}, raised());
     EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
@@ -120,7 +120,7 @@ TEST_F(ErrorFlags, VirtualWall) {
   EXPECT_NEAR(0.1, unit.state().O_T_EE[13], 0.01);
 }
 
-TEST_F(ErrorFlags, OutOfAVirtualWallTheWayIsOpen) {
+TEST_F(ErrorFlags, MotionOutOfAVirtualWallIsAllowed) {
   for (const double direction : {1.0, -1.0}) {
     standAt(kReady);
     franka_core::fci::CartesianLimit wall;
@@ -151,9 +151,9 @@ TEST_F(ErrorFlags, SelfCollision) {
   EXPECT_GE(unit.status().self_collision.second - unit.status().self_collision.first, 2);
 }
 
-TEST_F(ErrorFlags, SelfCollisionUnderTorquesWhateverTheGeneratorWants) {
-  // Torque control of protocols 3 to 9 comes with joint velocities of zero: what is wanted of the
-  // joints stays where the motion began, wherever the torques bring the arm.
+TEST_F(ErrorFlags, SelfCollisionUnderTorquesIgnoresTheGenerator) {
+  // Torque control of protocols 3 to 9 comes with joint velocities of zero: the desired joint
+  // positions stay where the motion began, while the torques move the arm.
   const NearlyOne near = nearlyOne(parameters.model);
   for (const MotionGeneratorMode generator :
        {MotionGeneratorMode::kNone, MotionGeneratorMode::kJointVelocity,
@@ -169,7 +169,7 @@ TEST_F(ErrorFlags, SelfCollisionUnderTorquesWhateverTheGeneratorWants) {
     SCOPED_TRACE(static_cast<int>(generator));
     expectReflex(2);
     EXPECT_LT(unit.status().self_collision.distance, 0.0);
-    EXPECT_GT(unit.status().self_collision.distance, -1e-3) << "told late";
+    EXPECT_GT(unit.status().self_collision.distance, -1e-3) << "detected late";
   }
 }
 
@@ -283,7 +283,7 @@ TEST_F(ErrorFlags, CommandedJointPosition) {
   turnJoints();
   ramp(0, 0.3);
   expectReflex(12);
-  EXPECT_LT(unit.state().q[0], 2.8983) << "braked before the monitor of the measured joint";
+  EXPECT_LT(unit.state().q[0], 2.8983) << "braked before the limit of the measured joint";
 }
 
 TEST_F(ErrorFlags, CommandedJointMotion) {
@@ -291,8 +291,8 @@ TEST_F(ErrorFlags, CommandedJointMotion) {
     int flag;
     double rate;  // [rad/s^2]
   };
-  // At 7 rad/s^2 the velocity is met first, a step to 100 rad/s^2 is an acceleration, one to 10 a
-  // jerk.
+  // At 7 rad/s^2 the velocity limit comes first; a step to 100 rad/s^2 is an acceleration fault,
+  // one to 10 a jerk fault.
   for (const Case& c : {Case{13, 7.0}, Case{14, 100.0}, Case{15, 10.0}}) {
     standAt({{-1.5, -0.785, 0, -2.356, 0, 1.571, 0.785}});
     turnJoints();
@@ -386,7 +386,7 @@ TEST_F(ErrorFlags, TwentyLostCommandsButNotNineteen) {
   }
 }
 
-TEST_F(ErrorFlags, TheFirstCommandIsWaitedForAThousandTicks) {
+TEST_F(ErrorFlags, WaitsAThousandTicksForTheFirstCommand) {
   moveJoints();
   run(999);
   EXPECT_TRUE(raised().empty());
@@ -416,7 +416,7 @@ TEST_F(ErrorFlags, JointPositionAfterInverseKinematics) {
 }
 
 TEST_F(ErrorFlags, JointMotionAfterInverseKinematics) {
-  // Sideways, 0.31 m from the first axis: what is slow for the hand is fast for the joint.
+  // Sideways, 0.31 m from the first axis: a slow motion of the hand is fast for the joint.
   struct Case {
     int flag;
     double rate;
@@ -429,10 +429,9 @@ TEST_F(ErrorFlags, JointMotionAfterInverseKinematics) {
   }
 }
 
-TEST(ErrorFlagArithmetic, AtTenTimesTheJerkTheAccelerationSpeaksFirst) {
-  // Why the unit bounds flag 30 at 3.5 times the joints' jerk (docs/fidelity.md) and not at ten: a
-  // step of the acceleration that large leaves the bounds of the acceleration, whose flag comes
-  // first.
+TEST(ErrorFlagArithmetic, AtTenTimesTheJerkTheAccelerationFlagComesFirst) {
+  // Why the unit limits flag 30 at 3.5 times the joints' jerk (docs/fidelity.md) and not at ten: so
+  // large an acceleration step exceeds the acceleration limit, whose flag comes first.
   for (const auto* limits : {&franka_core::kFerLimits, &franka_core::kFr3Limits}) {
     for (std::size_t i = 0; i < 7; i++) {
       EXPECT_LT(2 * limits->ddq[i], 10 * limits->dddq[i] * 1e-3);
@@ -471,7 +470,7 @@ TEST_F(ErrorFlags, TorqueRange) {
   expectReflex(34);
 }
 
-TEST_F(ErrorFlags, CommandsThatAreNotFiniteEndTheMotion) {
+TEST_F(ErrorFlags, NonFiniteCommandsEndTheMotion) {
   const double nan = std::nan("");
   for (const MotionGeneratorMode generator :
        {MotionGeneratorMode::kJointPosition, MotionGeneratorMode::kJointVelocity,

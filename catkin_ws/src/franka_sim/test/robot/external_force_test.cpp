@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What the unit says about forces from outside, against forces that are known.
+// The unit's external torques and wrenches, against known forces.
 #include <franka_sim/robot/control_unit.h>
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ double smallestSingularValue(const ControlUnit& unit) {
   return Eigen::JacobiSVD<Eigen::Matrix<double, 6, 7>>(jacobian).singularValues()[5];
 }
 
-TEST_F(ArmTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
+TEST_F(ArmTest, FreeMotionAtNinetyPercentSpeedReadsNoForce) {
   startTorqueControl();
   SineDriver driver(parameters, parameters.end_effector, 4.0, 0.9);
   double force = 0.0;
@@ -44,13 +44,13 @@ TEST_F(ArmTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
   std::printf("free motion: %.1f %% of the speed limit, wrench error %.5f N, %.6f Nm\n",
               100 * fastest, force, moment);
   EXPECT_GT(fastest, 0.88);
-  // Asked for: 0.1 N and 0.02 Nm. This tight, a model evaluated at the wrong instant shows.
+  // Required: 0.1 N and 0.02 Nm. This bound also detects a model evaluated at the wrong instant.
   EXPECT_LT(force, 0.002);
   EXPECT_LT(moment, 0.0005);
 }
 
-TEST_F(ArmTest, PushesAreReadInBaseAndStiffnessFrameWithTheSignOfTheRobotsOwnForce) {
-  // K turned by 30 degrees about x of EE and moved, so that no axis agrees by chance.
+TEST_F(ArmTest, PushesAreReportedInOAndKWithTheRobotsSign) {
+  // K is turned by 30 degrees about x of EE and moved, so that no axis agrees by chance.
   const double c = std::cos(0.5235987755982988);
   const double s = 0.5;
   parameters.EE_T_K = {{1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, 0.02, -0.03, 0.05, 1}};
@@ -96,7 +96,7 @@ TEST_F(ArmTest, JointTorquesOfAPushAreMinusJacobianTransposedTimesForce) {
   }
 }
 
-TEST_F(ArmTest, AKilogramThatIsNotConfiguredReadsItsWeight) {
+TEST_F(ArmTest, UnconfiguredKilogramReadsItsWeight) {
   franka_core::Payload load;
   load.mass = 1.0;
   load.com = {{0.0, 0.0, 0.1034}};
@@ -112,7 +112,7 @@ TEST_F(ArmTest, AKilogramThatIsNotConfiguredReadsItsWeight) {
   EXPECT_DOUBLE_EQ(1.76, unit.state().m_total);
 }
 
-TEST_F(ArmTest, LoadSetWhileMovingActsAsPhysicsSays) {
+TEST_F(ArmTest, LoadSetDuringAMotionActsAtOnce) {
   franka_core::Payload load;
   load.mass = 1.0;
   load.com = {{0.01, 0.02, 0.1034}};
@@ -133,7 +133,7 @@ TEST_F(ArmTest, LoadSetWhileMovingActsAsPhysicsSays) {
   }
 }
 
-TEST_F(ArmTest, ContactShowsBetweenTheThresholdsAndClears) {
+TEST_F(ArmTest, ContactIsSetBetweenTheThresholdsAndClears) {
   CollisionThresholds t = parameters.nominal;
   t.lower_force.fill(10);
   t.upper_force.fill(20);
@@ -149,8 +149,8 @@ TEST_F(ArmTest, ContactShowsBetweenTheThresholdsAndClears) {
   EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_contact);
 }
 
-TEST_F(ArmTest, WithoutReflexesTheFlagsAreTheManualsFormulasAtEveryMoment) {
-  // Also where a lower threshold lies above the upper one.
+TEST_F(ArmTest, WithoutReflexesFlagsFollowTheManualsFormulas) {
+  // Also with a lower threshold above the upper one.
   CollisionThresholds t = parameters.nominal;
   t.lower_force = {{10, 10, 10, 10, 10, 30}};
   t.upper_force.fill(20);
@@ -214,7 +214,7 @@ TEST_F(ArmTest, CollisionLatchesUntilRecovery) {
   EXPECT_FALSE(unit.status().cartesian_collision.happened);
 }
 
-TEST(CollisionText, NamesValueThresholdUnitAndPlace) {
+TEST(CollisionText, NamesValueThresholdUnitAndAxis) {
   EXPECT_EQ("joint 4: external torque -23.4 Nm, upper threshold 20 Nm",
             describeJointCollision({true, 3, -23.4, 20.0}));
   EXPECT_EQ("along z of O: external force 25.1 N, upper threshold 20 N",
@@ -246,7 +246,7 @@ TEST_F(ArmTest, JointThresholdsActPerJoint) {
   EXPECT_LT(contacts, 7);
 }
 
-TEST_F(ArmTest, ThresholdsMeetTheWrenchInTheFrameOfTheInterface) {
+TEST_F(ArmTest, ThresholdsApplyInTheFrameOfTheInterface) {
   // In the ready pose the hand points down: z of K is minus z of O, x of K is x of O turned by the
   // hand's own angle. Turn K by a quarter about x so that a push along z of O lies along y of K.
   parameters.EE_T_K = {{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1}};
@@ -266,7 +266,7 @@ TEST_F(ArmTest, ThresholdsMeetTheWrenchInTheFrameOfTheInterface) {
   }
 }
 
-TEST_F(ArmTest, ThresholdsDoNotWaitForTheFilter) {
+TEST_F(ArmTest, ThresholdsApplyToUnfilteredValues) {
   parameters.rules = InterfaceRules::kFci;
   parameters.protocol_version = 5;
   parameters.nominal.upper_force.fill(20);
@@ -281,7 +281,7 @@ TEST_F(ArmTest, ThresholdsDoNotWaitForTheFilter) {
 
 TEST_F(ArmTest, FilteredTorqueIsAFirstOrderLowPassOfAHundredHertz) {
   run(100);
-  // A torque that appears on the sensor alone, with the joints at rest, is all external.
+  // A torque on the sensor alone, with the joints at rest, is entirely external.
   ArmMeasurement m = arm.measure();
   m.dq.fill(0.0);
   unit.observe(m);
@@ -298,8 +298,8 @@ TEST_F(ArmTest, FilteredTorqueIsAFirstOrderLowPassOfAHundredHertz) {
   }
 }
 
-TEST_F(ArmTest, NoWrenchIsToldNearASingularity) {
-  // Straight up no joint turns about x.
+TEST_F(ArmTest, NoWrenchNearASingularity) {
+  // Stretched upwards, no joint turns about x.
   ArmMeasurement m;
   unit.observe(m);
   EXPECT_LT(smallestSingularValue(unit), 0.02);
@@ -312,8 +312,9 @@ TEST_F(ArmTest, NoWrenchIsToldNearASingularity) {
   EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_contact);
 }
 
-TEST_F(ArmTest, TheSingularityBoundIsTwoHundredths) {
-  // Walk through the bound away from straight up and compare with a singular value decomposition.
+TEST_F(ArmTest, SingularityBoundIsTwoHundredths) {
+  // Crosses the bound, away from the stretched pose, and compares with a singular value
+  // decomposition.
   int inside = 0;
   int outside = 0;
   for (int i = 1; i <= 200; i++) {
@@ -324,12 +325,12 @@ TEST_F(ArmTest, TheSingularityBoundIsTwoHundredths) {
     m.tau_J = fresh.state().tau_J;
     m.tau_J[1] += 10;
     fresh.observe(m);
-    const bool told = norm(fresh.state().O_F_ext_hat_K, 0, 6) > 0.0;
+    const bool shown = norm(fresh.state().O_F_ext_hat_K, 0, 6) > 0.0;
     const double sigma = smallestSingularValue(fresh);
     if (std::abs(sigma - 0.02) > 1e-9) {
-      EXPECT_EQ(sigma > 0.02, told) << "sigma " << sigma;
+      EXPECT_EQ(sigma > 0.02, shown) << "sigma " << sigma;
     }
-    (told ? outside : inside)++;
+    (shown ? outside : inside)++;
   }
   EXPECT_GT(inside, 0);
   EXPECT_GT(outside, 0);

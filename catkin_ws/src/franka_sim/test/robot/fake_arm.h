@@ -18,18 +18,18 @@ namespace codec = franka_core::fci;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-/// An arm that obeys (M(q) + B) ddq + c + g + friction = tau + J^T F, in two semi-implicit Euler
-/// substeps of 0.5 ms, with link-side torque sensors (decision 2). Its payload is the true one, not
-/// the one that is configured in the unit.
+/// An arm with (M(q) + B) ddq + c + g + friction = tau + J^T F, in two semi-implicit Euler substeps
+/// of 0.5 ms, with link-side torque sensors (decision 2). Its payload is the true one, not the one
+/// configured in the unit.
 class FakeArm : public ArmPlant {
  public:
   FakeArm(const franka_core::ArmModel& model, const std::array<double, 7>& q)
       : model_(model), q_(q) {}
 
-  franka_core::Payload payload;  ///< what truly hangs on the flange
+  franka_core::Payload payload;  ///< true payload at the flange
   std::array<double, 3> gravity{{0, 0, -9.81}};
   std::array<double, 7> coulomb{}, viscous{};  ///< joint friction [Nm], [Nm s/rad]
-  std::array<double, 6> push{};                ///< from outside, in O, at the frame below [N, Nm]
+  std::array<double, 6> push{};                ///< external, in O, at the frame below [N, Nm]
   std::array<double, 16> push_frame{franka_core::kIdentityTransform};  ///< in the flange frame
 
   ArmMeasurement measure() const noexcept override { return {q_, dq_, tau_J_}; }
@@ -60,7 +60,7 @@ class FakeArm : public ArmPlant {
   static constexpr int kSubsteps = 2;
 
  private:
-  // Returns what the link side gets from motor and friction, or from the brakes.
+  // Returns the torque on the link side from motor and friction, or from the brakes.
   Vector7 substep() noexcept {
     constexpr double kStep = 1e-3 / kSubsteps;
     franka_core::ArmDynamics d;
@@ -95,7 +95,7 @@ class FakeArm : public ArmPlant {
   bool braked_{false};
 };
 
-/// One tick of unit and arm, as both interfaces do it.
+/// One tick of unit and arm, as both interfaces run it.
 inline const franka_core::RobotState& tick(ControlUnit& unit, FakeArm& arm,
                                            const franka_core::RobotCommand* command = nullptr) {
   const franka_core::RobotState& state = unit.observe(arm.measure());

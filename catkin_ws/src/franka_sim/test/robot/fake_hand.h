@@ -12,20 +12,20 @@
 
 namespace franka_sim::test {
 
-/// Two sliding fingers without friction, coupled by a stiff spring as their common drive would,
-/// with stops at 0 and 0.04 m and room for an object between them. Substeps of 0.05 ms.
+/// Two sliding fingers without friction, coupled by a stiff spring like a common drive, with stops
+/// at 0 and 0.04 m and an optional object between them. Substeps of 0.05 ms.
 class FakeHand : public HandPlant {
  public:
   /// @param mass of each finger with its drive [kg] @param coupling between the fingers [N/m]
   explicit FakeHand(double mass = 0.115, double coupling = 20000.0)
       : mass_(mass), coupling_(coupling) {}
 
-  /// An object [m]: inside the fingers when they close, or around them when they open.
+  /// An object [m]: between the closing fingers, or around the opening ones.
   struct Object {
     double left{0.0};     ///< finger 1 meets it at q[0] = left + position
     double right{0.0};    ///< finger 2 at q[1] = right - position
     bool hollow{false};   ///< grasped from inside
-    bool movable{false};  ///< slides along the fingers' way against friction
+    bool movable{false};  ///< slides in the fingers' direction against friction
     double position{0.0};
     double mass{0.1};
     double friction{0.6};  ///< [N]
@@ -50,7 +50,7 @@ class FakeHand : public HandPlant {
 
   double width() const { return q_[0] + q_[1]; }
   double speed() const { return dq_[0] + dq_[1]; }
-  /// What each finger presses on the object with, mean of the last substep [N].
+  /// Force of each finger on the object, mean of the last substep [N].
   const std::array<double, 2>& padForce() const { return pad_; }
 
  private:
@@ -87,7 +87,7 @@ class FakeHand : public HandPlant {
     }
     const double push = pad_[1] - pad_[0];
     const double limit = object.friction;
-    // Coulomb friction that can stop the object within a step but not turn it round.
+    // Coulomb friction that can stop the object within a step but not reverse it.
     double speed = object_speed_ + dt * push / object.mass;
     const double brake = dt * limit / object.mass;
     speed = speed > 0 ? std::max(speed - brake, 0.0) : std::min(speed + brake, 0.0);

@@ -21,7 +21,7 @@ using franka_core::RobotMode;
 using franka_core::RobotState;
 using Status = franka_core::fci::Status;
 
-/// A unit as behind its own interface.
+/// A unit with the settings of the FCI.
 class FciTest : public ArmTest {
  protected:
   FciTest() {
@@ -31,7 +31,7 @@ class FciTest : public ArmTest {
     test::tick(unit, arm);
   }
 
-  /// A new unit on an arm that stands at q.
+  /// A new unit on an arm at q.
   void standAt(const std::array<double, 7>& q) {
     rebuild();
     arm.put(q);
@@ -61,7 +61,7 @@ class FciTest : public ArmTest {
     ASSERT_EQ(RobotMode::kMove, unit.state().robot_mode);
   }
 
-  /// Ticks whose command is made from the state; stops early when the motion is over.
+  /// Runs ticks with commands made from the state; stops early when the motion is over.
   int drive(int ticks, const std::function<RobotCommand(int, const RobotState&)>& command) {
     for (int i = 0; i < ticks; i++) {
       const RobotState& state = unit.observe(arm.measure());
@@ -76,7 +76,7 @@ class FciTest : public ArmTest {
     return ticks;
   }
 
-  /// A tick in which the sensors show something else than the arm.
+  /// A tick with changed sensor values.
   void tickWith(const std::function<void(ArmMeasurement&)>& change,
                 const RobotCommand* command = nullptr) {
     ArmMeasurement m = arm.measure();
@@ -98,7 +98,7 @@ class FciTest : public ArmTest {
   }
 };
 
-/// From 0 to 1 within a second, at rest at both ends up to the acceleration.
+/// From 0 to 1 within a second, at rest at both ends including the acceleration.
 inline double smoothStep(double t) {
   const double s = std::min(std::max(t, 0.0), 1.0);
   return s * s * s * (10 - 15 * s + 6 * s * s);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The gripper's commands on simulated fingers, with and without something between them.
+// The gripper's commands on simulated fingers, with and without an object.
 #include <franka_sim/robot/gripper_unit.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class GripperTest : public ::testing::Test {
     }
   }
 
-  /// Until a command has ended. @returns seconds, or 100 when it never does
+  /// Runs until a command has ended. @returns seconds, or 100 if never
   double finish(GripperUnit::Ticket ticket) {
     for (int i = 0; i < 20000; i++) {
       if (gripper.outcome(ticket) != GripperOutcome::kRunning) {
@@ -44,7 +44,7 @@ class GripperTest : public ::testing::Test {
     return 100.0;
   }
 
-  /// The stone of the demo: 25 mm wide, in the middle or beside it [m].
+  /// The stone of the demo: 25 mm wide, centred or `beside` the centre [m].
   void putStone(double width = 0.025, double beside = 0.0) {
     hand.has_object = true;
     hand.object = FakeHand::Object{};
@@ -58,7 +58,7 @@ class GripperTest : public ::testing::Test {
   GripperUnit gripper{GripperParameters{}};
 };
 
-TEST_F(GripperTest, WarmsUpWithTheSquareOfItsForceAndCoolsDownAgain) {
+TEST_F(GripperTest, TemperatureFollowsTheSquaredForce) {
   const GripperParameters parameters;
   putStone();
   run(1000);
@@ -82,14 +82,14 @@ TEST_F(GripperTest, WarmsUpWithTheSquareOfItsForceAndCoolsDownAgain) {
   EXPECT_EQ(parameters.room_temperature, gripper.temperature());
 }
 
-TEST_F(GripperTest, StandsWhereItIs) {
+TEST_F(GripperTest, StaysAtItsWidth) {
   run(1000);
   EXPECT_NEAR(0.04, gripper.width(), 1e-9);
   EXPECT_EQ(GripperState::kIdle, gripper.state());
   EXPECT_FALSE(gripper.isGrasped());
 }
 
-TEST_F(GripperTest, MovesToAWidthAtTheSpeedAsked) {
+TEST_F(GripperTest, MovesToAWidthAtTheRequestedSpeed) {
   hand.put(0.0);
   run(10);
   for (const double speed : {0.02, 0.05, 0.1}) {
@@ -163,7 +163,7 @@ TEST_F(GripperTest, MoveToWhereItIsSucceedsAtOnce) {
   EXPECT_LT(finish(gripper.move(0.04, 0.1)), 0.01);
 }
 
-TEST_F(GripperTest, ObstacleEndsAMoveQuicklyAndTruthfully) {
+TEST_F(GripperTest, ObstacleEndsAMoveAsFailed) {
   putStone();
   hand.object.movable = false;
   hand.put(0.06);
@@ -177,7 +177,7 @@ TEST_F(GripperTest, ObstacleEndsAMoveQuicklyAndTruthfully) {
   EXPECT_LT(hand.padForce()[0], 0.1) << "nothing keeps pressing";
 }
 
-TEST_F(GripperTest, BlockedFromTheStartFailsAfterItsPatience) {
+TEST_F(GripperTest, BlockedFromTheStartFailsAfterATimeout) {
   putStone(0.03);
   hand.object.movable = false;
   hand.put(0.03);
@@ -205,7 +205,7 @@ TEST_F(GripperTest, GraspHoldsWithHalfOfTheForceOnEachFinger) {
   }
 }
 
-TEST_F(GripperTest, GraspPushesAnObjectThatLiesBesideTheMiddle) {
+TEST_F(GripperTest, GraspCentresAnObject) {
   for (const double beside : {0.01, -0.01}) {
     putStone(0.025, beside);
     hand.put(0.07);
@@ -289,7 +289,7 @@ TEST_F(GripperTest, GraspFromInsideOfNothingEndsAtTheStops) {
   EXPECT_NEAR(0.08, gripper.width(), 1e-3);
 }
 
-TEST_F(GripperTest, GraspingAgainWhatIsHeldKeepsHolding) {
+TEST_F(GripperTest, GraspingAHeldObjectAgainKeepsHolding) {
   putStone();
   hand.put(0.06);
   run(10);
@@ -306,7 +306,7 @@ TEST_F(GripperTest, GraspingAgainWhatIsHeldKeepsHolding) {
   EXPECT_NEAR(5.0, hand.padForce()[0], 0.25);
 }
 
-TEST_F(GripperTest, LosingTheObjectShowsAndTheFingersCloseOn) {
+TEST_F(GripperTest, LosingTheObjectIsReportedAndClosesTheFingers) {
   putStone();
   hand.put(0.06);
   run(10);
@@ -319,7 +319,7 @@ TEST_F(GripperTest, LosingTheObjectShowsAndTheFingersCloseOn) {
   EXPECT_NEAR(0.0, gripper.width(), 1e-3);
 }
 
-TEST_F(GripperTest, StopReleasesAGraspAndStays) {
+TEST_F(GripperTest, StopReleasesAGraspWithoutMotion) {
   putStone();
   hand.put(0.06);
   run(10);
@@ -333,7 +333,7 @@ TEST_F(GripperTest, StopReleasesAGraspAndStays) {
   EXPECT_NEAR(0.025, gripper.width(), 1e-3);
 }
 
-TEST_F(GripperTest, StopMidwayHoldsTheFingersWhereTheyAre) {
+TEST_F(GripperTest, StopDuringAMoveHoldsTheWidth) {
   hand.put(0.08);
   run(10);
   for (const bool grasping : {false, true}) {
@@ -401,7 +401,7 @@ TEST_F(GripperTest, HomingFailsOnAnObstacle) {
   EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
 }
 
-TEST_F(GripperTest, BadCommandsAreRefusedAndInterruptNothing) {
+TEST_F(GripperTest, InvalidCommandsAreRefusedAndInterruptNothing) {
   hand.put(0.08);
   run(10);
   const GripperUnit::Ticket running = gripper.move(0.02, 0.05);
@@ -431,7 +431,7 @@ TEST_F(GripperTest, CommandBeforeTheFirstStepStartsFromTheMeasuredWidth) {
   EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
 }
 
-TEST_F(GripperTest, ImpossibleSpeedsAndForcesAreCutToTheHands) {
+TEST_F(GripperTest, SpeedsAndForcesSaturateAtTheHandsLimits) {
   putStone();
   hand.put(0.08);
   run(10);
@@ -447,7 +447,7 @@ TEST_F(GripperTest, ImpossibleSpeedsAndForcesAreCutToTheHands) {
   EXPECT_NEAR(70, hand.padForce()[0], 1.0);
 }
 
-TEST_F(GripperTest, RestartIsIdleAtTheNewWidth) {
+TEST_F(GripperTest, RestartIdlesAtTheNewWidth) {
   hand.put(0.08);
   run(10);
   const GripperUnit::Ticket ticket = gripper.move(0.0, 0.1);
@@ -460,7 +460,7 @@ TEST_F(GripperTest, RestartIsIdleAtTheNewWidth) {
   EXPECT_NEAR(0.03, gripper.width(), 1e-6);
 }
 
-TEST_F(GripperTest, MeasurementsThatAreNotFiniteGiveNoForceAndLeaveNoTrace) {
+TEST_F(GripperTest, NonFiniteMeasurementsGiveNoForceAndAreIgnored) {
   const GripperUnit::Ticket ticket = gripper.move(0.08, 0.1);
   run(100);
   HandMeasurement bad = hand.measure();
@@ -471,7 +471,7 @@ TEST_F(GripperTest, MeasurementsThatAreNotFiniteGiveNoForceAndLeaveNoTrace) {
   EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
 }
 
-TEST_F(GripperTest, TwoGrippersDoNotShareAnything) {
+TEST_F(GripperTest, TwoGrippersShareNoState) {
   GripperUnit other{GripperParameters{}};
   FakeHand other_hand;
   const GripperUnit::Ticket mine = gripper.move(0.08, 0.1);
@@ -487,7 +487,7 @@ TEST_F(GripperTest, TwoGrippersDoNotShareAnything) {
   EXPECT_NEAR(0.0, other.width(), 1e-3);
 }
 
-TEST(GripperParameters, ThatMakeNoSenseAreRefusedWithTheirName) {
+TEST(GripperParameters, InvalidOnesAreRefusedByName) {
   const auto why = [](const std::function<void(GripperParameters&)>& change) -> std::string {
     GripperParameters parameters;
     change(parameters);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Control laws and geometry of the unit, against second answers.
+// Control laws and geometry of the unit, against independent results.
 #include <franka_sim/robot/cartesian_impedance.h>
 #include <franka_sim/robot/joint_impedance.h>
 #include <franka_sim/robot/link_accelerometers.h>
@@ -36,7 +36,7 @@ class Laws : public FciTest {
   RobotState start;
 };
 
-TEST_F(Laws, JointStiffnessIsTheOneThatWasSet) {
+TEST_F(Laws, JointStiffnessMatchesItsSetting) {
   ignoreCollisions();
   const std::array<double, 7> K{{400, 600, 800, 1000, 300, 200, 100}};
   ASSERT_EQ(Status::kSuccess, unit.request(codec::SetJointImpedanceRequest{K}));
@@ -48,7 +48,7 @@ TEST_F(Laws, JointStiffnessIsTheOneThatWasSet) {
   }
 }
 
-TEST_F(Laws, CartesianStiffnessIsTheOneThatWasSetAlongEachAxisOfK) {
+TEST_F(Laws, CartesianStiffnessMatchesItsSettingAlongEachAxisOfK) {
   const std::array<double, 6> K{{300, 900, 2000, 20, 40, 80}};
   for (std::size_t axis = 0; axis < 6; axis++) {
     standAt(kReady);
@@ -80,7 +80,7 @@ TEST_F(Laws, CartesianStiffnessIsTheOneThatWasSetAlongEachAxisOfK) {
 }
 
 TEST_F(Laws, BothControllersAreStableAtEveryStiffness) {
-  // A kick, then half a second: an unstable pose grows by then, a stable one has come to rest.
+  // A kick, then half a second: by then an unstable pose grows, a stable one is at rest.
   std::mt19937 random(11);
   const franka_core::ArmLimits& limits = franka_core::kFerLimits;
   int unstable[2] = {0, 0};
@@ -145,7 +145,7 @@ TEST_F(Laws, BothControllersAreStableAtEveryStiffness) {
   EXPECT_EQ(0, unstable[1]) << "Cartesian impedance";
 }
 
-TEST_F(Laws, AccelerometersReadTheSecondDerivativeOfTheirPlaces) {
+TEST_F(Laws, AccelerometersReadTheSecondDerivativeOfTheirPosition) {
   std::array<double, 7> q = kReady, dq, ddq;
   for (std::size_t i = 0; i < 7; i++) {
     dq[i] = 0.3 * static_cast<double>(i) - 0.7;
@@ -175,7 +175,7 @@ TEST_F(Laws, AccelerometersReadTheSecondDerivativeOfTheirPlaces) {
   EXPECT_NEAR(9.81, unit.state().accelerometer_bottom[0][2], 1e-6);
 }
 
-TEST(SelfCollisionGeometry, DistanceOfSegmentsIsTheSmallestOfAllPairsOfPoints) {
+TEST(SelfCollisionGeometry, SegmentDistanceIsTheMinimumOverAllPoints) {
   std::mt19937 random(3);
   std::uniform_real_distribution<> coordinate(-1, 1);
   for (int sample = 0; sample < 300; sample++) {
@@ -209,7 +209,7 @@ TEST(SelfCollisionGeometry, DistanceOfSegmentsIsTheSmallestOfAllPairsOfPoints) {
   }
 }
 
-TEST(SelfCollisionGeometry, KnownPosesAreFreeOrNot) {
+TEST(SelfCollisionGeometry, KnownPosesAreClassified) {
   SelfCollision collision(true);
   const franka_core::ArmModel model = pandaModel();
   EXPECT_GT(collision.closest(model, kReady).distance, 0.01);
@@ -218,7 +218,7 @@ TEST(SelfCollisionGeometry, KnownPosesAreFreeOrNot) {
   EXPECT_LT(collision.closest(model, {{0, 1.7, 0, -3.05, 0, 0.0, 0}}).distance, 0.0);
 }
 
-TEST(SelfCollisionGeometry, OutOfAnOverlapIsAllowedDeeperIsNot) {
+TEST(SelfCollisionGeometry, OverlapsMayShrinkButNotGrow) {
   const franka_core::ArmModel model = pandaModel();
   std::mt19937 random(5);
   SelfCollision collision(true);
@@ -244,7 +244,7 @@ TEST(SelfCollisionGeometry, OutOfAnOverlapIsAllowedDeeperIsNot) {
         EXPECT_LT(collision.culprit().distance, 0.0);
       } else if (after > 0.0) {
         EXPECT_FALSE(collision.violated(model, moved));
-        EXPECT_TRUE(collision.violated(model, q)) << "once out, back in is too deep";
+        EXPECT_TRUE(collision.violated(model, q)) << "an overlap that ended must not return";
       }
     }
   }

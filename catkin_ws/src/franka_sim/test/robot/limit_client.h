@@ -14,14 +14,14 @@ namespace franka_sim::test {
 
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-/// How a client deals with 32 bit floats.
+/// Where a client uses 32 bit floats.
 enum class Floats {
   kNone,
-  kReads,  ///< what it has commanded it takes from the states, which carry floats (protocol 10)
+  kReads,  ///< it takes its history from the states, which carry floats (protocol 10)
   kSends   ///< it computes its commands in floats
 };
 
-/// What a client intends: after each tick these derivatives, of seven coordinates (joints, or
+/// The client's plan: these derivatives after each tick, of seven coordinates (joints, or
 /// translation, rotation vector and elbow), integrated from jerk by backward Euler.
 struct Intended {
   Vector7 velocity, acceleration, jerk;
@@ -68,9 +68,9 @@ inline Plan planOfWay(const Way& way, const Profile& profile) {
   return differentiated(velocities);
 }
 
-/// Sends a plan through a motion generator, tick by tick, then stands still and finishes. One that
-/// reads floats keeps to the plan in the derivative whose limit is looked at: rounding would carry
-/// it away otherwise.
+/// Sends a plan through a motion generator, tick by tick, then stands still and finishes. A client
+/// that reads floats follows the plan in the derivative under test: rounding would otherwise
+/// accumulate.
 class LimitClient {
  public:
   LimitClient(Plan plan, Derivative what, Floats floats)
@@ -94,8 +94,8 @@ class LimitClient {
     return command;
   }
 
-  /// The largest value of a derivative in what was sent, as the robot sees it: differences of the
-  /// commands, or those to the floats in the states.
+  /// The largest value of a derivative in the sent commands, as the robot sees it: differences of
+  /// the commands, or to the floats in the states.
   template <typename Size>
   double peak(Size size) const {
     double largest = 0.0;
@@ -133,7 +133,7 @@ class LimitClient {
  private:
   Vector7 nextVelocity() const {
     if (tick_ > plan_.size()) {
-      return kSlowing * history_.velocity;  // nothing but what rounding has left
+      return kSlowing * history_.velocity;  // only the rounding error remains
     }
     const Intended& next = plan_[tick_ - 1];
     if (what_ == Derivative::kVelocity || floats_ != Floats::kReads) {

@@ -12,9 +12,9 @@ namespace franka_sim::test {
 
 enum class Derivative { kVelocity, kAcceleration, kJerk };
 
-/// A way out and to rest again along one coordinate, as the jerk of each tick. Integrated by
-/// backward Euler it reaches a share of one limit and stays well inside of the others. Speeding up
-/// and slowing down mirror each other: the middle of the way is the middle of the time.
+/// The jerk of each tick of a motion from rest to rest along one coordinate. Integrated by backward
+/// Euler it reaches a share of one limit and stays well below the others. Acceleration and
+/// deceleration are symmetric: half of the path is reached in half of the time.
 using Profile = std::vector<double>;
 
 namespace profile_detail {
@@ -23,7 +23,7 @@ inline void append(Profile& profile, int ticks, double jerk) {
   profile.insert(profile.end(), static_cast<std::size_t>(ticks), jerk);
 }
 
-// Ramps of the acceleration, then the same downwards.
+// Acceleration ramps, then the same downwards.
 inline Profile trapezoids(int ramp, int hold, int cruise, double acceleration) {
   Profile profile;
   const double jerk = acceleration / (ramp * kTick);
@@ -36,7 +36,7 @@ inline Profile trapezoids(int ramp, int hold, int cruise, double acceleration) {
   return profile;
 }
 
-// Forth and back at full jerk, so that neither acceleration nor velocity grow much.
+// Alternates at full jerk, so that acceleration and velocity stay small.
 inline Profile shaking(double jerk) {
   Profile profile;
   for (const double sign : {1.0, -1.0}) {
@@ -50,8 +50,8 @@ inline Profile shaking(double jerk) {
 
 }  // namespace profile_detail
 
-/// @param share of the limit that is reached
-/// @param effort of the acceleration limit that may be used for reaching a velocity
+/// @param share of the limit to reach
+/// @param effort share of the acceleration limit used to reach a velocity
 inline Profile reach(Derivative what, const franka_core::DerivativeLimits& limits, double share,
                      double effort = 0.8) {
   constexpr int kRamp = 10;  // ticks: a fifth of the jerk limit
@@ -62,7 +62,7 @@ inline Profile reach(Derivative what, const franka_core::DerivativeLimits& limit
   if (what == Derivative::kAcceleration) {
     return profile_detail::trapezoids(kRamp, kHold, 0, share * limits.acceleration);
   }
-  // Ticks at full acceleration; two ramps count for one.
+  // Ticks at full acceleration; two ramps count as one.
   const int full =
       static_cast<int>(std::ceil(limits.velocity / (effort * limits.acceleration * kTick)));
   const int ramp = std::min(4 * kRamp, full / 2);
@@ -70,7 +70,7 @@ inline Profile reach(Derivative what, const franka_core::DerivativeLimits& limit
                                     share * limits.velocity / (full * kTick));
 }
 
-/// A cruise that ends abruptly, to come to a limit that shrinks with the position.
+/// A cruise that ends abruptly, to approach a limit that shrinks with the position.
 inline Profile cruise(double velocity) {
   return profile_detail::trapezoids(2, 8, 60, velocity / (10 * kTick));
 }

@@ -8,7 +8,7 @@
 
 namespace franka_sim::test {
 
-/// What a search is about: one way for these stages of a part.
+/// Target of a search: one path for these stages of a part.
 struct Target {
   unsigned protocol;
   std::vector<Derivative> stages;
@@ -18,7 +18,7 @@ struct Target {
   bool round{false};
 };
 
-/// A way, over all stages.
+/// Judges a path over all stages.
 inline Judgement judge(const Target& target, const Way& way, double enough = 1e9) {
   const MotionLimits limits = motionLimitsOfProtocol(target.protocol);
   WayJudge judge(limits);
@@ -36,7 +36,7 @@ struct Found {
   Judgement judgement{2.0, "nothing found"};
 };
 
-/// Draws ways by a fixed seed and keeps the one that leaves most to spare. Coordinates are rounded
+/// Draws paths with a fixed seed and keeps the one with the largest margin. Coordinates are rounded
 /// to 0.01, so that the result can be written down.
 class WaySearch {
  public:
@@ -67,7 +67,7 @@ class WaySearch {
       way.start[i] = between(limits_.arm.q_min[i], limits_.arm.q_max[i]);
     }
     if (!way.round) {
-      way.start[0] = 0.0;  // what happens does not depend on it
+      way.start[0] = 0.0;  // has no effect on the result
     }
     way.axis = {between(-1, 1), between(-1, 1), between(-1, 1)};
     return way;

@@ -26,25 +26,25 @@ inline franka_core::DerivativeLimits boundsOf(const MotionLimits& limits, Part p
                                     : limits.elbow();
 }
 
-/// A way on which one part of the Cartesian motion reaches a limit: straight along, or about, an
-/// axis in O, or of the elbow alone. With a rod in the hand (only its tip, the end effector, is
-/// looked at; it weighs nothing) the tip may also go round the robot's own axis: far out it is
-/// faster than any straight way can be.
+/// A path on which one part of the Cartesian motion reaches a limit: straight along, or about, an
+/// axis in O, or of the elbow alone. With a massless rod in the hand, whose tip is the end
+/// effector, the tip may also circle the robot's first axis: far out it is faster than on any
+/// straight path.
 struct Way {
   Part part;
   Joints start;                         ///< [rad]
   Eigen::Vector3d axis{0.0, 0.0, 1.0};  ///< need not be of length 1
   double rod{0.0};                      ///< NE_T_EE: along z of the hand [m]
-  bool round{false};                    ///< about z of O, with kTranslation
+  bool round{false};                    ///< circles z of O, with kTranslation
 };
 
-/// Round the robot the velocity's direction takes its share of the acceleration.
+/// On a circle the velocity's direction uses its share of the acceleration.
 inline Profile profileOf(const Way& way, Derivative what,
                          const franka_core::DerivativeLimits& bounds, double share) {
   return reach(what, bounds, share, way.round ? 0.4 : 0.8);
 }
 
-/// Where the end effector and the elbow shall be.
+/// A desired position of end effector and elbow.
 struct Waypoint {
   Eigen::Vector3d position;
   Eigen::Matrix3d rotation;
@@ -68,7 +68,7 @@ inline Waypoint along(const Way& way, const Waypoint& start, double distance) {
   return point;
 }
 
-/// One point a tick, from the start pose on.
+/// One point per tick, from the start pose.
 inline std::vector<Waypoint> waypoints(const Way& way, const Profile& profile) {
   Transform F_T_EE = handFrame();
   F_T_EE[14] += way.rod;
@@ -88,17 +88,17 @@ inline std::vector<Waypoint> waypoints(const Way& way, const Profile& profile) {
 
 struct Judgement {
   double share{0.0};
-  const char* by{""};  ///< what takes that share
+  const char* by{""};  ///< what uses that share
 };
 
-/// The largest share that a way takes of anything which bounds the arm beside the commands
-/// themselves: joint velocities and accelerations, their jerk as far as the control unit lets it
-/// go, the joints' ranges, singular poses, the arm's own volumes. Above 1: not possible.
+/// The largest share that a path uses of any limit of the arm besides those of the commands: joint
+/// velocities, accelerations and jerks as far as the control unit allows, joint ranges, singular
+/// poses, self-collision. Above 1: not possible.
 class WayJudge {
  public:
   explicit WayJudge(const MotionLimits& limits) : limits_(limits) {}
 
-  /// Stops early when it becomes more than `enough`.
+  /// Stops early above `enough`.
   Judgement judge(const Way& way, const Profile& profile, double enough = 1.0) {
     Transform F_T_EE = handFrame();
     F_T_EE[14] += way.rod;
@@ -138,7 +138,7 @@ class WayJudge {
  private:
   static constexpr int kEvery = 10;
   static constexpr double kRangeMargin = 0.03;      // [rad]
-  static constexpr double kSingular = 0.02;         // where inverse kinematics begins to damp
+  static constexpr double kSingular = 0.02;         // start of damping in the inverse kinematics
   static constexpr double kCollisionMargin = 0.01;  // [m]
   static constexpr double kSolvedJerk = 3.5;        // docs/fidelity.md
   static constexpr double kNever = 1e9;

@@ -8,13 +8,13 @@
 
 namespace franka_sim::test {
 
-/// A way on which the limits of these stages can be reached, the joints staying within theirs.
+/// A path on which these limits can be reached while the joints stay within theirs.
 struct LimitWay {
   unsigned protocol;
   std::vector<Derivative> stages;
   Way way;
-  double taken;  ///< the largest share of what else bounds the arm, at 99 % of the limits
-  int draws;     ///< that WaySearch made for it
+  double taken;  ///< the largest used share of the arm's other limits, at 99 % of the limits
+  int draws;     ///< of WaySearch
 };
 
 inline const std::vector<Derivative> kVelocityOnly{Derivative::kVelocity};
@@ -58,7 +58,7 @@ inline const std::vector<LimitWay> kLimitWays{
     {10, kAllStages, {Part::kElbow, {{0, 0.54, 0.27, -0.99, 0.24, 4.39, 1.76}}}, 0.53, 4000},
 };
 
-/// The fastest straight way found, by this share of the limit of translation.
+/// The fastest straight path found, by its share of the translation limit.
 struct StraightWay {
   unsigned protocol;
   double share;
@@ -66,7 +66,7 @@ struct StraightWay {
 };
 
 constexpr int kStraightDraws = 10000;
-constexpr double kTooMuch = 0.05;  ///< so much faster, as many draws find no way
+constexpr double kTooMuch = 0.05;  ///< at this excess, as many draws find no path
 
 inline const std::vector<StraightWay> kStraightWays{
     {5,

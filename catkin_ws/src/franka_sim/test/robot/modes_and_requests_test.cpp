@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Modes, their transitions, and what a ControlUnit answers to requests, good and bad.
+// Modes, their transitions, and the answers of a ControlUnit to valid and invalid requests.
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/parameter_checks.h>
 
@@ -24,7 +24,7 @@ using franka_core::RobotState;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TEST_F(ArmTest, EveryRequestInEveryModeEndsWhereTheTableSays) {
+TEST_F(ArmTest, EveryRequestInEveryModeFollowsTheTable) {
   using Request = std::function<std::optional<Status>(ControlUnit&)>;
   const Request start = [](ControlUnit& u) { return u.request(torqueControl()); };
   const Request stop = [](ControlUnit& u) { return u.request(codec::StopMoveRequest{}); };
@@ -103,7 +103,7 @@ TEST_F(ArmTest, MotionStartsWithoutTorqueFromTheMeasuredPose) {
   arm.push.fill(0.0);
   const RobotState& state = run(300, nullptr);
   EXPECT_EQ((std::array<double, 7>{}), state.tau_J_d);
-  EXPECT_EQ(q_d, state.q_d) << "external torque control leaves q_d alone";
+  EXPECT_EQ(q_d, state.q_d) << "external torque control does not change q_d";
   EXPECT_EQ((std::array<double, 7>{}), state.dq_d);
   EXPECT_EQ((std::array<double, 7>{}), state.ddq_d);
 }
@@ -119,7 +119,7 @@ TEST_F(ArmTest, SuccessRateBelongsToAMotion) {
   EXPECT_EQ(1.0, run(5, &zero).control_command_success_rate);
 }
 
-TEST_F(ArmTest, StoppedMotionIsCaughtAndHeld) {
+TEST_F(ArmTest, StoppedMotionBrakesAndHolds) {
   startTorqueControl();
   const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
   run(100, &push);
@@ -202,7 +202,7 @@ TEST_F(ArmTest, SettersFollowTheRulesOfTheInterface) {
   }
 }
 
-TEST_F(ArmTest, FramesComeTogetherAndMoveTheDesiredPoseToo) {
+TEST_F(ArmTest, FramesCombineAndMoveTheDesiredPose) {
   run(2);
   const std::array<double, 16> frame{{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1}};
   ASSERT_EQ(Status::kSuccess, unit.request(codec::SetNEToEERequest{frame}));
@@ -244,7 +244,7 @@ TEST_F(ArmTest, BadFramesAreRefusedAndChangeNothing) {
     return frame;
   };
   std::array<double, 16> mirrored = with(10, -1.0);
-  std::array<double, 16> sheared = identity;  // unit columns and rows, but no right angles
+  std::array<double, 16> sheared = identity;  // unit columns and rows, but not orthogonal
   const double s = std::sqrt(0.5);
   sheared[0] = s, sheared[1] = s, sheared[4] = s, sheared[5] = s;
   for (const std::array<double, 16>& bad :
@@ -283,12 +283,12 @@ TEST_F(ArmTest, BadLoadsAreRefusedAndChangeNothing) {
   EXPECT_EQ(Status::kSuccess, unit.request(loadRequest(load(0.1024, {{0, 0, 0.1}}, zero))));
 }
 
-TEST_F(ArmTest, LoadsBeyondAnyArmAreRefusedWithValueLimitAndUnit) {
+TEST_F(ArmTest, ExcessiveLoadsAreRefusedWithValueLimitAndUnit) {
   struct Case {
     double mass;
     std::array<double, 3> com;
     double moment;
-    const char* sentence;  // a part of it; empty: taken
+    const char* sentence;  // a part of it; empty: accepted
   };
   const Case cases[] = {
       {0, {{0, 0, 0}}, 0, ""},
@@ -298,7 +298,7 @@ TEST_F(ArmTest, LoadsBeyondAnyArmAreRefusedWithValueLimitAndUnit) {
       {1e300, {{0, 0, 0}}, 0, "The mass is 1e+300 kg"},
       {1, {{0, 0, 1.01}}, 0, "is 1.01 m from the flange; it must be within 1 m"},
       {1, {{0.8, 0.8, 0}}, 0, " m from the flange"},
-      {1, {{100, 0, 0}}, 0, "is 100 m from the flange"},  // meant as millimetres
+      {1, {{100, 0, 0}}, 0, "is 100 m from the flange"},  // entered in millimetres
       {1, {{0, 0, 0}}, 10.01, "an entry of 10.01 kg m^2; none may be beyond 10 kg m^2"},
       {1, {{0, 0, 0}}, 1e12, "an entry of 1e+12 kg m^2"},
       {INFINITY, {{0, 0, 0}}, 0, "finite numbers"},
@@ -317,7 +317,7 @@ TEST_F(ArmTest, LoadsBeyondAnyArmAreRefusedWithValueLimitAndUnit) {
   }
 }
 
-TEST_F(ArmTest, CompensationOfAHeavyLoadStaysWithinTheMotors) {
+TEST_F(ArmTest, GravityCompensationStaysWithinTheMotors) {
   ASSERT_EQ(Status::kSuccess, unit.request(loadRequest({10, {{1, 0, 0}}, {}})));
   const std::array<double, 7> limit{{87, 87, 87, 87, 12, 12, 12}};
   double largest = 0;
@@ -325,12 +325,12 @@ TEST_F(ArmTest, CompensationOfAHeavyLoadStaysWithinTheMotors) {
     unit.observe(arm.measure());
     const std::array<double, 7> tau = unit.actuate(nullptr);
     for (std::size_t i = 0; i < 7; i++) {
-      // The arm stands where it is held: the rest is compensation.
+      // The arm is at its desired pose: all torque is compensation.
       EXPECT_LE(std::abs(tau[i]), limit[i] + 1e-6) << i;
       largest = std::max(largest, std::abs(tau[i]) / limit[i]);
     }
   }
-  EXPECT_NEAR(1.0, largest, 1e-6) << "the load is beyond what the motors hold";
+  EXPECT_NEAR(1.0, largest, 1e-6) << "the load exceeds what the motors can hold";
 }
 
 TEST_F(ArmTest, FramesFarFromTheArmAreRefused) {
@@ -360,7 +360,7 @@ TEST_F(ArmTest, BadThresholdsAreRefusedAndChangeNothing) {
   EXPECT_EQ(parameters.nominal.upper_force, unit.configuration().nominal.upper_force);
 }
 
-TEST_F(ArmTest, RestartForgetsThePastAndHoldsTheNewPose) {
+TEST_F(ArmTest, RestartClearsTheStateAndHoldsTheNewPose) {
   startTorqueControl();
   const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
   run(200, &push);
@@ -400,7 +400,7 @@ std::string whyNot(const ControlUnitParameters& parameters) {
   return "";
 }
 
-TEST(ControlUnitParameters, ThatMakeNoSenseAreRefusedWithTheirName) {
+TEST(ControlUnitParameters, InvalidOnesAreRefusedByName) {
   const auto changed = [](const std::function<void(ControlUnitParameters&)>& change) {
     ControlUnitParameters parameters = pandaWithHand();
     change(parameters);

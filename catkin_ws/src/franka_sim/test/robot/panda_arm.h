@@ -8,7 +8,7 @@
 
 namespace franka_sim::test {
 
-/// The Panda's chain from the tables of its description, so that these tests need no file.
+/// The Panda's chain from the tables of its description, without a file.
 inline franka_core::ArmModel pandaModel() {
   constexpr double kQuarter = 1.57079632679489661923;
   struct Row {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The small parts of the robot, each alone.
+// The small classes of robot, each alone.
 #include <franka_sim/robot/command_filter.h>
 #include <franka_sim/robot/command_window.h>
 #include <franka_sim/robot/contact_monitor.h>
@@ -23,7 +23,7 @@ namespace franka_sim::test {
 
 namespace {
 
-TEST(LowPass, HasTheGainOfTheFieldAndReachesItsInput) {
+TEST(LowPass, HasTheFirstOrderGainAndReachesItsInput) {
   LowPass<1> filter(100.0);
   EXPECT_NEAR(0.385869545, filter.gain(), 1e-9);  // T / (T + 1 / (2 pi 100))
   EXPECT_NEAR(0.385869545, filter.update({{1.0}})[0], 1e-9);
@@ -54,7 +54,7 @@ TEST(CommandWindow, CountsTheLastHundredSlots) {
   EXPECT_EQ(0.0, window.rate());
 }
 
-TEST(ContactMonitor, KnowsItsBorders) {
+TEST(ContactMonitor, IncludesItsUpperThreshold) {
   ContactMonitor<1> monitor;
   struct Row {
     double value, contact, collision;
@@ -69,7 +69,7 @@ TEST(ContactMonitor, KnowsItsBorders) {
   EXPECT_EQ(0.0, monitor.collision()[0]);
 }
 
-TEST(ContactMonitor, WithEqualThresholdsKnowsNoContact) {
+TEST(ContactMonitor, EqualThresholdsGiveNoContact) {
   ContactMonitor<1> monitor;
   for (const double value : {19.0, 20.0}) {
     monitor.update({{value}}, {{20}}, {{20}});
@@ -96,7 +96,7 @@ TEST(JointImpedance, IsSpringDamperAndCoriolis) {
 }
 
 TEST(ExternalWrench, InvertsTheTransposedJacobianAtK) {
-  // A Jacobian of a Cartesian machine whose seventh joint repeats the first.
+  // A Jacobian of a Cartesian machine whose seventh joint equals the first.
   std::array<double, 42> J{};
   for (std::size_t i = 0; i < 6; i++) {
     J[6 * i + i] = 1.0;
@@ -111,11 +111,11 @@ TEST(ExternalWrench, InvertsTheTransposedJacobianAtK) {
   // f.
   const std::array<double, 6> F{{1, 2, 3, 4, 5, 6}};
   const std::array<double, 7> tau{{1, 2, 3, 4 + 3, 5, 6 - 1, 1}};
-  const std::array<double, 6> told = map.inBase(tau);
+  const std::array<double, 6> wrench = map.inBase(tau);
   for (std::size_t i = 0; i < 6; i++) {
-    EXPECT_NEAR(F[i], told[i], 1e-12) << i;
+    EXPECT_NEAR(F[i], wrench[i], 1e-12) << i;
   }
-  const std::array<double, 6> in_K = map.inStiffness(told);
+  const std::array<double, 6> in_K = map.inStiffness(wrench);
   const std::array<double, 6> expected{{2, -1, 3, 5, -4, 6}};
   for (std::size_t i = 0; i < 6; i++) {
     EXPECT_NEAR(expected[i], in_K[i], 1e-12) << i;
@@ -131,7 +131,7 @@ TEST(Transforms, MultiplyInTheRightOrder) {
   EXPECT_EQ(3, turned[14]);
 }
 
-TEST(WidthRamp, GoesAtItsSpeedAndEndsExactly) {
+TEST(WidthRamp, MovesAtItsSpeedAndEndsExactly) {
   for (const double speed : {0.0007, 0.02, 0.1}) {
     for (const double target : {0.0, 0.0300001, 0.08}) {
       WidthRamp ramp;
@@ -170,7 +170,7 @@ TEST(WidthRamp, WithoutSpeedStays) {
   EXPECT_TRUE(ramp.arrived());
 }
 
-TEST(Standstill, CountsAfterTheFirstMotionOrPatience) {
+TEST(Standstill, CountsAfterTheFirstMotionOrTheTimeout) {
   Standstill standstill(3);
   standstill.restart();
   EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
@@ -188,7 +188,7 @@ TEST(Standstill, CountsAfterTheFirstMotionOrPatience) {
   EXPECT_NEAR(202, ticks + 1, 1);
 }
 
-TEST(Standstill, StartsAnewAfterEveryTwitch) {
+TEST(Standstill, RestartsAfterEveryMotion) {
   Standstill standstill(3);
   standstill.restart();
   standstill.countFromNow();
@@ -200,7 +200,7 @@ TEST(Standstill, StartsAnewAfterEveryTwitch) {
   EXPECT_TRUE(standstill.update(0, 0.001, 1e-3));
 }
 
-TEST(FingerForce, IntegratesWithoutWindingUp) {
+TEST(FingerForce, LimitsTheIntegral) {
   FingerForce finger({100, 50, 1});
   EXPECT_NEAR(1 + 50 * 0.01 * 1e-3 + 8 * 0.5, finger.update(0.01, 0.5, 1e-3), 1e-12);
   for (int i = 0; i < 1000000; i++) {
@@ -211,7 +211,7 @@ TEST(FingerForce, IntegratesWithoutWindingUp) {
   EXPECT_NEAR(0.0, finger.update(0, 0, 1e-3), 1e-12);
 }
 
-// As the client's filter: a pose that is not quite orthogonal counts as the nearest rotation.
+// Like the client's filter: a pose that is not quite orthogonal counts as the nearest rotation.
 TEST(CommandFilter, TakesTheNearestRotationOfAPose) {
   franka_core::fci::SetFiltersRequest cutoffs{1000, 1000, 100, 1000, 1000};
   franka_core::RobotState state;
@@ -232,7 +232,7 @@ TEST(CommandFilter, TakesTheNearestRotationOfAPose) {
   EXPECT_LT((filtered.topLeftCorner<3, 3>() - nearest).cwiseAbs().maxCoeff(), 1e-14);
 }
 
-TEST(TicketLog, RemembersSixteen) {
+TEST(TicketLog, KeepsSixteenOutcomes) {
   TicketLog log;
   EXPECT_EQ(GripperOutcome::kFailed, log.outcome(0));
   EXPECT_EQ(GripperOutcome::kFailed, log.outcome(1));
@@ -243,7 +243,7 @@ TEST(TicketLog, RemembersSixteen) {
   const TicketLog::Ticket second = log.open();
   EXPECT_EQ(GripperOutcome::kInterrupted, log.outcome(first));
   log.close(GripperOutcome::kSucceeded);
-  log.close(GripperOutcome::kFailed);  // has ended already
+  log.close(GripperOutcome::kFailed);  // has already ended
   EXPECT_EQ(GripperOutcome::kSucceeded, log.outcome(second));
   for (std::size_t i = 0; i < TicketLog::kRemembered - 1; i++) {
     log.open();

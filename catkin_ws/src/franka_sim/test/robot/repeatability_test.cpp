@@ -76,7 +76,7 @@ TEST(Repeatability, SameInputsGiveTheSameBits) {
   EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
 }
 
-TEST(Repeatability, ATickOfTheControlUnitNeitherAllocatesNorLocks) {
+TEST(Repeatability, ControlUnitTickNeitherAllocatesNorLocks) {
   int dirty = 0;
   story([&](const franka_core::RobotState&, bool clean) { dirty += clean ? 0 : 1; });
   EXPECT_EQ(0, dirty);
@@ -121,7 +121,7 @@ void fciStory(AfterTick&& after_tick) {
   }
 }
 
-TEST(Repeatability, MotionsReflexAndRecoveryGiveTheSameBitsAndNeitherAllocateNorLock) {
+TEST(Repeatability, MotionReflexAndRecoveryAreRepeatableAndRealTimeSafe) {
   std::vector<double> runs[2];
   int dirty = 0;
   std::array<int, 7> modes{};
@@ -160,7 +160,7 @@ TEST(Repeatability, RequestsNeitherAllocateNorLock) {
   EXPECT_EQ(0u, scope.locks());
 }
 
-TEST(Repeatability, TheGuardItselfCounts) {
+TEST(Repeatability, GuardCountsAllocationsAndLocks) {
   rt_guard::Scope scope;
   std::vector<double>* leak = new std::vector<double>(100);
   const std::size_t counted = scope.allocations();
@@ -168,7 +168,7 @@ TEST(Repeatability, TheGuardItselfCounts) {
   EXPECT_TRUE(counted >= 2 || !rt_guard::kActive);
 }
 
-TEST(Repeatability, TheGripperIsRepeatableAndClean) {
+TEST(Repeatability, GripperIsRepeatableAndRealTimeSafe) {
   std::vector<double> runs[2];
   std::size_t dirty = 0;
   for (std::vector<double>& log : runs) {

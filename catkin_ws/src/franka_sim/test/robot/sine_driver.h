@@ -19,9 +19,9 @@ namespace franka_sim::test {
 constexpr std::array<double, 7> kPandaSpeed{{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}};
 constexpr std::array<double, 7> kFr3Speed{{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}};
 
-/// Follows sine waves about the ready pose by computed torques, as a user's controller would:
-/// without gravity. Phases differ, so that speeds and accelerations meet in all combinations;
-/// starts softly.
+/// Follows sine waves about the ready pose by computed torques without gravity, like a user's
+/// controller. Phases differ, so that speeds and accelerations occur in all combinations; starts
+/// softly.
 class SineDriver {
  public:
   /// @param frequency [rad/s] @param fraction of the speed limits that is reached

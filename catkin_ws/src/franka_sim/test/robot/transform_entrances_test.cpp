@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One rule for transforms at every entrance of the control unit.
+// One rule for transforms at every input of the control unit.
 #include <franka_core/transform.h>
 #include <franka_sim/robot/parameter_checks.h>
 
@@ -16,50 +16,51 @@ namespace {
 
 using TransformEntrances = FciTest;
 
-TEST_F(TransformEntrances, SettersAndParametersTakeOrRefuseDustAlike) {
-  for (const DustyMatrix& dusty : dustOn(parameters.F_T_NE)) {
-    const Status expected = dusty.accepted ? Status::kSuccess : Status::kInvalidArgumentRejected;
-    EXPECT_EQ(expected, unit.request(codec::SetNEToEERequest{dusty.matrix})) << dusty;
-    EXPECT_EQ(expected, unit.request(codec::SetEEToKRequest{dusty.matrix})) << dusty;
+TEST_F(TransformEntrances, SettersAndParametersAgreeOnRoundedMatrices) {
+  for (const PerturbedMatrix& perturbed : perturbations(parameters.F_T_NE)) {
+    const Status expected =
+        perturbed.accepted ? Status::kSuccess : Status::kInvalidArgumentRejected;
+    EXPECT_EQ(expected, unit.request(codec::SetNEToEERequest{perturbed.matrix})) << perturbed;
+    EXPECT_EQ(expected, unit.request(codec::SetEEToKRequest{perturbed.matrix})) << perturbed;
     franka_core::fci::CartesianLimit wall;
-    wall.object_frame = dusty.matrix;
-    EXPECT_EQ(expected, unit.request(SetVirtualWall{0, wall})) << dusty;
+    wall.object_frame = perturbed.matrix;
+    EXPECT_EQ(expected, unit.request(SetVirtualWall{0, wall})) << perturbed;
     ControlUnitParameters changed = parameters;
-    changed.NE_T_EE = dusty.matrix;
+    changed.NE_T_EE = perturbed.matrix;
     try {
       checkParameters(changed);
-      EXPECT_TRUE(dusty.accepted) << dusty;
+      EXPECT_TRUE(perturbed.accepted) << perturbed;
     } catch (const std::invalid_argument& error) {
-      EXPECT_FALSE(dusty.accepted) << dusty;
+      EXPECT_FALSE(perturbed.accepted) << perturbed;
       EXPECT_NE(std::string::npos, std::string(error.what()).find("exactly 0 0 0 1"))
           << error.what();
     }
   }
 }
 
-TEST_F(TransformEntrances, CommandedPosesTakeOrRefuseDustAlike) {
+TEST_F(TransformEntrances, CommandedPosesAgreeOnRoundedMatrices) {
   for (const unsigned protocol : {5U, 10U}) {
     parameters.rules = InterfaceRules::kFci;
     parameters.protocol_version = protocol;
     for (const double cutoff : {1000.0, 100.0}) {
       standAt(kReady);
-      for (const DustyMatrix& dusty : dustOn(unit.state().O_T_EE_c)) {
+      for (const PerturbedMatrix& perturbed : perturbations(unit.state().O_T_EE_c)) {
         standAt(kReady);
         franka_core::fci::SetFiltersRequest filters;
         filters.cartesian_position = cutoff;
         ASSERT_EQ(Status::kSuccess, unit.request(filters));
         startMove(MotionGeneratorMode::kCartesianPosition);
         RobotCommand command;
-        command.O_T_EE_c = dusty.matrix;
+        command.O_T_EE_c = perturbed.matrix;
         run(3, &command);
-        EXPECT_EQ(dusty.accepted ? std::vector<int>{} : std::vector<int>{31}, raised())
-            << dusty << ", protocol " << protocol << ", filter " << cutoff;
+        EXPECT_EQ(perturbed.accepted ? std::vector<int>{} : std::vector<int>{31}, raised())
+            << perturbed << ", protocol " << protocol << ", filter " << cutoff;
       }
     }
   }
 }
 
-TEST(TransformFault, SaysWhatIsWrongAndAgreesWithTheCheck) {
+TEST(TransformFault, DescribesEveryRefusedMatrix) {
   struct Row {
     std::array<double, 16> matrix;
     const char* part;

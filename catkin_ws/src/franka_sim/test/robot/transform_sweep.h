@@ -10,29 +10,29 @@
 
 namespace franka_sim::test {
 
-/// A matrix with numerical dust on one entry, and whether every entrance takes it.
-struct DustyMatrix {
+/// A matrix with a rounding error in one entry, and whether every input accepts it.
+struct PerturbedMatrix {
   std::array<double, 16> matrix;
   std::size_t entry;
-  double dust;
+  double error;
   bool accepted;
 };
 
-inline std::ostream& operator<<(std::ostream& out, const DustyMatrix& dusty) {
-  return out << dusty.dust << " on entry " << dusty.entry;
+inline std::ostream& operator<<(std::ostream& out, const PerturbedMatrix& perturbed) {
+  return out << perturbed.error << " on entry " << perturbed.entry;
 }
 
-/// 1e-17 to 1e-6, of either sign, on each entry. The bottom row must be exact, where the dust is
-/// not lost in it; all else has room for it.
-inline std::vector<DustyMatrix> dustOn(const std::array<double, 16>& matrix) {
-  std::vector<DustyMatrix> sweep;
+/// Errors of 1e-17 to 1e-6, of either sign, on each entry. The bottom row must be exact unless
+/// rounding hides the error; all other entries have a tolerance.
+inline std::vector<PerturbedMatrix> perturbations(const std::array<double, 16>& matrix) {
+  std::vector<PerturbedMatrix> sweep;
   for (std::size_t entry = 0; entry < 16; entry++) {
     for (int exponent = -17; exponent <= -6; exponent++) {
-      const double dust = (exponent % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, exponent);
-      DustyMatrix dusty{matrix, entry, dust, true};
-      dusty.matrix[entry] += dust;
-      dusty.accepted = entry % 4 != 3 || dusty.matrix[entry] == matrix[entry];
-      sweep.push_back(dusty);
+      const double error = (exponent % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, exponent);
+      PerturbedMatrix perturbed{matrix, entry, error, true};
+      perturbed.matrix[entry] += error;
+      perturbed.accepted = entry % 4 != 3 || perturbed.matrix[entry] == matrix[entry];
+      sweep.push_back(perturbed);
     }
   }
   return sweep;

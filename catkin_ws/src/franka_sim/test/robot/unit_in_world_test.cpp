@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Control unit and gripper unit on the physics they are made for, Panda and FR3.
+// Control unit and gripper unit on the MuJoCo physics, Panda and FR3.
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/gripper_unit.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 using franka_core::RobotState;
 
-// Of the hand alone, in its own frame [m].
+// Centre of the hand alone, in its own frame [m].
 Eigen::Vector3d handCenter() { return {-0.01, 0.0, 0.03}; }
 
 Eigen::Vector3d inWorld(const Pose& pose, const Eigen::Vector3d& point) {
@@ -111,7 +111,7 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
   std::unique_ptr<GripperUnit> gripper;
 };
 
-TEST_P(UnitInWorldTest, ZeroTorqueDoesNotDriftAndReadsNothing) {
+TEST_P(UnitInWorldTest, ZeroTorqueDoesNotDriftAndReadsNoForce) {
   start("empty");
   tick();
   ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
@@ -134,7 +134,7 @@ TEST_P(UnitInWorldTest, ZeroTorqueDoesNotDriftAndReadsNothing) {
   EXPECT_LT(moment, 1e-4);
 }
 
-TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
+TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentSpeedReadsNoForce) {
   start("empty");
   tick();
   ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
@@ -158,7 +158,7 @@ TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentOfTheSpeedLimitsReadsNoForce) {
   std::printf("%s in free motion at %.1f %% of the speed limits: wrench error %.4f N, %.5f Nm\n",
               GetParam(), 100 * slowest, force, moment);
   EXPECT_GT(slowest, 0.88);
-  // Asked for: 0.1 N and 0.02 Nm. This tight, a model evaluated at the wrong instant shows.
+  // Required: 0.1 N and 0.02 Nm. This bound also detects a model evaluated at the wrong instant.
   EXPECT_LT(force, 0.005);
   EXPECT_LT(moment, 0.0005);
 }
@@ -195,7 +195,7 @@ TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
   EXPECT_LT(worst, 0.05);
 }
 
-TEST_P(UnitInWorldTest, AKilogramInTheHandThatIsNotConfiguredReadsItsWeight) {
+TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsItsWeight) {
   start("empty", "<mass value=\"0.73\"", "<mass value=\"1.73\"");
   run(4000);
   EXPECT_NEAR(9.81, unit->state().O_F_ext_hat_K[2], 0.01);
@@ -203,9 +203,9 @@ TEST_P(UnitInWorldTest, AKilogramInTheHandThatIsNotConfiguredReadsItsWeight) {
   EXPECT_NEAR(0.0, unit->state().O_F_ext_hat_K[1], 0.01);
 }
 
-TEST_P(UnitInWorldTest, AKilogramThatIsNotConfiguredReadsItsWeightAndItsInertiaAtFullSpeed) {
-  // A point of 1 kg at the hand's centre of mass: the arm exerts m (a - g) on it, whatever else it
-  // does. Its acceleration comes from the second difference of where the world has it.
+TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsWeightAndInertiaAtFullSpeed) {
+  // A point of 1 kg at the hand's centre of mass: the arm always exerts m (a - g) on it. Its
+  // acceleration is the second difference of its position in the world.
   start("empty", "<mass value=\"0.73\"", "<mass value=\"1.73\"");
   tick();
   ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
@@ -268,7 +268,7 @@ TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
   EXPECT_NEAR(0.08, gripper->width(), 1e-3);
   EXPECT_EQ(GripperOutcome::kSucceeded, finish(gripper->move(0.05, 0.1)));
   EXPECT_NEAR(0.05, gripper->width(), 1e-3);
-  // Its 32 mm along the fingers' way, held at first by nothing.
+  // The stone's 32 mm are in the fingers' direction; at first nothing holds it.
   world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
   const GripperUnit::Ticket grasp = gripper->grasp(0.032, 0.005, 0.005, 0.1, 5);
   while (gripper->outcome(grasp) == GripperOutcome::kRunning) {
@@ -301,8 +301,8 @@ TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
   EXPECT_GT(pose.position[2] - world->bodyPose("stone").position[2], 0.2) << "it has fallen";
 }
 
-TEST_P(UnitInWorldTest, CollisionAtATenthOfAMetreASecondIsAReflexWithinThreeMilliseconds) {
-  // Down onto the ground with the hand's fingers, which is as fixed as a block can be.
+TEST_P(UnitInWorldTest, CollisionRaisesAReflexWithinThreeMilliseconds) {
+  // Down onto the ground with the fingers; the ground is completely rigid.
   over_fci = true;
   start("empty");
   tick();
@@ -353,11 +353,11 @@ TEST_P(UnitInWorldTest, CollisionAtATenthOfAMetreASecondIsAReflexWithinThreeMill
     command.O_dP_EE_c[2] = 0.1 * std::min(1.0, i / 300.0);
     tick(&command);
   }
-  EXPECT_EQ(franka_core::RobotMode::kMove, state.robot_mode) << "the retreat is free";
+  EXPECT_EQ(franka_core::RobotMode::kMove, state.robot_mode) << "motion away is allowed";
   EXPECT_GT(state.O_T_EE[14], from + 0.05);
 }
 
-TEST_P(UnitInWorldTest, InternalControllersHaveTheStiffnessThatWasSet) {
+TEST_P(UnitInWorldTest, InternalControllersHaveTheConfiguredStiffness) {
   for (const bool cartesian : {false, true}) {
     over_fci = true;
     start("empty");
@@ -392,8 +392,8 @@ TEST_P(UnitInWorldTest, InternalControllersHaveTheStiffnessThatWasSet) {
   }
 }
 
-TEST_P(UnitInWorldTest, CartesianImpedanceHasTheSetStiffnessInEachOfItsSixAxes) {
-  // Pushed along and about each axis of K, where K stands when the arm has come to rest.
+TEST_P(UnitInWorldTest, CartesianImpedanceHasTheConfiguredStiffnessInSixAxes) {
+  // Pushed along and about each axis of K, with K where the arm has come to rest.
   over_fci = true;
   const std::array<double, 6> K{{400, 500, 600, 30, 40, 50}};
   for (std::size_t axis = 0; axis < 6; axis++) {
@@ -430,7 +430,7 @@ TEST_P(UnitInWorldTest, CartesianImpedanceHasTheSetStiffnessInEachOfItsSixAxes) 
   }
 }
 
-TEST_P(UnitInWorldTest, AsynchronousMotionsTakeTheArmToEachNewTarget) {
+TEST_P(UnitInWorldTest, AsynchronousMotionsReachEachNewTarget) {
   if (id() != "fr3") {
     GTEST_SKIP() << "Protocol 10 is an FR3's.";
   }
@@ -445,7 +445,7 @@ TEST_P(UnitInWorldTest, AsynchronousMotionsTakeTheArmToEachNewTarget) {
   target.q_c = unit->state().q_d;
   double fastest = 0.0;
   for (int leg = 0; leg < 4; leg++) {
-    // The second target comes while the arm is on its way to the first.
+    // The second target arrives while the arm moves to the first.
     target.q_c[0] = leg == 0 ? 0.6 : -0.2 * leg;
     target.q_c[5] += leg % 2 == 0 ? 0.3 : -0.3;
     for (int i = 0; i < (leg == 0 ? 400 : 4000); i++) {
@@ -461,7 +461,7 @@ TEST_P(UnitInWorldTest, AsynchronousMotionsTakeTheArmToEachNewTarget) {
       EXPECT_NEAR(0.0, unit->state().dq[j], 1e-3);
     }
   }
-  // The generator keeps a thousandth below what it was told.
+  // The generator stays a thousandth below the given speed.
   EXPECT_NEAR(0.5 * 0.999, fastest, 1e-9);
   target.motion_generation_finished = true;
   run(20, &target);

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The limits of every motion generator through the whole control unit, the arm moving: 99 % of each
-// is reached and the motion ends well, 101 % raises the flag of its stage alone, and after a
-// recovery 99 % goes again. docs/limits.md says where and why there.
+// The limits of every motion generator through the whole control unit, with a moving arm: 99 % of
+// each is reached and the motion ends well, 101 % raises only the flag of its stage, and after a
+// recovery 99 % is reached again. docs/limits.md lists the start poses and reasons.
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -39,7 +39,7 @@ franka_core::DerivativeLimits ofJoint(const MotionLimits& limits, std::size_t jo
   return {limits.arm.dq[joint], limits.arm.ddq[joint], limits.arm.dddq[joint]};
 }
 
-/// One limit, and how to come to a share of it.
+/// One limit, and how to reach a share of it.
 struct Approach {
   MotionGeneratorMode mode;
   Joints start;  ///< [rad]
@@ -119,7 +119,7 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
     expectToEndWell(approach);
   }
 
-  /// A client may deal with floats only where the robot's protocol and their precision let it.
+  /// Clients use floats only if the robot's protocol and their precision allow it.
   std::vector<Floats> clientsOf(MotionGeneratorMode mode) const {
     std::vector<Floats> clients{Floats::kNone};
     if (limits.echoes_floats) {
@@ -132,8 +132,8 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
     return clients;
   }
 
-  /// The middle of a joint's way at the middle of its range: there an FR3's velocity limits are
-  /// the full ones.
+  /// The middle of a joint's path is the middle of its range: there an FR3's velocity limits are
+  /// not reduced.
   Joints startOf(std::size_t joint, const Profile& profile) const {
     Joints q = kReady;
     q[joint] = 0.5 * (limits.arm.q_min[joint] + limits.arm.q_max[joint] - lengthOf(profile));
@@ -215,7 +215,7 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
   }
 };
 
-TEST_P(UnitLimits, PositionsSentAsFloatsJerkByTheirRounding) {
+TEST_P(UnitLimits, PositionsSentAsFloatsExceedTheJerkLimit) {
   const Approach approach =
       approachOfJoint(MotionGeneratorMode::kJointPosition, 3, 2, Floats::kSends);
   standAt(approach.start, 0.0);
@@ -225,7 +225,7 @@ TEST_P(UnitLimits, PositionsSentAsFloatsJerkByTheirRounding) {
             raised());
 }
 
-TEST_P(UnitLimits, AStraightWayMeetsTheJointsLimitsFirst) {
+TEST_P(UnitLimits, StraightPathsReachJointLimitsFirst) {
   for (const StraightWay& row : kStraightWays) {
     if (row.protocol != GetParam()) {
       continue;
@@ -243,29 +243,29 @@ TEST_P(UnitLimits, AStraightWayMeetsTheJointsLimitsFirst) {
   }
 }
 
-TEST_P(UnitLimits, JointPositionsReachEachLimitAndRaiseTheFlagOfTheirStageBeyond) {
+TEST_P(UnitLimits, JointPositionsReachEachLimitAndRaiseItsFlagBeyond) {
   expectEachJointLimit(MotionGeneratorMode::kJointPosition);
 }
 
-TEST_P(UnitLimits, JointVelocitiesReachEachLimitAndRaiseTheFlagOfTheirStageBeyond) {
+TEST_P(UnitLimits, JointVelocitiesReachEachLimitAndRaiseItsFlagBeyond) {
   expectEachJointLimit(MotionGeneratorMode::kJointVelocity);
 }
 
-TEST_P(UnitLimits, PosesReachEachLimitAndRaiseTheFlagOfTheirStageBeyond) {
+TEST_P(UnitLimits, PosesReachEachLimitAndRaiseItsFlagBeyond) {
   expectEachCartesianLimit(MotionGeneratorMode::kCartesianPosition);
 }
 
-TEST_P(UnitLimits, TwistsReachEachLimitAndRaiseTheFlagOfTheirStageBeyond) {
+TEST_P(UnitLimits, TwistsReachEachLimitAndRaiseItsFlagBeyond) {
   expectEachCartesianLimit(MotionGeneratorMode::kCartesianVelocity);
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, UnitLimits, ::testing::Values(5U, 10U));
 
-/// An FR3's joints on their way to an end, where the velocity limit shrinks.
+/// An FR3's joints approaching an end, where the velocity limit shrinks.
 class JointEnds : public UnitLimits {
  protected:
   static constexpr double kCruise = 0.05;  // [rad/s]
-  // Where no joint's end brings the arm too close to itself.
+  // A pose at which no joint's end causes a self-collision.
   static constexpr Joints kClear{{0, 0, 0, -1.57, 0, 2.6, 0.79}};
 
   /// Where the limit equals the cruise speed: its formula solved for the position (protocol 5.5).
@@ -276,7 +276,7 @@ class JointEnds : public UnitLimits {
     return upper ? near.q_max[joint] - room : near.q_min[joint] + room;
   }
 
-  /// The largest share that velocities take of the limit where the joint is.
+  /// The largest share that velocities use of the limit at the joint's position.
   double largestShare(std::size_t joint, double q, const std::vector<double>& velocities) const {
     double largest = 0.0;
     for (const double velocity : velocities) {
@@ -296,7 +296,7 @@ class JointEnds : public UnitLimits {
     return velocities;
   }
 
-  /// By bisection: the cruise that takes just this share.
+  /// By bisection: the cruise that uses exactly this share.
   Profile profileFor(std::size_t joint, double start, double sign, double share) const {
     double low = 0.0, high = 2.0 * kCruise;
     for (int i = 0; i < 50; i++) {
@@ -333,7 +333,7 @@ class JointEnds : public UnitLimits {
   }
 };
 
-TEST_P(JointEnds, SlowDownAsTheirLimitSays) {
+TEST_P(JointEnds, SpeedsFollowTheShrinkingLimit) {
   for (const MotionGeneratorMode mode :
        {MotionGeneratorMode::kJointPosition, MotionGeneratorMode::kJointVelocity}) {
     for (const Floats floats : clientsOf(mode)) {
@@ -351,7 +351,7 @@ TEST_P(JointEnds, SlowDownAsTheirLimitSays) {
 
 INSTANTIATE_TEST_SUITE_P(Fr3, JointEnds, ::testing::Values(10U));
 
-TEST(LimitWays, LeaveTheJointsRoomAsTheTableSays) {
+TEST(LimitWays, LeaveTheJointMarginsOfTheTable) {
   for (const LimitWay& row : kLimitWays) {
     const Judgement judgement = judge({row.protocol, row.stages, row.way.part}, row.way);
     SCOPED_TRACE(judgement.by);
@@ -360,7 +360,7 @@ TEST(LimitWays, LeaveTheJointsRoomAsTheTableSays) {
   }
 }
 
-TEST(LimitWays, AreWhatTheSearchFinds) {
+TEST(LimitWays, MatchTheResultsOfTheSearch) {
   if (std::getenv("FRANKA_TEST_LONG") == nullptr) {
     GTEST_SKIP() << "searches for half a minute: ./franka test --long";
   }

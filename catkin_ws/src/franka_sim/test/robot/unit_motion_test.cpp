@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The life of a motion: start, run, end of every kind, and what people do to a robot meanwhile.
+// Motions: start, run, every kind of end, and external events meanwhile.
 #include <franka_sim/robot/mode_machine.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr std::array<RobotMode, 7> kModes{RobotMode::kOther,
                                           RobotMode::kUserStopped,
                                           RobotMode::kAutomaticErrorRecovery};
 
-/// A machine brought to a mode, by the shortest way.
+/// A machine in a given mode, reached by the shortest path.
 ModeMachine machineIn(RobotMode mode) {
   ModeMachine machine;
   switch (mode) {
@@ -93,8 +93,8 @@ class UnitMotion : public FciTest {
   /// With the torques of a client that follows the generator.
   static RobotCommand followed(RobotCommand command, const RobotState& state) {
     for (std::size_t j = 0; j < 7; j++) {
-      const double wanted = 300 * (state.q_d[j] - state.q[j]) + 20 * (state.dq_d[j] - state.dq[j]);
-      command.tau_J_d[j] = state.tau_J_d[j] + std::clamp(wanted - state.tau_J_d[j], -0.99, 0.99);
+      const double torque = 300 * (state.q_d[j] - state.q[j]) + 20 * (state.dq_d[j] - state.dq[j]);
+      command.tau_J_d[j] = state.tau_J_d[j] + std::clamp(torque - state.tau_J_d[j], -0.99, 0.99);
     }
     return command;
   }
@@ -129,18 +129,18 @@ TEST_F(UnitMotion, RunsToItsEndUnderEachController) {
     });
     EXPECT_EQ(1101, ticks);
     EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-    // The sensor-side inertia of the rotors is not fed forward (decision 2): a lag, no offset.
+    // The rotors' inertia is not fed forward (decision 2): a lag, no offset.
     EXPECT_LT(error, 0.01);
     run(1000);
     EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kMotion));
-    EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kMotion)) << "told once";
+    EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kMotion)) << "reported once";
     EXPECT_NEAR(begin[0] + 0.3, unit.state().q_d[0], 1e-9);
     EXPECT_NEAR(begin[0] + 0.3, arm.q()[0], 1e-4);
     EXPECT_EQ((std::array<double, 7>{}), unit.state().tau_J_d);
   }
 }
 
-TEST_F(UnitMotion, CartesianPoseIsFollowedAndShown) {
+TEST_F(UnitMotion, FollowsAndReportsACartesianPose) {
   standAt(kReady);
   const std::array<double, 16> start = unit.state().O_T_EE_c;
   startMove(MotionGeneratorMode::kCartesianPosition, ControllerMode::kCartesianImpedance);
@@ -168,7 +168,7 @@ TEST_F(UnitMotion, TorquesAndGeneratorRunTogether) {
   EXPECT_GT(unit.state().q[0], 0.2);
 }
 
-TEST_F(UnitMotion, AccelerationThresholdsHoldUnderInternalControllersOnly) {
+TEST_F(UnitMotion, AccelerationThresholdsApplyToInternalControllersOnly) {
   CollisionThresholds high = parameters.acceleration;
   high.lower_torque.fill(1e6);
   high.upper_torque.fill(1e6);
@@ -180,7 +180,7 @@ TEST_F(UnitMotion, AccelerationThresholdsHoldUnderInternalControllersOnly) {
     standAt(kReady);
     ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(high, parameters.nominal)));
     startSwing(controller);
-    // Accelerates by more than a tenth of the limit all the while.
+    // Always accelerates by more than a tenth of the limit.
     drive(300, [&](int i, const RobotState& state) {
       if (i == 150) {
         arm.push = {{0, -30, 0, 0, 0, 0}};
@@ -198,7 +198,7 @@ TEST_F(UnitMotion, AccelerationThresholdsHoldUnderInternalControllersOnly) {
   }
 }
 
-TEST_F(UnitMotion, RequestsThatMakeNoSenseAreRefused) {
+TEST_F(UnitMotion, InvalidRequestsAreRefused) {
   const auto refused = [&](auto change) {
     auto bad = request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance);
     change(bad);
@@ -213,7 +213,7 @@ TEST_F(UnitMotion, RequestsThatMakeNoSenseAreRefused) {
   EXPECT_TRUE(refused([](auto& r) { r.use_async_motion_generator = true; }));
 }
 
-TEST_F(UnitMotion, SingularStartIsToldAfterTheStart) {
+TEST_F(UnitMotion, SingularStartIsReportedAfterTheStart) {
   // Stretched: shoulder, elbow and wrist on one line.
   standAt({{0, 0.5, 0, franka_core::kElbowFlip, 0, 1.5, 0}});
   EXPECT_EQ(Status::kMotionStarted, unit.request(request(MotionGeneratorMode::kCartesianVelocity,
@@ -248,7 +248,7 @@ TEST_F(UnitMotion, StopMoveBrakesAndAnswersAtRest) {
   startSwing();
 }
 
-TEST_F(UnitMotion, SwitchesOfTheLawAreWithoutAStep) {
+TEST_F(UnitMotion, SwitchingTheControlLawCausesNoTorqueStep) {
   // A load that is not configured makes the hold carry torque into the motion and out of it.
   arm.payload.mass += 1.0;
   ignoreCollisions();
@@ -273,11 +273,12 @@ TEST_F(UnitMotion, SwitchesOfTheLawAreWithoutAStep) {
     test::tick(unit, arm);
     measure();
   }
-  // The blend gives 1 Nm a tick, the laws their own. Unblended, joint 4 steps by more than 3 Nm.
+  // The blend allows 1 Nm per tick, plus the laws' own changes. Unblended, joint 4 steps by more
+  // than 3 Nm.
   EXPECT_LT(step, 1.5);
 }
 
-TEST_F(UnitMotion, ReflexBrakesReleasesAndRecoversAtRest) {
+TEST_F(UnitMotion, ReflexBrakesYieldsAndRecoversAtRest) {
   startSwing();
   arm.push = {{0, -60, 0, 0, 0, 0}};
   drive(500, [&](int i, const RobotState&) { return swing(i); });
@@ -307,14 +308,14 @@ TEST_F(UnitMotion, ReflexBrakesReleasesAndRecoversAtRest) {
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
 }
 
-TEST_F(UnitMotion, APushAtRestIsAReflexToo) {
+TEST_F(UnitMotion, PushAtRestRaisesAReflex) {
   arm.push = {{0, 60, 0, 0, 0, 0}};
   run(200);
   EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
   EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kMotion));
 }
 
-TEST_F(UnitMotion, RecoveryNeedsTheUserWhereOnlyTheUserHelps) {
+TEST_F(UnitMotion, RecoveryNeedsTheUserBeyondJointLimits) {
   EXPECT_EQ(Status::kSuccess, unit.request(codec::AutomaticErrorRecoveryRequest{}))
       << "nothing to recover from";
   unit.request(UserStop{true});
@@ -390,7 +391,7 @@ TEST_F(UnitMotion, BrakesGuidingAndFciEndAMotion) {
   }
 }
 
-TEST_F(UnitMotion, BrakesOpenIntoAPressedUserStop) {
+TEST_F(UnitMotion, OpeningBrakesKeepsAPressedUserStop) {
   unit.request(Brakes{true});
   unit.request(UserStop{true});
   EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
@@ -398,7 +399,7 @@ TEST_F(UnitMotion, BrakesOpenIntoAPressedUserStop) {
   EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
 }
 
-TEST_F(UnitMotion, GuidingFollowsTheHandAlongFreeAxesOnly) {
+TEST_F(UnitMotion, GuidingFollowsPushesAlongFreeAxesOnly) {
   ASSERT_EQ(Status::kSuccess, unit.request(codec::SetGuidingModeRequest{
                                   {{false, true, false, false, false, false}}, false}));
   unit.request(Guiding{true});
@@ -410,7 +411,7 @@ TEST_F(UnitMotion, GuidingFollowsTheHandAlongFreeAxesOnly) {
   EXPECT_GT(std::abs(state.O_T_EE[13] - from[13]), 0.02);
   EXPECT_LT(std::abs(state.O_T_EE[12] - from[12]), 0.005);
   EXPECT_LT(std::abs(state.O_T_EE[14] - from[14]), 0.005);
-  EXPECT_EQ(state.q, state.q_d) << "what is wanted follows the hand";
+  EXPECT_EQ(state.q, state.q_d) << "the desired position follows the hand";
   EXPECT_EQ((std::array<double, 7>{}), state.tau_J_d);
   arm.push.fill(0.0);
   unit.request(Guiding{false});

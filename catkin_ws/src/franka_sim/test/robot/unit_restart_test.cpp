@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The arm is put elsewhere while something waits for an answer: nothing waits for ever.
+// The arm is teleported while a request waits for an answer: no request waits for ever.
 #include "fci_fixture.h"
 
 namespace franka_sim::test {
@@ -11,7 +11,7 @@ const std::array<double, 7> kElsewhere{{0.5, 0.1, -0.5, -2, 0.3, 1.8, 0.2}};
 
 class UnitRestart : public FciTest {
  protected:
-  /// Joint 1 on its way with about 1 rad/s.
+  /// Moves joint 1 at about 1 rad/s.
   void swing() {
     startMove(MotionGeneratorMode::kJointPosition);
     drive(300, [](int i, const RobotState&) {
@@ -48,20 +48,20 @@ TEST_F(UnitRestart, AnswersAStopThatStillBrakes) {
   EXPECT_EQ(Status::kPreempted, unit.takeAnswer(PendingAnswer::kMotion));
   EXPECT_FALSE(unit.status().settling);
   expectToStayElsewhere();
-  // Nothing of it is left for the next motion.
+  // Nothing of it remains for the next motion.
   startMove(MotionGeneratorMode::kJointPosition);
   run(21);
   EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kStop));
 }
 
-TEST_F(UnitRestart, EndsAMotionWhoseWayDoesNotLeadFromThere) {
+TEST_F(UnitRestart, EndsAMotionThatCannotContinueFromTheNewPose) {
   swing();
   putElsewhere();
   EXPECT_EQ(Status::kAborted, unit.takeAnswer(PendingAnswer::kMotion));
   expectToStayElsewhere();
 }
 
-TEST_F(UnitRestart, LetsARecoveryComeToItsEnd) {
+TEST_F(UnitRestart, LetsARecoveryFinish) {
   swing();
   arm.push = {{0, 200, 0, 0, 0, 0}};
   drive(200, [](int, const RobotState& state) {
@@ -82,7 +82,7 @@ TEST_F(UnitRestart, LetsARecoveryComeToItsEnd) {
   expectToStayElsewhere();
 }
 
-TEST_F(UnitRestart, LeavesThePhaseOfAcceleration) {
+TEST_F(UnitRestart, EndsTheAccelerationThresholds) {
   parameters.acceleration.upper_force.fill(1e3);
   rebuild();
   run(1);
@@ -93,7 +93,7 @@ TEST_F(UnitRestart, LeavesThePhaseOfAcceleration) {
   EXPECT_EQ(parameters.nominal.upper_force, unit.status().thresholds.upper_force);
 }
 
-TEST_F(UnitRestart, GuidedAxesAreHeldWhereTheArmIsNow) {
+TEST_F(UnitRestart, HoldsGuidedAxesAtTheNewPose) {
   ASSERT_EQ(Status::kSuccess, unit.request(codec::SetGuidingModeRequest{
                                   {{false, false, false, false, false, false}}, false}));
   unit.request(Guiding{true});
@@ -105,7 +105,7 @@ TEST_F(UnitRestart, GuidedAxesAreHeldWhereTheArmIsNow) {
   }
 }
 
-TEST_F(UnitRestart, AStopThatAReflexOvertakesIsAnsweredAsSuch) {
+TEST_F(UnitRestart, AnswersAStopThatAReflexInterrupts) {
   swing();
   EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
   run(5);
@@ -115,7 +115,7 @@ TEST_F(UnitRestart, AStopThatAReflexOvertakesIsAnsweredAsSuch) {
   EXPECT_EQ(Status::kPreempted, unit.takeAnswer(PendingAnswer::kMotion));
 }
 
-TEST_F(UnitRestart, AStopWaitsNoLongerWhenTorquesOvertakeTheBraking) {
+TEST_F(UnitRestart, AnswersAStopWhenTorqueControlReplacesBraking) {
   swing();
   EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
   run(5);

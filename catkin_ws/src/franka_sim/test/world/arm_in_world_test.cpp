@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The control unit on the arm that MuJoCo moves: rest, free motion, pushes, a load nobody
+// The control unit on the arm simulated by MuJoCo: rest, free motion, pushes, a load that is not
 // configured.
 #include <franka_core/arm_model.h>
 #include <franka_sim/physics/world.h>
@@ -49,7 +49,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override { build(0.0); }
 
-  // `extra_hand_mass`: what the hand weighs more than the control unit is told [kg].
+  // `extra_hand_mass`: difference to the hand's mass in the control unit [kg].
   void build(double extra_hand_mass) {
     const std::string id = GetParam();
     std::string urdf = read(id + ".urdf");
@@ -59,7 +59,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     parameters.F_T_NE = {M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0,      0,
                          0,         0,          1, 0, 0,         0,         0.1034, 1};
     parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, id);
-    // What is tested is the reading, so nothing may be declared a collision meanwhile.
+    // The wrench is tested, so no collision may be raised.
     parameters.nominal.upper_force.fill(1e3);
     parameters.nominal.upper_torque.fill(1e3);
     parameters.acceleration = parameters.nominal;
@@ -118,7 +118,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     return {state.m_total, state.F_x_Ctotal, state.I_total};
   }
 
-  // Holds the pose of `target` as the example's impedance controller does, with a stiff null space.
+  // Holds the pose of `target` like the example's impedance controller, with a stiff null space.
   Array7 impedance(const franka_core::RobotState& state, const Matrix4& target,
                    const Vector7& posture) const {
     const Matrix4 pose = Matrix4::Map(state.O_T_EE.data());
@@ -140,8 +140,8 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
                  vector(coriolis));
   }
 
-  // Pushes with a force and a torque (axes of O) at the end effector and returns the steady state's
-  // wrenches.
+  // Pushes with a force and a torque (axes of O) at the end effector and returns the wrenches in
+  // steady state.
   std::pair<Vector6, Vector6> push(const Vector6& wrench) {
     idleTick();
     EXPECT_EQ(Status::kMotionStarted, unit_->request(torqueControl()));
@@ -187,7 +187,7 @@ TEST_P(ArmInWorld, PushesAreMeasuredWithTheRobotsSign) {
   }
 }
 
-TEST_P(ArmInWorld, AnUnknownKilogramReadsItsWeight) {
+TEST_P(ArmInWorld, UnconfiguredKilogramReadsItsWeight) {
   build(1.0);
   const auto [in_O, in_K] = push(Vector6::Zero());
   EXPECT_NEAR(0.0, in_O[0], 0.05);

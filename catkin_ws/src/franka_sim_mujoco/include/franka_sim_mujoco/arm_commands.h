@@ -8,8 +8,8 @@
 
 namespace franka_sim_mujoco {
 
-/// What the controllers of an arm command, one field for each kind of hardware interface. The
-/// handles write here; which fields count depends on the claims.
+/// Commands of an arm's controllers, one field for each kind of hardware interface. The handles
+/// write here; the claims determine which fields count.
 struct ArmCommands {
   std::array<double, 7> torque{};                                ///< without gravity [Nm]
   std::array<double, 7> position{};                              ///< [rad]

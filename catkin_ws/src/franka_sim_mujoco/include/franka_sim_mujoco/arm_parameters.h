@@ -15,32 +15,33 @@ class World;
 namespace franka_sim_mujoco {
 
 /// The control unit's configuration from the parameters of a robot's namespace, with the names of
-/// the original franka_gazebo, and with defaults from its URDF: the end effector is everything
-/// behind the flange (decision 7), F_T_NE that of the hand when there is one.
-/// @param gravity of the world [m/s^2], axes of the arm's base; the parameter gravity_vector wins
-/// @throws std::invalid_argument with one sentence for the first thing that is wrong
+/// the original franka_gazebo. Defaults come from the robot's URDF: the end effector is everything
+/// behind the flange (decision 7), F_T_NE that of the hand if there is one. @param gravity of the
+/// world [m/s^2], axes of the arm's base; overridden by the parameter gravity_vector
+/// @throws std::invalid_argument with a sentence for the first error
 franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
                                                     const std::string& urdf,
                                                     const std::string& arm_id, bool has_hand,
                                                     const std::array<double, 3>& gravity);
 
-/// The world's gravity in the axes of the arm's base [m/s^2]. @param base the body of that name
+/// The world's gravity in the axes of the arm's base [m/s^2]. @param base name of its body
 std::array<double, 3> gravityInBase(franka_sim::World& world, const std::string& base);
 
 /// Stiffness of the internal joint impedance controller [Nm/rad]: the proportional gains
-/// `motion_generators/position/gains/<arm_id>_jointN/p`. The original follows positions by a PID of
-/// each joint; here the robot's own controller does, whose damping follows from its stiffness:
-/// other gains have no counterpart. @throws std::invalid_argument with a sentence
+/// `motion_generators/position/gains/<arm_id>_jointN/p`. The original follows positions by one PID
+/// per joint; here the robot's own controller does, whose damping follows from its stiffness: other
+/// gains have no counterpart. @throws std::invalid_argument with a sentence
 std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std::string& arm_id,
                                          const std::array<double, 7>& fallback);
 
 /// The gains of `motion_generators` that are set but have no effect here, separated by commas:
 /// those of velocities, and the integral and derivative ones of positions; empty if none.
-/// @throws std::invalid_argument with a sentence for one that is no number
+/// @throws std::invalid_argument with a sentence for one that is not a number
 std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& arm_id);
 
 /// The prefix of an arm's joint names: the parameter arm_id, else the namespace without slashes,
-/// else the robot's name. @throws std::invalid_argument with a sentence when it is empty or no text
+/// else the robot's name. @throws std::invalid_argument with a sentence if it is empty or not a
+/// text
 std::string readArmId(const ros::NodeHandle& node, const std::string& robot_namespace,
                       const std::string& robot_name);
 
@@ -48,7 +49,7 @@ std::string readArmId(const ros::NodeHandle& node, const std::string& robot_name
 std::string checkThresholds(const franka_sim::CollisionThresholds& thresholds);
 
 /// Sentence for a log about the first lower threshold above its upper one, which robot and
-/// simulation take as it is; empty if none.
+/// simulation accept unchanged; empty if none.
 std::string thresholdRemark(const franka_sim::CollisionThresholds& thresholds);
 
 }  // namespace franka_sim_mujoco

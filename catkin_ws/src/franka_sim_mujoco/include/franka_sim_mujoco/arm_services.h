@@ -16,18 +16,19 @@
 
 namespace franka_sim_mujoco {
 
-/// Puts a joint of the robot elsewhere, between ticks. @throws std::runtime_error with a sentence
-/// where it cannot stand
+/// Teleports a joint of the robot, between ticks. @throws std::runtime_error with a sentence for an
+/// impossible position
 using PlaceJoint = std::function<void(const std::string& joint, double position)>;
 
-/// The services and the recovery action of a simulated arm: under `franka_control` in its
-/// namespace what the robot's own node offers there and set_user_stop, in the namespace itself
-/// set_franka_model_configuration. They run in service and action threads and reach the arm between
-/// ticks. Bad requests are answered with success = false and a sentence, and change nothing.
+/// The services and the recovery action of a simulated arm: under `franka_control` in its namespace
+/// those of the robot's own node and set_user_stop, in the namespace itself
+/// set_franka_model_configuration. They run in service and action threads and access the arm
+/// between ticks. Bad requests are answered with success = false and a sentence, and change
+/// nothing.
 class ArmServices {
  public:
-  /// @param restart_controllers whether the controllers that command the arm are restarted after a
-  /// recovery and after the joints were put elsewhere
+  /// @param restart_controllers restarts the controllers that command the arm, after a recovery and
+  /// after a teleport of the joints
   ArmServices(const ros::NodeHandle& node, const std::string& arm_id, SimArm& arm,
               BetweenTicks between_ticks, PlaceJoint place_joint, bool restart_controllers);
   ~ArmServices();
@@ -53,7 +54,7 @@ class ArmServices {
   bool recovering();
   void restartArmControllers();
   std::vector<std::string> runningArmControllers();
-  /// @throws std::runtime_error with a sentence unless the unit accepted
+  /// @throws std::runtime_error with a sentence unless the control unit accepted
   void check(std::optional<franka_sim::Status> status, const std::string& why_invalid);
 
   ros::NodeHandle node_;

@@ -18,25 +18,25 @@ namespace franka_sim_mujoco {
 
 class Simulation;
 
-/// The intrinsics of a pinhole camera without distortion: square pixels, the axis through the
+/// The intrinsics of a pinhole camera without distortion: square pixels, the principal point in the
 /// middle of the picture.
 sensor_msgs::CameraInfo pinhole(int width, int height, double vertical_view_degrees);
 
-/// A name as part of a topic: "::" and what ROS does not allow become "/" and "_".
+/// A camera's name as part of a topic: "::" and characters that ROS does not allow become "/" and
+/// "_".
 std::string topicOf(const std::string& camera);
 
-/// Publishes what the world's named cameras see (MJCF's <camera>, SDF's camera sensors), while
-/// somebody listens: `<camera>/image_raw` (rgb8), `<camera>/camera_info`,
-/// `<camera>/depth/image_raw` (32FC1, [m], infinity where nothing is),
-/// `<camera>/depth/camera_info`, and the optical frame `<camera>_optical_frame` in `world` on /tf.
-/// Each camera has its own rate by simulated time; a machine too slow for it gives fewer pictures,
-/// not a slower simulation.
+/// Publishes the pictures of the world's named cameras (MJCF's <camera>, SDF's camera sensors)
+/// while there are subscribers: `<camera>/image_raw` (rgb8), `<camera>/camera_info`,
+/// `<camera>/depth/image_raw` (32FC1, [m], infinity for no hit), `<camera>/depth/camera_info`, and
+/// the optical frame `<camera>_optical_frame` in `world` on /tf. Each camera has its own rate in
+/// simulated time; a slow machine gives fewer pictures, not a slower simulation.
 ///
-/// It has a thread of its own; the renderer is made for the first picture, since it takes memory
+/// Has its own thread; the renderer is created for the first picture, because it takes memory
 /// (decision 38).
 class CameraPublisher {
  public:
-  /// @param node in whose namespace the topics are
+  /// @param node its namespace contains the topics
   CameraPublisher(ros::NodeHandle node, Simulation& simulation);
   ~CameraPublisher();
   CameraPublisher(const CameraPublisher&) = delete;
@@ -47,7 +47,7 @@ class CameraPublisher {
     franka_sim::WorldCamera camera;
     ros::Publisher image, info, depth, depth_info;
     ros::Time last;
-    bool wanted() const;
+    bool hasSubscribers() const;
   };
 
   void loop();

@@ -12,20 +12,19 @@
 
 namespace franka_sim_mujoco {
 
-/// Publishes /clock, no more often than a limit of messages a wall second however fast the
-/// simulation runs, because every message wakes up every node. The time in each is exact. The
-/// stepping thread owns it.
+/// Publishes /clock at a limited rate in wall time, however fast the simulation runs, because every
+/// message wakes up every node. The time in each message is exact. Owned by the stepping thread.
 class ClockPublisher {
  public:
   explicit ClockPublisher(ros::NodeHandle& node);
 
-  /// @param rate most messages a wall second [Hz], above 0
+  /// @param rate maximum rate in wall time [Hz], above 0
   void setRate(double rate);
 
-  /// After a tick. Neither locks nor allocates; skips a message when one is still under way.
+  /// Call after a tick. Neither locks nor allocates; skips a message while another is being sent.
   void tick(const ros::Time& time);
-  /// While the simulation stands: makes sure the last time is known, also to nodes that start late.
-  /// Publishes at most ten times a wall second unless the time is new. May wait for the network.
+  /// Call while the simulation stands still: publishes the last time also for nodes that start
+  /// later. At most ten messages a wall second unless the time is new. May wait for the network.
   void standStill(const ros::Time& time);
 
  private:

@@ -9,25 +9,25 @@
 
 namespace franka_sim_mujoco {
 
-/// How commands are treated on their way from the controllers to the robot, as by libfranka's
-/// control loops: the parameters of the same names of franka_hw.
+/// Processing of commands between controllers and robot, as in libfranka's control loops: the
+/// parameters of the same names of franka_hw.
 struct ShapingOptions {
   bool rate_limiting{true};        ///< keep motions within the robot's limits
-  double cutoff_frequency{100.0};  ///< of the low-pass filter [Hz]; from 1000 on: none
-  /// Whether torques are filtered and limited too: a robot with reflexes demands it, the simulation
-  /// without them hands torques on as they are.
+  double cutoff_frequency{100.0};  ///< of the low-pass filter [Hz]; from 1000 on: off
+  /// Whether torques are filtered and limited too: a robot with reflexes requires it, the
+  /// simulation without reflexes passes torques unchanged.
   bool torques{false};
 };
 
-/// Makes the command of a tick of what the controllers want.
+/// Makes the command of a tick from the controllers' commands.
 ///
-/// Filters and limits each kind of command that the mode contains against the state it answers, in
-/// that order. What is not finite is handed on as it is, and a pose that is no transform after the
-/// filter is not limited: the robot judges it. Real-time safe; pure.
-/// @param mode what is claimed @param state k, that the command answers
-/// @param limits what the robot holds motions to
+/// Filters and limits each kind of command in the mode against the state that it answers, in that
+/// order. Values that are not finite pass unchanged, and a pose that is no transform after the
+/// filter is not limited: the robot checks it. Real-time safe; pure.
+/// @param mode the claims @param state k, which the command answers
+/// @param limits the robot's limits of motions
 franka_core::RobotCommand shapeCommand(const ShapingOptions& options, franka_hw::ControlMode mode,
-                                       const ArmCommands& wanted,
+                                       const ArmCommands& desired,
                                        const franka_core::RobotState& state,
                                        const franka_sim::MotionLimits& limits) noexcept;
 

@@ -12,8 +12,8 @@ namespace franka_sim_mujoco {
 
 class Simulation;
 
-/// Publishes the contacts of the last tick on `contacts`, 30 times a wall second, while somebody
-/// listens. It has a thread of its own: the stepping thread only copies the moment.
+/// Publishes the contacts of the last tick on `contacts`, 30 times a wall second, while there are
+/// subscribers. Has its own thread: the stepping thread only copies the contacts.
 class ContactPublisher {
  public:
   /// @param node in whose namespace `contacts` is advertised

@@ -12,9 +12,9 @@
 
 namespace franka_sim_mujoco {
 
-/// Hardware of robots without a Franka arm, in the place of gazebo_ros_control's default: all
-/// joints of the URDF's SimpleTransmissions, as DeviceJoints drives them. Threads and real-time
-/// safety: RobotHWSim.
+/// Hardware of robots without a Franka arm, in place of gazebo_ros_control's default: all joints of
+/// the URDF's SimpleTransmissions, driven by DeviceJoints. Threads and real-time safety:
+/// RobotHWSim.
 class DefaultRobotHWSim : public RobotHWSim {
  public:
   bool initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, RobotHandle robot,

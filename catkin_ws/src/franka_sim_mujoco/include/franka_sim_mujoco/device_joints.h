@@ -17,30 +17,30 @@
 
 namespace franka_sim_mujoco {
 
-/// Joints of devices that are no Franka arm or hand (a lift, a mobile base, another gripper),
-/// driven as gazebo_ros_control's default hardware drives them: the interfaces that a joint's
-/// transmission declares; commands kept within the URDF's limits; and, while a controller commands
+/// Joints of other devices than Franka arms and hands (a lift, a mobile base, another gripper),
+/// driven like gazebo_ros_control's default hardware: the interfaces that a joint's transmission
+/// declares; commands kept within the URDF's limits; and, while a controller commands
 ///   efforts:     the effort acts [Nm|N];
-///   positions:   the joint goes there and is kept there, or a PID does it;
-///   velocities:  the joint moves so, or a PID does it.
-/// A PID is used where the parameters <namespace>/gazebo_ros_control/pid_gains/<joint>/{p,i,d,...}
-/// are given; its output is limited to the URDF's effort. Without a controller, joints that take
-/// positions or velocities stand where they are, and joints that take efforts alone run free.
+///   positions:   the joint moves to the position and holds it, or a PID does;
+///   velocities:  the joint moves at the velocity, or a PID does.
+/// A PID is used if the parameters <namespace>/gazebo_ros_control/pid_gains/<joint>/{p,i,d,...} are
+/// set; its output is limited to the URDF's effort. Without a controller, joints with position or
+/// velocity commands hold their position, and joints with only effort commands move freely.
 ///
-/// Made in the stepping thread while it stands still; read, write and doSwitch belong to it and
-/// neither allocate nor throw (the PIDs publish their state when asked to).
+/// Created in the stepping thread while it stands still; read, write and doSwitch run in that
+/// thread and neither allocate nor throw (PIDs publish their state if configured).
 class DeviceJoints {
  public:
   /// @param node of the robot's namespace, where gains are looked up
   DeviceJoints(const ros::NodeHandle& node, franka_sim::World& world, std::string robot);
 
-  /// Adds the joint of a SimpleTransmission; one that follows another (mimic) only shows its state.
+  /// Adds the joint of a SimpleTransmission; a mimic joint only has a state.
   /// @throws std::invalid_argument with a sentence: unknown joint, or bad gains
   void add(const transmission_interface::TransmissionInfo& transmission, const urdf::Model& model);
   bool empty() const noexcept { return joints_.empty(); }
   std::set<std::string> names() const;
 
-  /// After the last `add`: puts the handles in.
+  /// Call after the last `add`: registers the handles.
   void registerHandles(hardware_interface::JointStateInterface& states,
                        hardware_interface::EffortJointInterface& efforts,
                        hardware_interface::PositionJointInterface& positions,
@@ -50,7 +50,7 @@ class DeviceJoints {
   void write(const ros::Duration& period);
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                 const std::list<hardware_interface::ControllerInfo>& stop_list) noexcept;
-  /// Joints may be elsewhere: forgets what was commanded.
+  /// Call if joints may have been teleported: resets the commands.
   void worldWasReset() noexcept;
 
  private:
@@ -65,7 +65,7 @@ class DeviceJoints {
     bool takes_effort{false}, takes_position{false}, takes_velocity{false};
     std::optional<control_toolbox::Pid> pid;
     Method method{Method::kNone};
-    double followed{0};  ///< where a commanded velocity has led to
+    double followed{0};  ///< position that a commanded velocity has reached
   };
 
   void readInterfaces(const transmission_interface::JointInfo& info, Joint* joint) const;
@@ -80,7 +80,7 @@ class DeviceJoints {
   ros::NodeHandle node_;
   franka_sim::World& world_;
   std::string robot_;
-  std::list<Joint> joints_;  ///< of addresses that stay
+  std::list<Joint> joints_;  ///< with stable addresses
   joint_limits_interface::EffortJointSaturationInterface effort_limits_;
   joint_limits_interface::PositionJointSaturationInterface position_limits_;
   joint_limits_interface::VelocityJointSaturationInterface velocity_limits_;

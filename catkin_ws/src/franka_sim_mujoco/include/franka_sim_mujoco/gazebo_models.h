@@ -12,21 +12,22 @@
 
 namespace franka_sim_mujoco {
 
-/// The models of a moment, found by Gazebo's names: those of models, of links, and model::link.
-/// Stepping thread only, for one moment.
+/// The models at one moment, found by Gazebo's names: those of models, of links, and model::link.
+/// Stepping thread only; valid between two ticks.
 class GazeboModels {
  public:
   explicit GazeboModels(franka_sim::World& world) : world_(world), models_(world.models()) {}
 
   const std::vector<franka_sim::WorldModel>& all() const noexcept { return models_; }
-  /// @throws std::runtime_error with a sentence for an unknown one
+  /// @throws std::runtime_error with a sentence for an unknown name
   const franka_sim::WorldModel& model(const std::string& name) const;
-  /// The body that a model's or link's name means. @throws std::runtime_error with a sentence
+  /// The body of a model's or link's name. @throws std::runtime_error with a sentence
   std::string body(const std::string& name) const;
   /// "model::link"
   static std::string linkName(const franka_sim::WorldModel& model, const std::string& link);
 
-  /// @name Between the world's frame and that of a model or link; empty, "world" or "map": none
+  /// @name Conversions between the world's frame and that of a model or link; empty, "world" or
+  /// "map": none
   /// @throws std::runtime_error with a sentence for an unknown frame
   /// @{
   franka_sim::BodyState toFrame(const franka_sim::BodyState& in_world,
@@ -35,7 +36,7 @@ class GazeboModels {
                                 const std::string& frame) const;
   /// @}
 
-  /// Puts a model or link elsewhere and gives it a velocity. @param state in `frame`
+  /// Teleports a model or link and sets its velocity. @param state in `frame`
   /// @throws std::runtime_error with a sentence: unknown, or not free to move
   void place(const std::string& name, const franka_sim::BodyState& state, const std::string& frame);
 
@@ -46,13 +47,13 @@ class GazeboModels {
 
 class Simulation;
 
-/// Does what a message of Gazebo says, between two ticks.
+/// Executes a message of Gazebo, between two ticks.
 /// @throws std::runtime_error with a sentence: numbers that are not finite, and as GazeboModels
 void place(Simulation& simulation, const gazebo_msgs::ModelState& state);
 void place(Simulation& simulation, const gazebo_msgs::LinkState& state);
 
-/// As fromMessage (sim_messages.h), but orientations of any length are taken, and 0 0 0 0, what a
-/// message begins with, as none: Gazebo does so.
+/// Like fromMessage (sim_messages.h), but orientations of any length are accepted, and 0 0 0 0, the
+/// message's default, as the identity, as in Gazebo.
 franka_sim::Pose fromGazebo(geometry_msgs::Pose message);
 
 }  // namespace franka_sim_mujoco

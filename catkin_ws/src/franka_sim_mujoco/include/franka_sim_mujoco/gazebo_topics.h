@@ -15,12 +15,12 @@ namespace franka_sim_mujoco {
 
 class Simulation;
 
-/// Gazebo's topics: publishes `model_states` and `link_states` 100 times a wall second while
-/// somebody listens, and takes `set_model_state` and `set_link_state`. It has a thread of its own:
-/// the stepping thread only copies the moment.
+/// Gazebo's topics: publishes `model_states` and `link_states` 100 times a wall second while there
+/// are subscribers, and subscribes to `set_model_state` and `set_link_state`. Has its own thread:
+/// the stepping thread only copies the states.
 class GazeboTopics {
  public:
-  /// @param node in whose namespace they are
+  /// @param node its namespace contains the topics
   GazeboTopics(ros::NodeHandle node, Simulation& simulation);
   ~GazeboTopics();
   GazeboTopics(const GazeboTopics&) = delete;

@@ -18,7 +18,7 @@
 
 namespace franka_sim_mujoco {
 
-/// What the loop shows of the gripper to other threads.
+/// State of the gripper that the loop shares with other threads.
 struct GripperView {
   std::atomic<bool> controller_runs{false};
   std::atomic<double> width{0.0};  ///< [m]
@@ -31,7 +31,7 @@ struct GripperActionParameters {
 };
 
 /// The hand's five actions: stop, homing, move, grasp and gripper_action, in the controller's
-/// namespace. A goal of one interrupts what another one started. They run in threads of their own.
+/// namespace. A goal of one interrupts the command of another. Each runs in its own thread.
 class GripperActions {
  public:
   GripperActions(const ros::NodeHandle& node, const GripperActionParameters& parameters,
@@ -51,8 +51,8 @@ class GripperActions {
   void grasp(const franka_gripper::GraspGoal& goal);
   void gripperCommand(const control_msgs::GripperCommandGoal& goal);
 
-  /// Posts the command and waits; ends the goal unless it came to its own end.
-  /// @returns whether it did, with the fate kSucceeded or kFailed
+  /// Posts the command and waits; ends the goal unless the command completed. @returns whether it
+  /// completed, with the fate kSucceeded or kFailed
   template <typename Action, typename Result>
   bool carryOut(Server<Action>& server, const std::shared_ptr<GripperCommand>& command,
                 Result& result);

@@ -11,7 +11,7 @@
 
 namespace franka_sim_mujoco {
 
-/// A command on its way to the gripper and what has become of it.
+/// A command for the gripper and its result.
 struct GripperCommand {
   enum class Kind { kHoming, kMove, kGrasp, kStop };
   enum class Fate { kWaiting, kRunning, kSucceeded, kFailed, kInterrupted, kRefused };
@@ -20,7 +20,7 @@ struct GripperCommand {
   double width{0}, epsilon_inner{0}, epsilon_outer{0};  ///< [m]
   double speed{0};                                      ///< [m/s]
   double force{0};                                      ///< [N]
-  /// Written by the loop; once it is neither waiting nor running it does not change any more.
+  /// Written by the loop; constant once it is neither waiting nor running.
   std::atomic<Fate> fate{Fate::kWaiting};
 
   bool isSettled() const noexcept {
@@ -29,12 +29,12 @@ struct GripperCommand {
   }
 };
 
-/// Hands commands from action threads to the loop and their outcomes back, without a lock in the
+/// Passes commands from action threads to the loop and their outcomes back, without a lock in the
 /// loop.
 ///
-/// There is one slot: a command that comes before the last one was taken out takes its place, and
-/// the last one counts as interrupted, as it would have been a tick later. Any thread may post;
-/// serve, settle and interruptAll belong to the loop and neither lock nor allocate nor free.
+/// There is one slot: a command that arrives before the last one was taken out replaces it, and the
+/// last one counts as interrupted, as it would have been a tick later. Any thread may post; serve,
+/// settle and interruptAll belong to the loop and neither lock nor allocate nor free.
 class GripperMailbox {
  public:
   /// Any thread but the loop.
@@ -42,17 +42,17 @@ class GripperMailbox {
 
   /// Gives the newest command to the unit, before its step.
   void serve(franka_sim::GripperUnit& unit) noexcept;
-  /// Passes the outcome on, after the unit's step.
+  /// Stores the outcome, after the unit's step.
   void settle(const franka_sim::GripperUnit& unit) noexcept;
-  /// Everything on its way is given up.
+  /// Interrupts all pending commands.
   void interruptAll() noexcept;
 
  private:
   std::atomic<GripperCommand*> slot_{nullptr};
-  GripperCommand* running_{nullptr};           // the loop's
-  franka_sim::GripperUnit::Ticket ticket_{0};  // the loop's
+  GripperCommand* running_{nullptr};           // used by the loop only
+  franka_sim::GripperUnit::Ticket ticket_{0};  // used by the loop only
   std::mutex mutex_;
-  /// Owns every command until it is settled: the loop only has plain pointers.
+  /// Owns every command until it is settled: the loop has plain pointers only.
   std::vector<std::shared_ptr<GripperCommand>> kept_;
 };
 

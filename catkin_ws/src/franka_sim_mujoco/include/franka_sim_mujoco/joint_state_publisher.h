@@ -22,21 +22,20 @@ namespace franka_sim_mujoco {
 
 class RobotHWSim;
 
-/// Publishes `joint_states`: all moving joints of a robot, arm, hand and what else its URDF has, in
-/// one message, whether controllers run or not. It does so in place of Debian's
-/// joint_state_publisher, which would be one more Python process a robot. The stepping thread owns
-/// it.
+/// Publishes `joint_states`: all moving joints of a robot, arm, hand and other joints of its URDF,
+/// in one message, with or without controllers. Replaces Debian's joint_state_publisher, which
+/// would be another Python process per robot. Owned by the stepping thread.
 class JointStatePublisher {
  public:
-  /// @param node in whose namespace the topic lives
+  /// @param node its namespace contains the topic
   /// @param rate [Hz] of simulated time, above 0 and at most 1000
-  /// @param hardware what it measures is published; of joints without a handle there the world's
-  /// state is. Outlives this, as the world does.
+  /// @param hardware its measurements are published; for joints without a handle there the world's
+  /// state is used. Must outlive this object, like the world.
   JointStatePublisher(const ros::NodeHandle& node, double rate, const urdf::Model& urdf,
                       RobotHWSim& hardware, const franka_sim::World& world);
 
-  /// After the hardware was read, with that tick's time. Skips a message when the last one is still
-  /// under way. Real-time safe.
+  /// Call after the hardware was read, with that tick's time. Skips a message while the last one is
+  /// being sent. Real-time safe.
   void tick(const ros::Time& time);
 
  private:
@@ -49,12 +48,12 @@ class JointStatePublisher {
 
   const franka_sim::World& world_;
   std::vector<Joint> joints_;
-  std::optional<franka_hw::TriggerRate> due_;  ///< from the first tick on
+  std::optional<franka_hw::TriggerRate> due_;  ///< set in the first tick
   double rate_;
   realtime_tools::RealtimePublisher<sensor_msgs::JointState> publisher_;
 };
 
-/// The URDF's joints with one degree of freedom, from the root outwards.
+/// The URDF's joints with one degree of freedom, from the root to the leaves.
 std::vector<std::string> movingJoints(const urdf::Model& urdf);
 
 }  // namespace franka_sim_mujoco

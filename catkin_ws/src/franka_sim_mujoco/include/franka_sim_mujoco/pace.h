@@ -8,39 +8,38 @@
 
 namespace franka_sim_mujoco {
 
-/// The slowest pace [simulated seconds a wall second]: a tick lasts a tenth of a second, so that
+/// The lowest pace [simulated seconds per wall second]: a tick takes a tenth of a second, so that
 /// requests are still served promptly.
 constexpr double kSlowestPace = 0.01;
 
-/// How the host keeps a real time factor; 0 means without heeding the clock. Clients of robots in
-/// motion are waited for in any case (docs/franka_sim.md).
+/// The host's pace for a real time factor; 0 means independent of the clock. Clients of robots in
+/// motion are always waited for (docs/franka_sim.md).
 /// @throws std::runtime_error with a sentence when it is not finite, negative, or slower than
 /// kSlowestPace but not 0
 franka_sim::fci::Pace paceOf(double real_time_factor);
 
-/// Most messages of /clock a wall second [Hz] at a real time factor: a tick each up to real time;
-/// fewer beyond, where they would keep the processors from all but waking nodes up.
+/// Maximum rate of /clock in wall time [Hz] at a real time factor: one message per tick up to real
+/// time; fewer beyond, where processors would do little else than wake up nodes.
 double clockRateOf(double real_time_factor) noexcept;
 
-/// Makes a thread that never has to wait sleep for a moment now and then. The kernel leaves threads
-/// beside one that always runs, of the same process above all, waiting for seconds on a machine
-/// with other work. Belongs to that thread; a thread that waits by itself is left alone.
+/// Makes a thread that never waits sleep for a moment from time to time. Otherwise the kernel lets
+/// other threads, above all of the same process, wait for seconds on a machine with other load.
+/// Belongs to that thread; a thread that waits by itself is not delayed.
 class ShortSleeps {
  public:
-  /// To be called often. Sleeps 1 ms where the thread has hardly slept for 20 ms: chosen here, a
-  /// twentieth of the pace at most.
+  /// Call often. Sleeps 1 ms if the thread has hardly slept for 20 ms: chosen here, it reduces the
+  /// pace by a twentieth at most.
   void sleepIfDue() noexcept;
 
  private:
   std::int64_t looked_ns_{0};
-  std::int64_t sleeps_{-1};  ///< of the thread, when it was looked
+  std::int64_t sleeps_{-1};  ///< of the thread, at the last check
 };
 
 /// The monotonic clock [ns].
 std::int64_t monotonicNanoseconds() noexcept;
 
-/// What the calling thread has computed so far [ns]: for benchmarks, which other programs shall not
-/// disturb.
+/// Computing time of the calling thread so far [ns]: for benchmarks, independent of other programs.
 std::int64_t threadNanoseconds() noexcept;
 
 }  // namespace franka_sim_mujoco

@@ -15,12 +15,12 @@ namespace franka_sim_mujoco {
 
 class Simulation;
 
-/// The service that draws pictures. It has a thread of its own: the stepping thread only copies the
-/// moment, and a renderer belongs to one thread. The renderer is made for the first picture, since
-/// it takes memory (decision 38).
+/// The service that draws pictures. Has its own thread: the stepping thread only copies the scene,
+/// and a renderer belongs to one thread. The renderer is created for the first picture, because it
+/// takes memory (decision 38).
 class PictureService {
  public:
-  /// @param node in whose namespace `render_picture` is offered
+  /// @param node its namespace contains `render_picture`
   PictureService(ros::NodeHandle node, Simulation& simulation);
   ~PictureService();
   PictureService(const PictureService&) = delete;

@@ -14,29 +14,29 @@
 
 namespace franka_sim_mujoco {
 
-/// Work that other threads want done by the stepping thread between two ticks.
+/// Requests of other threads that the stepping thread executes between two ticks.
 ///
 /// Any thread may call `run` and `close`; the stepping thread calls `adopt`, `serve` and
-/// `waitForWork`. While nothing is queued `serve` costs one atomic load: no lock is taken in an
-/// undisturbed tick.
+/// `waitForWork`. With an empty queue `serve` costs one atomic load: an undisturbed tick takes no
+/// lock.
 class RequestQueue {
  public:
   static constexpr std::chrono::milliseconds kDefaultTimeout{10000};
 
-  /// Waits until the stepping thread has done `work`; called by the stepping thread itself, does it
-  /// at once. Rethrows what `work` throws. When this returns or throws, `work` is not and will not
-  /// be running.
-  /// @param timeout how long the work may wait for its turn; once begun it is waited for to its end
-  /// @throws std::runtime_error when its turn did not come, or after close()
+  /// Waits until the stepping thread has done `work`; in the stepping thread itself, does it at
+  /// once. Rethrows exceptions of `work`. When this returns or throws, `work` neither runs nor will
+  /// run.
+  /// @param timeout for the start of the work; once started its end is awaited
+  /// @throws std::runtime_error if it did not start in time, or after close()
   void run(const std::function<void()>& work, std::chrono::milliseconds timeout = kDefaultTimeout);
 
-  /// Makes the calling thread the one that serves.
+  /// Makes the calling thread the serving one.
   void adopt();
-  /// Does what is queued, in order of arrival.
+  /// Does all queued work, in order of arrival.
   void serve();
-  /// Sleeps until something is queued, the queue is closed or the time is over.
+  /// Sleeps until work is queued, the queue is closed or the time is over.
   void waitForWork(std::chrono::milliseconds timeout);
-  /// Refuses everything that waits and everything that comes.
+  /// Refuses all waiting and future work.
   void close();
 
  private:

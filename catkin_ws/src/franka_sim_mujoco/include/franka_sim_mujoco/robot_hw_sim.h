@@ -19,21 +19,20 @@ class World;
 
 namespace franka_sim_mujoco {
 
-/// Runs a piece of work in the stepping thread between two ticks and returns when it is done, also
-/// while the simulation is paused. Rethrows what the work throws; throws std::runtime_error with a
-/// sentence when the stepping thread does not come by in time. For service and action threads; not
-/// for the 1 kHz loop.
+/// Runs work in the stepping thread between two ticks and returns when it is done, also while the
+/// simulation is paused. Rethrows exceptions of the work; throws std::runtime_error with a sentence
+/// if the stepping thread does not serve it in time. For service and action threads; not for the 1
+/// kHz loop.
 using BetweenTicks = std::function<void(const std::function<void()>& work)>;
 
-/// A robot of the simulated world, as a RobotHWSim plugin gets to know it.
+/// A robot of the simulated world, as passed to a RobotHWSim plugin.
 struct RobotHandle {
-  franka_sim::World* world;  ///< only to be touched in initSim, readSim, writeSim and between ticks
+  franka_sim::World* world;  ///< use only in initSim, readSim, writeSim and between ticks
   std::string name;          ///< of the robot in the world
-  std::string urdf;          ///< the text of its description
-  franka_sim::JointPhysics
-      arm_physics;  ///< what the world's joints have of rotor inertia and friction
+  std::string urdf;          ///< text of its description
+  franka_sim::JointPhysics arm_physics;  ///< rotor inertia and friction of the world's joints
   BetweenTicks between_ticks;
-  std::string robot_type;  ///< what the arm is, "panda" or "fr3"; empty where there is none
+  std::string robot_type;  ///< type of the arm, "panda" or "fr3"; empty without an arm
 };
 
 /// Base class of simulated hardware, shaped like gazebo_ros_control's (decision 34): plugins of
@@ -45,19 +44,19 @@ class RobotHWSim : public hardware_interface::RobotHW {
   ~RobotHWSim() override = default;
 
   /// @param robot_namespace of the robot's topics and parameters
-  /// @returns false when the robot cannot be simulated, having logged why or set `failure`; it is
-  /// then taken out of the world again.
+  /// @returns false if the robot cannot be simulated, after logging why or setting `failure`; it is
+  /// then removed from the world.
   virtual bool initSim(const std::string& robot_namespace, ros::NodeHandle model_nh,
                        RobotHandle robot, const urdf::Model* urdf_model,
                        std::vector<transmission_interface::TransmissionInfo> transmissions) = 0;
-  /// Why initSim returned false, as a sentence for whoever asked for the robot; empty: see the log.
+  /// Why initSim returned false, as a sentence for the caller; empty: see the log.
   virtual std::string failure() const { return ""; }
   virtual void readSim(ros::Time time, ros::Duration period) = 0;
   virtual void writeSim(ros::Time time, ros::Duration period) = 0;
-  /// A controller threw an exception: what it commanded must not go on. Every cycle in which it
-  /// does; there is no call with false.
+  /// A controller threw an exception: its commands must not stay in effect. Called in every cycle
+  /// with an exception; never with false.
   virtual void eStopActive(bool /*active*/) {}
-  /// The world was reset, or joints were put elsewhere: forget velocities and filters.
+  /// The world was reset, or joints were teleported: reset velocities and filters.
   virtual void worldWasReset() {}
 };
 

@@ -23,7 +23,7 @@ namespace franka_sim_mujoco {
 class JointStatePublisher;
 class TransformPublisher;
 
-/// What is asked for when a robot is put into the world.
+/// Request to add a robot to the world.
 struct SpawnOrder {
   std::string name;
   std::string urdf;
@@ -32,22 +32,22 @@ struct SpawnOrder {
   std::map<std::string, double> initial_positions;
 };
 
-/// A spawn order, read and checked: everything that needs neither the world nor the stepping
+/// A spawn request, read and checked: everything that needs neither the world nor the stepping
 /// thread.
 struct RobotPlan {
   franka_sim::RobotDescription description;
   std::string robot_namespace;
   std::string arm_id;
-  std::string robot_type;  ///< "panda" or "fr3"; empty for a body without such an arm
+  std::string robot_type;  ///< "panda" or "fr3"; empty for a robot without such an arm
   franka_sim::JointPhysics arm_physics;
-  std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a body without hardware
-  std::string fci_ip;         ///< where it is served instead, by a ServedRobot; empty: nowhere
+  std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a robot without hardware
+  std::string fci_ip;         ///< address if it is served by a ServedRobot instead; else empty
   int control_ticks{1};       ///< controlPeriod in ticks of 1 ms
   /// Names of the controllers that its launch file starts: parameter `awaited_controllers` in its
   /// namespace, separated by blanks.
   std::vector<std::string> awaited_controllers;
-  /// At which it publishes `joint_states` [Hz of simulated time]: parameter `joint_state_rate`;
-  /// nothing: it does not, a node of its own may do so.
+  /// Rate of its `joint_states` [Hz of simulated time]: parameter `joint_state_rate`; empty: not
+  /// published, a separate node may do so.
   std::optional<double> joint_state_rate;
   /// Whether it publishes the transforms of its links: parameter `publish_transforms`.
   bool publish_transforms{false};
@@ -61,18 +61,16 @@ RobotPlan planRobot(const SpawnOrder& order);
 
 using HardwareLoader = pluginlib::ClassLoader<RobotHWSim>;
 
-/// Durations of the parts of a tick, summed up while a benchmark runs [ns].
+/// Durations of the parts of a tick, summed during a benchmark [ns].
 struct TickTimes {
   std::int64_t read{0}, update{0}, write{0};
 };
 
 /// A robot in the world with its hardware plugin and controller manager, or served over the FCI, or
-/// a mere body. Made, run and taken out of
-/// the robots by the stepping thread; destroyed by any thread afterwards.
+/// without both. Created, run and removed by the stepping thread; destroyed later by any thread.
 class RobotInstance {
  public:
-  /// Enters the robot into the world and starts its hardware; nothing is left behind when it
-  /// throws.
+  /// Adds the robot to the world and starts its hardware; the world is unchanged if it throws.
   /// @throws std::runtime_error with a sentence
   RobotInstance(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
                 BetweenTicks between_ticks);
@@ -81,27 +79,27 @@ class RobotInstance {
   RobotInstance& operator=(const RobotInstance&) = delete;
 
   const std::string& name() const noexcept { return name_; }
-  /// Whether one of these joints is the robot's.
+  /// Whether one of these joints belongs to the robot.
   bool hasAnyOf(const std::vector<std::string>& joints) const;
 
-  /// What the host has to run where the robot is served; else null.
+  /// The robot for the host if it is served; else null.
   franka_sim::fci::SimRobot* served() noexcept { return served_ ? &served_->robot() : nullptr; }
 
   /// Whether controllers that its launch file starts do not run yet: for kLongestStart ticks at
   /// most, then with a warning.
   bool isStarting() const noexcept { return start_ticks_left_ > 0; }
-  static constexpr int kLongestStart = 30000;  ///< [ticks], the spawner's own patience
+  static constexpr int kLongestStart = 30000;  ///< [ticks], the spawner's own timeout
 
-  /// Read, controllers, write; nothing for a served robot. 1 kHz loop. @param times when not null,
-  /// durations are added to it
+  /// Read, controllers, write; does nothing for a served robot. 1 kHz loop. @param times durations
+  /// are added to it, unless null
   void tick(const ros::Time& time, TickTimes* times);
 
   /// @throws std::runtime_error with a sentence while a client of the FCI moves the robot: its
   /// motion would jump.
   void requireRest() const;
-  /// The world has stopped: what clients of a served robot run is aborted.
+  /// The world has stopped: aborts motions of a served robot's clients.
   void halt();
-  /// The world was put back; controllers are restarted in the next tick.
+  /// The world was reset or restored; controllers are restarted in the next tick.
   void worldWasReset();
 
  private:

@@ -12,21 +12,21 @@ namespace franka_sim_mujoco {
 
 struct RobotPlan;
 
-/// A robot of the ROS world that is served over the FCI at an address of its own, as franka_sim
-/// does, instead of being driven by controllers in the simulation's process. What the user does to
-/// it is commanded by services under `franka_sim` in its namespace (docs/franka_sim.md): the lines
-/// of the program's control interface that concern one robot.
+/// A robot of the ROS world that is served over the FCI at its own address, like franka_sim,
+/// instead of being driven by controllers in the simulation's process. Services under `franka_sim`
+/// in its namespace replace the operator (docs/franka_sim.md): the commands of the program's
+/// control interface that concern one robot.
 ///
-/// Made by the stepping thread between ticks, which also runs `robot`; destroyed by any thread when
-/// the host no longer knows it.
+/// Created by the stepping thread between ticks, which also runs `robot`; destroyed by any thread
+/// after the host has removed it.
 class ServedRobot {
  public:
-  /// @param plan of a robot that stands in the world
+  /// @param plan of a robot that is in the world
   /// @throws std::runtime_error, std::invalid_argument with a sentence
   ServedRobot(const RobotPlan& plan, franka_sim::World& world, BetweenTicks between_ticks);
 
   franka_sim::fci::SimRobot& robot() noexcept { return robot_; }
-  /// A motion of a client's runs.
+  /// Whether a motion of a client runs.
   bool isCommanded() const { return robot_.expectsCommand(); }
 
  private:
@@ -41,7 +41,7 @@ class ServedRobot {
 
   BetweenTicks between_ticks_;
   franka_sim::fci::SimRobot robot_;
-  ServiceHandlers services_;  ///< last: it ends before what it serves
+  ServiceHandlers services_;  ///< last: it ends before the objects it uses
 };
 
 }  // namespace franka_sim_mujoco

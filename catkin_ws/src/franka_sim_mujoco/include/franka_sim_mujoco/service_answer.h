@@ -11,7 +11,7 @@
 
 namespace franka_sim_mujoco {
 
-/// What a service says where it could not do what was asked; some types have another field for it.
+/// Sets a service's error message; some types have another field for it.
 template <typename Response>
 auto explain(Response& response, const std::string& text) -> decltype((void)response.error) {
   response.error = text;
@@ -28,9 +28,9 @@ inline void explain(std_srvs::Trigger::Response& response, const std::string& te
   response.message = text;
 }
 
-/// Runs a handler and answers: true, or false, nothing else, and a sentence.
-/// @param handler may throw what the user should read
-/// @param tell is given that sentence too, for the log
+/// Runs a handler and sets the response: true, or only false and a sentence.
+/// @param handler may throw an exception with a sentence for the user
+/// @param tell also receives that sentence, for the log
 template <typename Response>
 void answer(Response& response, const std::function<void()>& handler,
             const std::function<void(const char*)>& tell) {

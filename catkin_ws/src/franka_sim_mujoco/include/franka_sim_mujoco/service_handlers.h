@@ -16,18 +16,18 @@
 namespace franka_sim_mujoco {
 
 /// ROS services that answer success=false and a sentence instead of failing the call. They have
-/// threads of their own: a controller switch that waits for a paused simulation must not block the
+/// their own threads: a controller switch that waits for a paused simulation must not block the
 /// service that unpauses it.
 class ServiceHandlers {
  public:
-  /// @param node in whose namespace they are offered
+  /// @param node its namespace contains the services
   explicit ServiceHandlers(ros::NodeHandle node);
-  /// No handler runs any more when it returns.
+  /// Waits until no handler runs any more.
   ~ServiceHandlers();
   ServiceHandlers(const ServiceHandlers&) = delete;
   ServiceHandlers& operator=(const ServiceHandlers&) = delete;
 
-  /// @param handler may throw what the user should read
+  /// @param handler may throw an exception with a sentence for the user
   template <typename Service>
   void offer(const std::string& name,
              std::function<void(typename Service::Request&, typename Service::Response&)> handler) {
@@ -44,7 +44,7 @@ class ServiceHandlers {
         ros::VoidConstPtr(), &queue_);
     servers_.push_back(node_.advertiseService(options));
   }
-  /// A std_srvs/Empty service, as Gazebo has them: a failure fails the call.
+  /// A std_srvs/Empty service, as in Gazebo: a failure fails the call.
   void offerEmpty(const std::string& name, std::function<void()> action);
 
  private:

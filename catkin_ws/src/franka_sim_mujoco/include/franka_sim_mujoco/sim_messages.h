@@ -16,7 +16,8 @@ namespace franka_sim_mujoco {
 /// @throws std::runtime_error "The <what> must be made of finite numbers."
 void checkFinite(std::initializer_list<double> numbers, const char* what);
 
-/// @throws std::runtime_error for numbers that are not finite and quaternions that are not unit
+/// @throws std::runtime_error for numbers that are not finite and quaternions that are not of
+/// length 1
 franka_sim::Pose fromMessage(const geometry_msgs::Pose& message);
 geometry_msgs::Pose toMessage(const franka_sim::Pose& pose);
 franka_sim::Twist fromMessage(const geometry_msgs::Twist& message);

@@ -10,11 +10,11 @@ namespace franka_sim_mujoco {
 class Simulation;
 
 /// The simulation's services: time (pause, step, factor, reset), robots and objects (spawn,
-/// delete), things (poses, velocities, joints, pushes, contacts), gravity, snapshots, benchmark;
+/// delete), states (poses, velocities, joints, pushes, contacts), gravity, snapshots, benchmark;
 /// and those of Gazebo, with its types.
 class SimServices {
  public:
-  /// @param node in whose namespace they are offered; pause_physics and unpause_physics too
+  /// @param node its namespace contains the services, also pause_physics and unpause_physics
   SimServices(ros::NodeHandle node, Simulation& simulation);
   SimServices(const SimServices&) = delete;
   SimServices& operator=(const SimServices&) = delete;

@@ -24,11 +24,11 @@ namespace franka_sim_mujoco {
 struct SimulationOptions {
   std::string world_file;        ///< MJCF or SDF; empty: the empty world
   double real_time_factor{1.0};  ///< see paceOf
-  double clock_rate{0.0};        ///< most messages of /clock a wall second [Hz]; 0: clockRateOf
+  double clock_rate{0.0};        ///< maximum rate of /clock in wall time [Hz]; 0: clockRateOf
   bool paused{false};
 };
 
-/// What is in the world, and how it runs.
+/// Content of the world, and its settings.
 struct SimulationInventory {
   std::vector<std::string> robots, objects, bodies, joints, cameras;
   std::array<double, 3> gravity{};
@@ -36,71 +36,71 @@ struct SimulationInventory {
   double real_time_factor{1};
 };
 
-/// Where the simulation stands.
+/// Progress of the simulation.
 struct SimulationState {
-  std::uint64_t tick{0};  ///< since the start; a reset does not set it back
+  std::uint64_t tick{0};  ///< since the start; a reset does not change it
   ros::Time time;
   std::uint64_t state_hash{0};  ///< World::stateHash
 };
 
-/// The world, the robots in it and the one thread that steps them: requests; then the host keeps
-/// the pace and hears the clients of served robots; then for each other robot readSim, controllers,
-/// writeSim; then the physics, then /clock.
+/// The world, its robots and the one thread that steps them. A cycle serves requests; then the host
+/// keeps the pace and serves clients of served robots; then each other robot runs readSim,
+/// controllers, writeSim; then physics, then /clock.
 ///
 /// While a robot waits for the controllers that its launch file starts (RobotPlan), time does not
 /// run faster than real time: the nodes that start them need the processors.
 ///
-/// ROS time begins at 1 ms and grows by 1 ms a tick; it never goes back, also not when the world is
-/// reset. All public functions may be called from any thread and throw std::runtime_error with a
+/// ROS time starts at 1 ms and grows by 1 ms per tick; it never goes back, not even when the world
+/// is reset. All public functions may be called from any thread and throw std::runtime_error with a
 /// sentence.
 class Simulation {
  public:
-  /// Builds the world. @throws std::runtime_error what World throws, or for a wrong factor
+  /// Builds the world. @throws std::runtime_error as World, or for a wrong factor
   Simulation(const SimulationOptions& options, ros::NodeHandle& node);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
   void start();
-  /// Ends the stepping thread; requests are refused from now on.
+  /// Ends the stepping thread; later requests are refused.
   void stop();
-  /// Whether a tick failed, which ended the simulation.
+  /// Whether the simulation ended because a tick failed.
   bool failed() const noexcept { return failed_; }
 
   void setPaused(bool paused);
   void setRealTimeFactor(double factor);
-  /// Advances a paused simulation without waiting for the pace and returns when that is done.
+  /// Advances a paused simulation without waiting for the pace and returns when done.
   SimulationState step(std::uint32_t ticks);
   SimulationState state();
-  /// Everything to where it was first put; controllers are restarted. A world that has stopped
-  /// (World::stopped) runs again.
+  /// Resets everything to where it was first put; controllers are restarted. A world that has
+  /// stopped (World::stopped) runs again.
   void reset();
 
   void spawn(const SpawnOrder& order);
   void remove(const std::string& robot);
-  /// @returns what the text asks for and nobody simulates, as World::unsupported, and which robots
-  /// the object begins in
+  /// @returns unsupported elements of the text, as World::unsupported, and robots that overlap the
+  /// object
   std::string spawnObject(const std::string& name, const std::string& text,
                           const franka_sim::Pose& pose);
   void removeObject(const std::string& name);
   SimulationInventory inventory();
 
-  /// Puts joints elsewhere; robots that have one of them start their controllers anew.
-  /// @param velocities as many as names
+  /// Teleports joints; robots that have one of them restart their controllers.
+  /// @param velocities one per name
   void setJoints(const std::vector<std::string>& names, const std::vector<double>& positions,
                  const std::vector<double>& velocities);
 
-  /// Keeps the world's state under a name (at most kMostSnapshots). @returns its hash
+  /// Stores the world's state under a name (at most kMostSnapshots). @returns its hash
   std::uint64_t takeSnapshot(const std::string& name);
-  /// Puts the world back; control units and controllers start anew. @returns its hash
+  /// Restores the world; control units and controllers restart. @returns its hash
   std::uint64_t restoreSnapshot(const std::string& name);
   static constexpr std::size_t kMostSnapshots = 32;
 
   /// Runs work on the world in the stepping thread, between ticks.
   void withWorld(const std::function<void(franka_sim::World&)>& work);
 
-  /// What each part of a tick takes of the stepping thread's computing time [us], over `ticks`
-  /// ticks without waiting. Physics includes the publishing of /clock.
+  /// Computing time of the stepping thread for each part of a tick [us], over `ticks` ticks without
+  /// waiting. Physics includes the publishing of /clock.
   struct Benchmark {
     double tick{0}, physics{0}, read{0}, update{0}, write{0}, bare{0};
   };
@@ -111,13 +111,13 @@ class Simulation {
   void advance();
   void standStill();
   void finishStepping();
-  /// Reports what is wrong with the world; one that has stopped pauses the simulation.
+  /// Reports faults of the world; one that has stopped pauses the simulation.
   void watchWorld();
-  /// @throws std::runtime_error with a sentence where the world has stopped
+  /// @throws std::runtime_error with a sentence if the world has stopped
   void requireRunningWorld() const;
-  /// After the world was put back as a whole.
+  /// Call after the world was reset or restored.
   void worldWasReset();
-  /// Holds the pace down while robots start, and sets it going afterwards.
+  /// Limits the pace while robots start, and restores it afterwards.
   void reviewPace();
   void applyPace();
   SimulationState stateNow() const;
@@ -138,7 +138,7 @@ class Simulation {
   bool timing_{false};
   double real_time_factor_;
   double clock_rate_;
-  bool starting_{false};  ///< as the pace is now
+  bool starting_{false};  ///< pace is limited now
   bool paused_;
   bool paused_by_fault_{false};  ///< the world has stopped
   std::uint64_t tick_count_{0};

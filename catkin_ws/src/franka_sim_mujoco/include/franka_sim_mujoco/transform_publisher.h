@@ -15,16 +15,16 @@
 namespace franka_sim_mujoco {
 
 /// Publishes the transforms of a robot's links for each message on its topic `joint_states`, and
-/// those that never change once (/tf, /tf_static), by the library of robot_state_publisher.
+/// constant ones once (/tf, /tf_static), by the library of robot_state_publisher.
 ///
-/// Debian's node of that name asks the master twice for a parameter at every message: a few robots
-/// at several times real time leave the master no time for anybody else. It would also be one more
-/// process a robot. Here the parameter `tf_prefix`, of the robot's namespace or one above it, is
-/// read once. Has a thread of its own.
+/// Debian's node of that name requests a parameter from the master twice per message: a few robots
+/// at several times real time overload the master. It would also be another process per robot. Here
+/// the parameter `tf_prefix`, of the robot's namespace or one above it, is read once. Has its own
+/// thread.
 class TransformPublisher {
  public:
-  /// @param node in whose namespace the joint states are
-  /// @throws std::runtime_error with a sentence when the URDF is no tree of links
+  /// @param node its namespace contains the joint states
+  /// @throws std::runtime_error with a sentence if the URDF's links form no tree
   TransformPublisher(const ros::NodeHandle& node, const urdf::Model& urdf);
   ~TransformPublisher();
   TransformPublisher(const TransformPublisher&) = delete;

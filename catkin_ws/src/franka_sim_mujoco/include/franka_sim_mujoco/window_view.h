@@ -9,9 +9,9 @@ namespace franka_sim_mujoco {
 
 class Simulation;
 
-/// Shows the simulation in a window, thirty times a second, from a thread of its own: the stepping
-/// thread only copies the moment. Without a display it says so and does nothing; the user may close
-/// the window, the simulation goes on.
+/// Shows the simulation in a window, thirty times a second, from its own thread: the stepping
+/// thread only copies the scene. Without a display it logs so and does nothing; if the user closes
+/// the window, the simulation continues.
 class WindowView {
  public:
   explicit WindowView(Simulation& simulation);

@@ -23,7 +23,7 @@ def pose_of(transform: np.ndarray) -> Pose:
 
 
 def downwards(x: float, y: float, z: float, yaw: float = 0.0) -> np.ndarray:
-    """A gripper that points down at (x, y, z) [m], turned by yaw about the vertical [rad]."""
+    """A gripper that points down at (x, y, z) [m], rotated by yaw about the vertical [rad]."""
     c, s = math.cos(yaw), math.sin(yaw)
     transform = np.eye(4)
     transform[:3, :3] = [[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]
@@ -37,7 +37,7 @@ def yaw_of(transform: np.ndarray) -> float:
 
 
 def rotation_vector(rotation: np.ndarray) -> np.ndarray:
-    """Axis times angle [rad] of a 3x3 rotation below half a turn."""
+    """Axis times angle [rad] of a 3x3 rotation by less than half a turn."""
     transform = np.eye(4)
     transform[:3, :3] = rotation
     x, y, z, w = quaternion_from_matrix(transform)
@@ -53,6 +53,6 @@ def wrap(angle: float, period: float) -> float:
 
 
 def minimum_jerk(fraction: float) -> float:
-    """Course of a motion that starts and ends at rest, 0..1 -> 0..1."""
+    """Profile of a motion that starts and ends at rest, 0..1 -> 0..1."""
     s = min(max(fraction, 0.0), 1.0)
     return s * s * s * (10.0 + s * (6.0 * s - 15.0))

@@ -1,10 +1,10 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The stone's way from the blue tray to the red one, by ROS topics, services and actions alone.
+"""Carries the stone from the blue tray to the red one with ROS topics, services and actions only.
 
-What a user would write against the real arm: equilibrium poses for the Cartesian impedance controller,
-goals for the gripper, set_load after the grasp. Only the stone's pose comes from the simulation, in the
-place of a camera. Every step waits on measured state, with a limit in simulated and in wall time.
+A user would write the same for the real arm: equilibrium poses for the Cartesian impedance controller, goals
+for the gripper, set_load after the grasp. Only the stone's pose comes from the simulation, instead of from a
+camera. Every step waits for measured state, with a limit in simulated and in wall time.
 """
 
 import math
@@ -49,11 +49,11 @@ from franka_sim_mujoco.srv import GetBodyPose, GetContacts, RenderPicture, SetBo
 STONE_SIZE = (0.025, 0.032, 0.064)
 STONE_MASS = 0.1024
 TRAY_SIZE = (0.235035, 0.144926, 0.023348)
-PATIENCE = 10.0  # least wall time before anything is given up [s]
+PATIENCE = 10.0  # minimum wall time of any timeout [s]
 
 
 class TaskError(RuntimeError):
-    """A step did not reach its goal; the text says which, and what was measured."""
+    """A step did not reach its goal; the message names it and the measured values."""
 
 
 def wait_until(
@@ -61,8 +61,8 @@ def wait_until(
 ) -> None:
     """Polls until the condition holds; raises TaskError after either time [s] has passed.
 
-    Simulated time can run off while this process hardly runs (flat out on a busy machine): it counts
-    only once PATIENCE has passed on the wall as well.
+    Simulated time can advance while this process hardly runs (as fast as possible on a busy machine): its
+    timeout counts only after PATIENCE of wall time.
     """
     start, wall_start = rospy.get_time(), time.monotonic()
     while not condition():
@@ -77,21 +77,21 @@ def wait_until(
 
 
 class Arm:
-    """The arm under the Cartesian impedance controller, as its topics show it."""
+    """The arm under the Cartesian impedance controller, through its topics."""
 
     CONTROLLER = "cartesian_impedance_example_controller"
     TURN_TOLERANCE = 0.03  # [rad]
-    SETTLED = 0.2  # a pose counts when it is kept for so long [s]
-    LONGEST_STEP = 0.02  # a target runs ahead of the last by so much of its way at most [s]
+    SETTLED = 0.2  # [s] for which a pose must be kept
+    LONGEST_STEP = 0.02  # [s] largest advance of the target per step
 
     def __init__(self, arm_id: str, namespace: str = ""):
-        """@param namespace of its launch file, with a slash at its end; none: that of this process."""
+        """@param namespace of its launch file, with a final slash; none: that of this process."""
         self.arm_id = arm_id
         self.fingers = [f"{arm_id}_{side}finger" for side in ("left", "right")]
         self._namespace = namespace
         self._state: FrankaState | None = None
         self._target: np.ndarray | None = None
-        self._arrival: float | None = None  # since when the arm is where it should be
+        self._arrival: float | None = None  # time since which the arm is at its target
         self._publisher = rospy.Publisher(
             f"{namespace}{self.CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1
         )
@@ -103,7 +103,7 @@ class Arm:
         self._state = state
 
     def wait_ready(self) -> None:
-        """Until states arrive, the controller listens, and the robot is in Move."""
+        """Waits until states arrive, the controller subscribes, and the robot is in Move."""
         wait_until(lambda: self._state is not None, "the first robot state", simulated=math.inf)
         wait_until(
             lambda: self._publisher.get_num_connections() > 0,
@@ -132,13 +132,13 @@ class Arm:
         ReconfigureClient(rospy.resolve_name(server), timeout=30).update_configuration(parameters)
 
     def set_load(self, mass: float, centre: tuple[float, float, float], inertia: list[float]) -> None:
-        """Tells the robot what hangs on its flange: [kg], in the flange frame [m], [kg m^2] column-major."""
+        """Sets the robot's load: [kg], centre in the flange frame [m], [kg m^2] column-major."""
         answer = self._set_load(mass, centre, inertia)
         if not answer.success:
             raise TaskError(f"set_load was refused: {answer.error}")
 
     def carry(self, box: np.ndarray, size: tuple[float, float, float], mass: float) -> None:
-        """Tells the robot of a box that it holds: where it is in O (4x4), its sides [m] and mass [kg]."""
+        """Sets a held box as the robot's load: its pose in O (4x4), sides [m] and mass [kg]."""
         a, b, c = size
         principal = mass / 12.0 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
         flange = self.pose @ np.linalg.inv(np.array(self.state.F_T_EE).reshape(4, 4, order="F"))
@@ -157,9 +157,9 @@ class Arm:
         tolerance: float = 0.01,
         what: str = "the motion",
     ) -> None:
-        """Leads the equilibrium pose to `target` (O_T_EE) and waits until the arm is there, at rest.
+        """Moves the equilibrium pose to `target` (O_T_EE) and waits until the arm is there, at rest.
 
-        @param speed [m/s], turn_speed [rad/s]: mean speeds of the way; tolerance of the position [m].
+        @param speed [m/s], turn_speed [rad/s]: mean speeds; tolerance of the position [m].
         """
         start = self._target
         turn = wrap(yaw_of(target) - yaw_of(start), 2 * math.pi)
@@ -171,7 +171,7 @@ class Arm:
         while fraction < 1.0:
             if rospy.is_shutdown() or time.monotonic() > wall_end:
                 raise TaskError(f"{what}: the simulation's clock does not advance.")
-            # However late this script comes to run, the target does not jump: what is held would creep.
+            # The target must not jump when this script is late, or the held object would slip.
             now = rospy.get_time()
             fraction = min(fraction + min(now - last, self.LONGEST_STEP) / duration, 1.0)
             last = now
@@ -221,7 +221,7 @@ class Gripper:
     def __init__(self, namespace: str = ""):
         """@param namespace as of Arm."""
         # Goal handles are polled: the simple client loses goals that end before its send_goal() returns,
-        # as they do when the simulation runs flat out.
+        # as they do when the simulation runs as fast as possible.
         self._clients = {
             name: actionlib.ActionClient(f"{namespace}franka_gripper/{name}", kind)
             for name, kind in self.ACTIONS.items()
@@ -269,7 +269,7 @@ class Gripper:
 
 
 class Scene:
-    """What a camera would see, asked of the simulation."""
+    """Poses and pictures from the simulation, instead of a camera."""
 
     def __init__(self, node: str = "/gazebo"):
         self._node = node
@@ -314,14 +314,14 @@ class Scene:
         width: int = 960,
         height: int = 720,
     ) -> Image:
-        """What is seen from a point of the world towards another [m]."""
+        """Picture from a point of the world towards another [m]."""
         answer = self._render(Point(*eye), Point(*target), 45.0, width, height)
         return self._checked(answer, "picture").image
 
 
 @dataclass
 class Placement:
-    """Where the stone ended."""
+    """Final position of the stone."""
 
     position: tuple[float, float, float]  # in the world [m]
     distance: float  # from the tray's centre, in the plane [m]
@@ -329,7 +329,7 @@ class Placement:
 
 
 class PickAndPlace:
-    """The task, a step a function; `report` gets a sentence for each."""
+    """The task, one function per step; `report` gets a message for each."""
 
     APPROACH = 0.12  # above the stone [m]
     FORCE = 5.0  # [N]
@@ -387,7 +387,7 @@ class PickAndPlace:
         self.arm.move(downwards(x, y, z + self.APPROACH, yaw), what="the retreat")
 
     def placement(self) -> Placement:
-        """Where the stone is, after it has come to rest."""
+        """Position of the stone, once it is at rest."""
         last = [self.scene.pose("stone"), rospy.get_time()]
 
         def at_rest() -> bool:
@@ -417,7 +417,7 @@ class PickAndPlace:
 
     @staticmethod
     def _grasp_of(stone: np.ndarray) -> tuple[float, float]:
-        """Gripper yaw and width for whichever pair of the stone's sides needs the smaller turn."""
+        """Gripper yaw and width for the pair of the stone's sides that needs the smaller rotation."""
         yaw = yaw_of(stone)
         along_y = wrap(yaw, math.pi)  # the fingers close along the stone's y
         along_x = wrap(yaw + math.pi / 2, math.pi)  # ... and along its x

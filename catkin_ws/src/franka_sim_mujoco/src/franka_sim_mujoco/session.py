@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Starts a launch file on a master of its own and leaves nothing behind."""
+"""Starts a launch file on its own master and ends all its processes."""
 
 import os
 import random
@@ -13,14 +13,14 @@ from pathlib import Path
 
 
 class SessionError(RuntimeError):
-    """The launch did not come up, or went down by itself; the text says what its log shows."""
+    """The launch failed to start or ended by itself; the message holds the end of its log."""
 
 
 def free_port() -> int:
-    """A TCP port nobody listens on, on loopback.
+    """An unused TCP port on loopback.
 
-    Below those that the system gives to connections (Linux: from 32768 on), or one of them might have it
-    before the master does.
+    Below the system's ephemeral ports (Linux: from 32768 on), or a connection might take it before the
+    master does.
     """
     for port in random.sample(range(20000, 32768), 100):
         with socket.socket() as probe, suppress(OSError):
@@ -32,8 +32,8 @@ def free_port() -> int:
 class Session:
     """A roslaunch process group with its own master, as a context manager.
 
-    `environment` is what any command needs to talk to it (ROS_MASTER_URI, ROS_HOSTNAME). Output goes to
-    `log`. Leaving the context ends every process that the launch started.
+    `environment` holds the variables for commands on this master (ROS_MASTER_URI, ROS_HOSTNAME). Output goes
+    to `log`. Leaving the context ends every process that the launch started.
     """
 
     def __init__(self, *launch: str, log: Path, port: int | None = None):
@@ -67,7 +67,7 @@ class Session:
         return self._process.poll() if self._process else None
 
     def check(self) -> None:
-        """Raises SessionError when the launch has ended by itself."""
+        """Raises SessionError if the launch has ended by itself."""
         if not self.running():
             raise SessionError(
                 f"{' '.join(self._command)} ended with status {self.returncode()}:\n{self.tail()}"
@@ -78,7 +78,7 @@ class Session:
         return "\n".join(self.log.read_text(errors="replace").splitlines()[-lines:])
 
     def run(self, *command: str, timeout: float = 30.0, check: bool = True) -> subprocess.CompletedProcess:
-        """Runs a command against this master and returns it with its output as text."""
+        """Runs a command on this master and returns it with its output as text."""
         return subprocess.run(
             command,
             env=self.environment,
@@ -90,7 +90,7 @@ class Session:
         )
 
     def wait_for_master(self, timeout: float = 60.0) -> None:
-        """Until the master accepts connections."""
+        """Waits until the master accepts connections."""
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
             self.check()
@@ -101,7 +101,7 @@ class Session:
         raise SessionError(f"The ROS master did not come up on port {self.port} within {timeout} s.")
 
     def stop(self, timeout: float = 20.0) -> None:
-        """Interrupts the launch as Ctrl-C would, then ends what is left of its process group."""
+        """Interrupts the launch as Ctrl-C does, then ends the rest of its process group."""
         if self._process is None:
             return
         if self._process.poll() is None:
@@ -118,14 +118,14 @@ class Session:
         self._process.wait()
 
     def _leftovers(self) -> list[int]:
-        """Processes that still belong to this master (nodes have process groups of their own)."""
+        """Processes that still belong to this master (nodes have their own process groups)."""
         mark = f"ROS_MASTER_URI=http://localhost:{self.port}".encode()
         found = []
         for entry in Path("/proc").iterdir():
             if not entry.name.isdigit() or int(entry.name) == os.getpid():
                 continue
             try:
-                # roslaunch gives its nodes the address with a slash at its end.
+                # roslaunch gives its nodes the address with a final slash.
                 lines = (entry / "environ").read_bytes().split(b"\0")
                 if any(line.rstrip(b"/") == mark for line in lines):
                     found.append(int(entry.name))

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Puts robots (URDF) and objects (SDF, MJCF) into the running simulation, by spawn_model's arguments."""
+"""Spawns robots (URDF) and objects (SDF, MJCF) in the running simulation, with spawn_model's arguments."""
 
 import argparse
 import math
@@ -25,7 +25,7 @@ from franka_sim_mujoco.srv import (
 
 
 class SpawnError(Exception):
-    """What the user should read."""
+    """An error message for the user."""
 
 
 def parse(name, arguments):
@@ -83,7 +83,7 @@ def read_description(options):
 
 
 def kind_of(options, text):
-    """ "urdf", "sdf" or "mjcf": as the options say, else by the root element."""
+    """ "urdf", "sdf" or "mjcf": from the options, else from the root element."""
     for kind in ("urdf", "sdf", "mjcf"):
         if getattr(options, kind):
             return kind
@@ -109,7 +109,7 @@ def read_joints(pairs):
 
 
 def orientation_of(roll, pitch, yaw):
-    """Quaternion of turns about the fixed axes x, y, z, in this order, as in a URDF."""
+    """Quaternion of rotations about the fixed axes x, y, z, in this order, as in a URDF."""
     (cr, sr), (cp, sp), (cy, sy) = [(math.cos(a / 2), math.sin(a / 2)) for a in (roll, pitch, yaw)]
     return Quaternion(
         x=sr * cp * cy - cr * sp * sy,
@@ -120,7 +120,7 @@ def orientation_of(roll, pitch, yaw):
 
 
 def multiply(a, b):
-    """The turn b, then the turn a."""
+    """The rotation b, then the rotation a."""
     return Quaternion(
         w=a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
         x=a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -130,7 +130,7 @@ def multiply(a, b):
 
 
 def compose(base, pose):
-    """The pose, given in the frame `base`, in the frame that base is given in."""
+    """Transforms a pose from the frame `base` into the frame of base's own pose."""
     q, p = base.orientation, pose.position
     turned = multiply(multiply(q, Quaternion(x=p.x, y=p.y, z=p.z, w=0)), Quaternion(-q.x, -q.y, -q.z, q.w))
     result = Pose(orientation=multiply(q, pose.orientation))
@@ -205,14 +205,14 @@ def spawn(options):
 
 
 def stay(options, is_robot):
-    """Until the node ends; then the model goes too."""
+    """Waits until the node exits; then deletes the model."""
 
     def remove():
         name, kind = ("delete_robot", DeleteRobot) if is_robot else ("delete_object", DeleteObject)
         try:
             rospy.ServiceProxy(options.gazebo_namespace + "/" + name, kind)(options.model)
         except (rospy.ServiceException, rospy.ROSException):
-            pass  # the simulation went first
+            pass  # the simulation exited first
 
     rospy.on_shutdown(remove)
     rospy.spin()
@@ -221,7 +221,7 @@ def stay(options, is_robot):
 def run(name, arguments):
     """A program's main: @returns its exit status."""
     options = parse(name, rospy.myargv(arguments)[1:])
-    # Without ROS time: waiting goes by the wall clock, and the simulation may be paused.
+    # Without ROS time: waits use wall time, because the simulation may be paused.
     rospy.init_node(name, anonymous=True, disable_rostime=True)
     try:
         spawn(options)

@@ -8,11 +8,11 @@
 #include <memory>
 
 /// @file
-/// What all motions driven by the program share.
+/// Common base of motions driven by the program.
 
 namespace franka {
 
-/// Reading, and the refusal of every form of command; each kind of motion allows its own.
+/// Reads states and refuses all forms of command; each kind of motion allows its own form.
 class ActiveControl : public ActiveControlBase {
  public:
   /// Stops the robot unless the motion has ended. Never throws; takes at most as long as
@@ -35,7 +35,7 @@ class ActiveControl : public ActiveControlBase {
   void writeOnce(const CartesianVelocities& motion_generator_input) override;
 
  protected:
-  /// The motion on the robot: shares the connection, so that it outlives the Robot.
+  /// The motion on the robot. Shares the connection, so that it may outlive the Robot.
   class Motion;
   explicit ActiveControl(std::unique_ptr<Motion> motion);
 

@@ -22,11 +22,11 @@ namespace franka {
 ///     motion->writeOnce(torques);
 ///   }
 ///
-/// Commands go out as they are given: nothing is filtered or rate limited. A command whose
-/// `motion_finished` is set ends the motion; destroying the object earlier stops the robot. Until
-/// then the Robot is busy: other motions and reads throw InvalidOperationException. To be used from
-/// one thread at a time; readOnce and writeOnce neither allocate nor lock while the motion runs.
-/// A robot of which no state arrives for a second ends readOnce with a NetworkException.
+/// Commands are sent unchanged: no filter, no rate limiter. A command with `motion_finished` set
+/// ends the motion; destroying the object earlier stops the robot. Until then the Robot is busy:
+/// other motions and reads throw InvalidOperationException. Use from one thread at a time; readOnce
+/// and writeOnce neither allocate nor lock while the motion runs. Without a state for a second
+/// readOnce throws a NetworkException.
 class ActiveControlBase {
  public:
   virtual ~ActiveControlBase() = default;
@@ -39,8 +39,8 @@ class ActiveControlBase {
   /// @throws NetworkException if the connection is lost.
   virtual std::pair<RobotState, Duration> readOnce() = 0;
 
-  /// Answers the last state; which form fits depends on how the motion was started, the others
-  /// throw ControlException.
+  /// Answers the last state. The form must match the start of the motion; other forms throw
+  /// ControlException.
   /// @param control_input torques [Nm].
   /// @throws ControlException if the motion was aborted or has ended.
   /// @throws NetworkException if the connection is lost.

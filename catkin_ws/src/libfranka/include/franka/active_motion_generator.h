@@ -12,7 +12,7 @@
 namespace franka {
 
 /// A motion that is commanded by joint or Cartesian values; started by
-/// Robot::startJointPositionControl and its relatives. Torques are to be given exactly when the
+/// Robot::startJointPositionControl and similar functions. Torques must be given if and only if the
 /// motion was started with the external controller.
 /// @tparam MotionGeneratorType JointPositions, JointVelocities, CartesianPose or
 /// CartesianVelocities.

@@ -6,7 +6,7 @@
 #include <string>
 
 /// @file
-/// Checks that commands must pass, and the realtime set-up of a control thread.
+/// Checks of commands, and the realtime set-up of a control thread.
 
 namespace franka {
 
@@ -14,16 +14,16 @@ namespace franka {
 /// @param elbow position of joint 3 [rad] and sign of joint 4.
 bool isValidElbow(const std::array<double, 2>& elbow) noexcept;
 
-/// Whether a 4x4 column-major matrix looks like a homogeneous transformation: bottom row exactly
-/// (0, 0, 0, 1), every row and column of the rotation of length 1 within 1e-5. Orthogonality is not
-/// asked, as the robot's client does not. Safe in the 1 kHz loop.
+/// Whether a 4x4 column-major matrix is a homogeneous transformation: bottom row exactly (0, 0, 0,
+/// 1), every row and column of the rotation of length 1 within 1e-5. Orthogonality is not checked,
+/// as in the genuine client. Safe in the 1 kHz loop.
 bool isHomogeneousTransformation(const std::array<double, 16>& transform) noexcept;
 
-/// Whether the running kernel says that it is a realtime kernel (PREEMPT_RT).
+/// Whether the running kernel reports that it is a realtime kernel (PREEMPT_RT).
 bool hasRealtimeKernel();
 
 /// Gives the calling thread the highest priority of the realtime scheduler SCHED_FIFO.
-/// @param error_message where to say why it failed; may be null.
+/// @param error_message receives the reason of a failure; may be null.
 /// @returns false on failure.
 bool setCurrentThreadToHighestSchedulerPriority(std::string* error_message);
 

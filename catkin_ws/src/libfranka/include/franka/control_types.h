@@ -17,10 +17,10 @@ enum class ControllerMode {
   kCartesianImpedance  ///< springs between O_T_EE and O_T_EE_d
 };
 
-/// What to do when the calling thread cannot be given realtime priority.
+/// Policy if the calling thread cannot get realtime priority.
 enum class RealtimeConfig {
   kEnforce,  ///< refuse to control the robot (simulated ones: see Robot)
-  kIgnore    ///< go on without
+  kIgnore    ///< continue without
 };
 
 /// Base of every command: says whether the motion ends with it.
@@ -63,7 +63,7 @@ class JointVelocities : public Finishable {
   std::array<double, 7> dq{};  ///< desired velocities [rad/s]
 };
 
-/// Pose of the end effector in O, with the elbow where asked for.
+/// Pose of the end effector in O, optionally with the elbow.
 class CartesianPose : public Finishable {
  public:
   /// @param cartesian_pose O_T_EE_c, 4x4 column-major.
@@ -85,7 +85,7 @@ class CartesianPose : public Finishable {
   bool hasElbow() const noexcept;
 };
 
-/// Twist of the end effector in O, with the elbow where asked for.
+/// Twist of the end effector in O, optionally with the elbow.
 class CartesianVelocities : public Finishable {
  public:
   /// @param cartesian_velocities O_dP_EE_c: linear [m/s], then angular [rad/s].

@@ -22,7 +22,7 @@ class Duration {
   constexpr Duration() noexcept = default;
   /// @param milliseconds length [ms].
   constexpr explicit Duration(uint64_t milliseconds) noexcept : duration_{milliseconds} {}
-  /// @param duration length as std::chrono counts it.
+  /// @param duration length as a std::chrono duration.
   constexpr Duration(std::chrono::duration<uint64_t, std::milli> duration) noexcept
       : duration_{duration} {}
   constexpr Duration(const Duration&) noexcept = default;
@@ -46,12 +46,12 @@ class Duration {
     return Duration{toMSec() - rhs.toMSec()};
   }
   constexpr Duration operator*(uint64_t rhs) const noexcept { return Duration{toMSec() * rhs}; }
-  /// How often rhs fits whole into this duration.
+  /// Integer quotient of both durations.
   constexpr uint64_t operator/(const Duration& rhs) const noexcept {
     return toMSec() / rhs.toMSec();
   }
   constexpr Duration operator/(uint64_t rhs) const noexcept { return Duration{toMSec() / rhs}; }
-  /// What remains after taking out rhs as often as it fits.
+  /// Remainder of the integer division by rhs.
   constexpr Duration operator%(const Duration& rhs) const noexcept {
     return Duration{toMSec() % rhs.toMSec()};
   }

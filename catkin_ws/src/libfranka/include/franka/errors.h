@@ -13,8 +13,8 @@ namespace franka {
 
 /// The set of errors that are active in a state.
 ///
-/// Each error is a read-only flag with a name of its own. Copying, assigning and reading neither
-/// allocate nor throw; turning the set into text does allocate and belongs outside the 1 kHz loop.
+/// Each error is a named read-only flag. Copying, assigning and reading neither allocate nor throw;
+/// conversion to text allocates and must not run in the 1 kHz loop.
 struct Errors {
   /// No error.
   Errors();

@@ -57,7 +57,7 @@ struct CommandException : public Exception {
   using Exception::Exception;
 };
 
-/// The thread could not be given realtime priority, or the kernel has none to give.
+/// The thread could not get realtime priority, or the kernel does not support it.
 struct RealtimeException : public Exception {
   using Exception::Exception;
 };

@@ -5,10 +5,10 @@
 #include <chrono>
 
 /// @file
-/// What this library offers beyond the vendor's interface. Programs that stay away from this header
-/// and from Robot::setControlOptions compile against either library.
+/// Additions to the vendor's interface. Programs without this header and Robot::setControlOptions
+/// compile against either library.
 ///
-/// Besides: an address may name a port, `"192.168.0.1:1337"`, for robots behind a relay and
+/// Also, an address may include a port, `"192.168.0.1:1337"`, for robots behind a relay and
 /// simulated ones; without it the protocol's own port is used.
 
 namespace franka {
@@ -19,14 +19,14 @@ enum class CallbackOrder {
   kControlFirst  ///< libfranka from 0.18
 };
 
-/// What the first value of a JointPositions or CartesianPose motion is filtered and limited
-/// against.
+/// The reference against which the first value of a JointPositions or CartesianPose motion is
+/// filtered and limited.
 enum class FirstCycleReference {
   kRobotState,  ///< q_d, O_T_EE_c of the state: libfranka up to 0.14; the default
-  kCommand      ///< the value itself, which thus passes unchanged: libfranka from 0.15
+  kCommand      ///< the value itself, which then passes unchanged: libfranka from 0.15
 };
 
-/// Where versions of libfranka differ in what a control loop does. The defaults are those of 0.9.2.
+/// Differences between versions of libfranka in the control loop. The defaults are those of 0.9.2.
 /// (The third difference, `limit_rate`, true up to 0.9 and false since, is an argument of
 /// Robot::control.)
 struct ControlOptions {
@@ -34,30 +34,28 @@ struct ControlOptions {
   FirstCycleReference first_cycle_reference = FirstCycleReference::kRobotState;
 };
 
-/// How long a Robot waits before it gives up with a NetworkException. Each must be positive.
+/// Timeouts of a Robot, after which it throws a NetworkException. Each must be positive.
 struct Timeouts {
-  /// To connect: all attempts together, and again for the first state and the description.
+  /// For connecting: all attempts together, and again for the first state and the description.
   std::chrono::milliseconds connect{5000};
-  /// For the next state, while one is waited for. Not counted: time in which this process does not
-  /// run, and time in which a simulated robot in lock-step shows that it waits for another client.
-  /// In a motion of a robot whose clock is not this machine's (a simulated one that waits for its
-  /// client), `silence` holds instead: a busy machine may hold it up. A connection that closes
-  /// ends every wait.
+  /// For the next state. Not counted: time in which this process does not run, and time in which a
+  /// simulated robot in lock-step shows that it waits for another client. In a motion of a robot
+  /// whose clock is not this machine's (a simulated one that waits for its client), `silence`
+  /// applies instead, because load may delay it. A closed connection ends every wait.
   std::chrono::milliseconds state{1000};
-  /// For the answer to a command.
+  /// For the reply to a command.
   std::chrono::milliseconds command{10000};
-  /// For the answer to a command that may take the robot long: recovery, stop, the end of a motion,
-  /// the download of a model. States must go on arriving meanwhile, at the latest every
-  /// `silence`.
+  /// For the reply to a command that may take long: recovery, stop, the end of a motion, the
+  /// download of a model. Meanwhile states must arrive at least every `silence`.
   std::chrono::milliseconds long_command{60000};
-  /// Without a state for so long a robot counts as gone while the answer to a command is awaited.
+  /// A robot without a state for this time counts as lost while the reply to a command is awaited.
   std::chrono::milliseconds silence{5000};
 };
 
-/// The timeouts of the Robots constructed from now on in this process. Any thread.
+/// Sets the timeouts of all Robots constructed later in this process. Any thread.
 /// @throws std::invalid_argument for one that is not positive.
 void setTimeouts(const Timeouts& timeouts);
-/// What setTimeouts set, or the defaults. Any thread.
+/// The values of setTimeouts, or the defaults. Any thread.
 Timeouts timeouts();
 
 }  // namespace franka

@@ -13,22 +13,22 @@
 
 namespace franka {
 
-/// Name of a class that the vendor's header declares; this library has none.
+/// Declared in the vendor's header too; not defined in this library.
 class Network;
 
 /// A connection to the Franka Hand of a robot.
 ///
-/// Commands wait for their end, at most 60 s (a NetworkException tells then that the hand has not
-/// answered). All functions may be called from several threads: `stop` from another thread ends the
-/// command that waits, which then throws. Not for the 1 kHz loop.
+/// Commands wait for their end, at most 60 s (then a NetworkException reports that the hand has not
+/// answered). All functions may be called from several threads: `stop` from another thread ends a
+/// waiting command, which then throws. Not for the 1 kHz loop.
 class Gripper {
  public:
   /// Version of the protocol.
   using ServerVersion = uint16_t;
 
-  /// Connects: offers the newest protocol and steps down to the hand's.
-  /// @param franka_address of the robot that the hand is mounted on: address or name, maybe with a
-  /// port (`host:port`).
+  /// Connects: offers the newest protocol, then the hand's.
+  /// @param franka_address of the robot with the hand: address or name, optionally with a port
+  /// (`host:port`).
   /// @throws NetworkException if the connection cannot be made within 5 s.
   /// @throws IncompatibleVersionException if the hand speaks none of this library's protocols.
   explicit Gripper(const std::string& franka_address);
@@ -36,7 +36,7 @@ class Gripper {
   Gripper& operator=(Gripper&& gripper) noexcept;
   ~Gripper() noexcept;
 
-  /// Finds out how far the fingers open. To be done after they were changed.
+  /// Measures the maximum opening of the fingers. Required after a change of fingers.
   /// @returns whether it succeeded.
   /// @throws CommandException if it failed or was stopped. @throws NetworkException if the
   /// connection is lost.
@@ -54,7 +54,7 @@ class Gripper {
   /// @returns whether they arrived. @throws as homing.
   bool move(double width, double speed) const;
 
-  /// Ends what the hand is doing. @returns whether it succeeded. @throws as homing.
+  /// Ends the running command. @returns whether it succeeded. @throws as homing.
   bool stop() const;
 
   /// Waits for the next state, up to a second.

@@ -12,20 +12,20 @@
 
 namespace franka {
 
-/// The joint velocity limits that a robot's description (URDF) states, without a connection to the
-/// robot. Each is franka::kLimitEps smaller than the robot's own, as in Robot's functions of the
-/// same names. Any thread may read a constant object.
+/// The joint velocity limits in a robot's description (URDF), without a connection to the robot.
+/// Each is franka::kLimitEps smaller than the robot's own, as in Robot's functions of the same
+/// names. Any thread may read a constant object.
 class JointVelocityLimitsConfig {
  public:
-  /// Allows no velocity until a description is read.
+  /// Allows no velocity until a description has been read.
   JointVelocityLimitsConfig() = default;
   /// @copydoc parseFromURDF
   explicit JointVelocityLimitsConfig(const std::string& urdf);
 
   /// Reads, for each of joint1 to joint7 (with or without a prefix), `<limit lower upper velocity>`
   /// and `<position_based_velocity_limits velocity_offset deceleration_limit>`. Not real-time safe.
-  /// @throws std::runtime_error if one of them is missing or no number; the object then keeps what
-  /// it had.
+  /// @throws std::runtime_error if one of them is missing or not a number; the object then stays
+  /// unchanged.
   void parseFromURDF(const std::string& urdf);
 
   /// Highest velocities at q [rad/s]. Real-time safe.

@@ -9,11 +9,11 @@
 #include <vector>
 
 /// @file
-/// What is kept of the last milliseconds of a motion.
+/// The log of the last milliseconds of a motion.
 
 namespace franka {
 
-/// The command sent for a state. What a motion does not use stays zero.
+/// The command sent for a state. Unused values are zero.
 struct RobotCommand {
   JointPositions joint_positions{std::array<double, 7>{}};            ///< [rad]
   JointVelocities joint_velocities{std::array<double, 7>{}};          ///< [rad/s]

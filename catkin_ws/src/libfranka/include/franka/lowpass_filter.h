@@ -20,7 +20,7 @@ constexpr double kDefaultCutoffFrequency = 100.0;  ///< the control loops' defau
 /// positive and finite, or a value that is not finite.
 double lowpassFilter(double sample_time, double y, double y_last, double cutoff_frequency);
 
-/// One step for a pose: the translation as above, the rotation along the shortest way.
+/// One step for a pose: the translation as above, the rotation along the shortest arc.
 /// @param sample_time T [s]. @param y new pose, 4x4 column-major. @param y_last pose of the cycle
 /// before.
 /// @param cutoff_frequency f [Hz].

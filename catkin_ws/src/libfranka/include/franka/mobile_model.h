@@ -8,8 +8,8 @@
 #include <string>
 
 /// @file
-/// Kinematics of a mobile base with two drive modules, from its description (URDF). No robot that
-/// this library knows serves one: an arm's description is refused.
+/// Kinematics of a mobile base with two drive modules, from its description (URDF). An arm's
+/// description is refused; no robot that this library supports sends one of a mobile base.
 
 namespace franka {
 
@@ -31,11 +31,11 @@ struct MobileJointPositions {
 /// real-time safe. Thread-safe.
 bool isMobileRobotUrdf(const std::string& urdf);
 
-/// Where a mobile base's drive modules are. Any thread may call the functions of one object.
+/// Poses of a mobile base's drive modules. Any thread may call the functions of one object.
 class MobileModel {
  public:
-  /// @param urdf the description, as Robot::getRobotModel gives it. Not real-time safe.
-  /// @throws ModelException if it is not of a mobile base, or lacks a joint.
+  /// @param urdf the description from Robot::getRobotModel. Not real-time safe.
+  /// @throws ModelException if it is not that of a mobile base, or lacks a joint.
   explicit MobileModel(const std::string& urdf);
   MobileModel(MobileModel&& other) noexcept;
   MobileModel& operator=(MobileModel&& other) noexcept;
@@ -43,7 +43,7 @@ class MobileModel {
 
   /// Pose of a drive module in the description's root frame, 4x4 column-major. Further movable
   /// joints of the description count as 0. Real-time safe.
-  /// @throws std::invalid_argument for a value that is no frame.
+  /// @throws std::invalid_argument for an invalid frame.
   std::array<double, 16> pose(MobileFrame frame, const MobileJointPositions& q) const;
 
   MobileModel(const MobileModel&) = delete;

@@ -28,8 +28,8 @@ enum class Frame {
   kStiffness
 };
 
-/// Steps to the next frame and returns the one before the step, for loops over all frames:
-/// `for (Frame f = Frame::kJoint1; f <= Frame::kStiffness; f++)`. The value after kStiffness is no
+/// Increments to the next frame and returns the previous value, for loops over all frames: `for
+/// (Frame f = Frame::kJoint1; f <= Frame::kStiffness; f++)`. The value after kStiffness is no valid
 /// frame.
 Frame operator++(Frame& frame, int /* postfix */) noexcept;
 
@@ -47,21 +47,21 @@ class Model {
   /// @name Without a robot (not in the vendor's library)
   /// @{
 
-  /// The arm of a URDF text with inertials. @param arm_id prefix of its links; empty: the one arm
-  /// there is. @throws ModelException with a sentence if there is none.
+  /// The arm of a URDF text with inertials. @param arm_id prefix of its links; empty: the only arm
+  /// in the text. @throws ModelException with a sentence if there is none.
   static Model fromUrdf(const std::string& urdf, const std::string& arm_id = "");
   /// The same from a file. @throws ModelException also if it cannot be read.
   static Model fromUrdfFile(const std::string& path, const std::string& arm_id = "");
   /// @}
 
-  /// The arm of a description (URDF) that a robot has sent: as fromUrdf, in the words of libfranka
+  /// The arm of a description (URDF) from a robot: like fromUrdf, with the signature of libfranka
   /// 0.14 and later.
   explicit Model(const std::string& urdf);
   Model(Model&& model) noexcept;
   Model& operator=(Model&& model) noexcept;
   ~Model() noexcept;
 
-  /// Pose of a frame in O. @throws std::invalid_argument for a value that is no frame.
+  /// Pose of a frame in O. @throws std::invalid_argument for an invalid frame.
   std::array<double, 16> pose(Frame frame, const RobotState& robot_state) const;
   /// @copydoc pose(Frame, const RobotState&) const
   std::array<double, 16> pose(Frame frame, const std::array<double, 7>& q,
@@ -93,13 +93,13 @@ class Model {
   std::array<double, 7> coriolis(const std::array<double, 7>& q, const std::array<double, 7>& dq,
                                  const std::array<double, 9>& I_total, double m_total,
                                  const std::array<double, 3>& F_x_Ctotal) const noexcept;
-  /// The same: gravity, in the words of libfranka 0.14 and later, has no part in it.
+  /// The same with the signature of libfranka 0.14 and later; gravity has no effect.
   std::array<double, 7> coriolis(const std::array<double, 7>& q, const std::array<double, 7>& dq,
                                  const std::array<double, 9>& I_total, double m_total,
                                  const std::array<double, 3>& F_x_Ctotal,
                                  const std::array<double, 3>& gravity_earth) const noexcept;
 
-  /// Gravity torques: what holds the arm [Nm]. @param gravity_earth in O [m/s^2]
+  /// Gravity torques: those that hold the arm [Nm]. @param gravity_earth in O [m/s^2]
   std::array<double, 7> gravity(const std::array<double, 7>& q, double m_total,
                                 const std::array<double, 3>& F_x_Ctotal,
                                 const std::array<double, 3>& gravity_earth = {
@@ -112,7 +112,7 @@ class Model {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
-  /// Where the answers come from. Not for programs: the library's own.
+  /// Source of the results. Internal to the library.
   class Source;
   explicit Model(std::unique_ptr<Source> source);
 

@@ -9,10 +9,10 @@
 #include <cstddef>
 
 /// @file
-/// Limits of the Panda (FER) as the robot's client keeps them, and the functions that keep commands
-/// within them. The constants are a margin smaller than the robot's own limits, so that a command
-/// that reaches them is accepted also after lost packets. The functions are pure, allocation-free
-/// and may run in the 1 kHz loop on any thread; they throw only where said.
+/// Limits of the Panda (FER) as used by its client, and functions that keep commands within them.
+/// The constants are smaller than the robot's own limits by a margin, so that a command at the
+/// limit is accepted also after lost packets. The functions are pure, allocation-free and may run
+/// in the 1 kHz loop on any thread; exceptions are documented.
 
 namespace franka {
 
@@ -25,7 +25,7 @@ constexpr double kFactorCartesianRotationPoseInterface =
 
 namespace rate_limiting_detail {
 constexpr double withMargin(double limit) { return limit - kLimitEps; }
-/// Velocity margin: what the acceleration adds while packets are lost.
+/// Velocity margin: the change by the acceleration while packets are lost.
 constexpr double withMargin(double velocity, double acceleration) {
   return velocity - kLimitEps - kTolNumberPacketsLost * kDeltaT * withMargin(acceleration);
 }
@@ -46,7 +46,7 @@ constexpr std::array<double, 7> withMargin(const std::array<double, 7>& velociti
 }
 inline constexpr const franka_core::ArmLimits& kFer = franka_core::kFerLimits;
 
-/// The limits of an FR3 at q [rad], each kLimitEps smaller: it tolerates no lost packets on top.
+/// The limits of an FR3 at q [rad], each kLimitEps smaller: without a margin for lost packets.
 inline std::array<double, 7> upperJointVelocities(const franka_core::PositionVelocityLimits& limits,
                                                   const std::array<double, 7>& q) noexcept {
   std::array<double, 7> velocities{};
@@ -110,7 +110,7 @@ constexpr double kMaxElbowVelocity = rate_limiting_detail::withMargin(
 constexpr double kMinElbowVelocity = -kMaxElbowVelocity;
 
 /// Highest velocity of each joint of an FR3 at q [rad/s], by the published table (systems before
-/// 5.9). Robot::getUpperJointVelocityLimits knows the limits of the robot that is connected.
+/// 5.9). Robot::getUpperJointVelocityLimits returns the limits of the connected robot.
 /// Real-time safe.
 /// @param q joint positions [rad].
 inline std::array<double, 7> computeUpperLimitsJointVelocity(
@@ -125,40 +125,40 @@ inline std::array<double, 7> computeLowerLimitsJointVelocity(
 
 /// Limits the rate of seven values.
 /// @param max_derivatives largest change per second of each value.
-/// @param commanded_values wanted values. @param last_commanded_values values of the cycle before.
-/// @throws std::invalid_argument if a wanted value is not finite.
+/// @param commanded_values desired values. @param last_commanded_values values of the cycle before.
+/// @throws std::invalid_argument if a desired value is not finite.
 std::array<double, 7> limitRate(const std::array<double, 7>& max_derivatives,
                                 const std::array<double, 7>& commanded_values,
                                 const std::array<double, 7>& last_commanded_values);
 
 /// Limits a velocity and its two derivatives.
 /// @param max_velocity, max_acceleration, max_jerk limits of one joint [rad/s, rad/s^2, rad/s^3].
-/// @param commanded_velocity wanted velocity [rad/s].
+/// @param commanded_velocity desired velocity [rad/s].
 /// @param last_commanded_velocity, last_commanded_acceleration values of the cycle before.
-/// @throws std::invalid_argument if the wanted velocity is not finite.
+/// @throws std::invalid_argument if the desired velocity is not finite.
 double limitRate(double max_velocity, double max_acceleration, double max_jerk,
                  double commanded_velocity, double last_commanded_velocity,
                  double last_commanded_acceleration);
 
 /// Limits a position and its three derivatives; arguments as for the velocity, positions in [rad].
 ///
-/// libfranka 0.11 and later have a function of the same seven arguments that limits a velocity:
+/// libfranka 0.11 and later have a function with the same seven arguments that limits a velocity:
 /// (upper_velocity, lower_velocity, max_acceleration, max_jerk, commanded_velocity,
-/// last_commanded_velocity, last_commanded_acceleration). A second argument of at most kLimitEps is
-/// no acceleration limit, so it counts as a lower velocity limit and the call as one of that
-/// function. So that programs for either release mean what they say.
-/// @throws std::invalid_argument if the wanted value is not finite.
+/// last_commanded_velocity, last_commanded_acceleration). A second argument of at most kLimitEps
+/// cannot be an acceleration limit, so it is treated as a lower velocity limit and the call as one
+/// of that function. Programs for either release thus work.
+/// @throws std::invalid_argument if the desired value is not finite.
 double limitRate(double max_velocity, double max_acceleration, double max_jerk,
                  double commanded_position, double last_commanded_position,
                  double last_commanded_velocity, double last_commanded_acceleration);
 
 /// Limits a position, between a lower and an upper limit of its velocity [rad/s] (libfranka 0.11
-/// and later). @throws std::invalid_argument if the wanted position is not finite.
+/// and later). @throws std::invalid_argument if the desired position is not finite.
 double limitRate(double upper_velocity, double lower_velocity, double max_acceleration,
                  double max_jerk, double commanded_position, double last_commanded_position,
                  double last_commanded_velocity, double last_commanded_acceleration);
 
-/// The velocity version for seven joints. @throws std::invalid_argument if a wanted value is not
+/// The velocity version for seven joints. @throws std::invalid_argument if a desired value is not
 /// finite.
 std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
                                 const std::array<double, 7>& max_acceleration,
@@ -171,7 +171,7 @@ std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
 /// kLimitEps, the velocity version of libfranka 0.11 and later (see the version for one joint):
 /// (upper_velocity, lower_velocity, max_acceleration, max_jerk, commanded_velocities,
 /// last_commanded_velocities, last_commanded_accelerations).
-/// @throws std::invalid_argument if a wanted value is not finite.
+/// @throws std::invalid_argument if a desired value is not finite.
 std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
                                 const std::array<double, 7>& max_acceleration,
                                 const std::array<double, 7>& max_jerk,
@@ -181,7 +181,7 @@ std::array<double, 7> limitRate(const std::array<double, 7>& max_velocity,
                                 const std::array<double, 7>& last_commanded_accelerations);
 
 /// The position version between lower and upper velocity limits for seven joints.
-/// @throws std::invalid_argument if a wanted value is not finite.
+/// @throws std::invalid_argument if a desired value is not finite.
 std::array<double, 7> limitRate(const std::array<double, 7>& upper_velocity,
                                 const std::array<double, 7>& lower_velocity,
                                 const std::array<double, 7>& max_acceleration,
@@ -192,9 +192,9 @@ std::array<double, 7> limitRate(const std::array<double, 7>& upper_velocity,
                                 const std::array<double, 7>& last_commanded_accelerations);
 
 /// Limits a twist: the norms of its linear and of its angular part, each with two derivatives.
-/// @param O_dP_EE_c wanted twist in O [m/s, rad/s].
+/// @param O_dP_EE_c desired twist in O [m/s, rad/s].
 /// @param last_O_dP_EE_c, last_O_ddP_EE_c twist and acceleration of the cycle before, in O.
-/// @throws std::invalid_argument if a wanted value is not finite.
+/// @throws std::invalid_argument if a desired value is not finite.
 std::array<double, 6> limitRate(double max_translational_velocity,
                                 double max_translational_acceleration,
                                 double max_translational_jerk, double max_rotational_velocity,
@@ -205,9 +205,10 @@ std::array<double, 6> limitRate(double max_translational_velocity,
 
 /// Limits a pose: the twist that leads to it from the last pose, with two derivatives. For the
 /// rotation 99 % of the limits are used.
-/// @param O_T_EE_c wanted pose in O, 4x4 column-major.
+/// @param O_T_EE_c desired pose in O, 4x4 column-major.
 /// @param last_O_T_EE_c, last_O_dP_EE_c, last_O_ddP_EE_c values of the cycle before, in O.
-/// @throws std::invalid_argument if the wanted pose is not finite or no homogeneous transformation.
+/// @throws std::invalid_argument if the desired pose is not finite or no homogeneous
+/// transformation.
 std::array<double, 16> limitRate(double max_translational_velocity,
                                  double max_translational_acceleration,
                                  double max_translational_jerk, double max_rotational_velocity,

@@ -29,9 +29,8 @@ class Model;
 
 /// A connection to one robot: its state once a millisecond, its settings, and its motions.
 ///
-/// **Robots.** One library talks to the Panda (FER, protocol 3 to 5) and the FR3 (6 to 10): it
-/// offers the newest protocol and steps down to the robot's (serverVersion). Limits follow the
-/// robot that was found.
+/// **Robots.** One library for the Panda (FER, protocol 3 to 5) and the FR3 (6 to 10): it offers
+/// the newest protocol, then the robot's (serverVersion). Limits are those of the connected robot.
 ///
 /// **Frames.** O base, F flange, NE nominal end effector, EE end effector, K stiffness frame. A
 /// pose A_T_B (4x4 column-major) is that of B in A. Units: m, rad, s, kg, N, Nm.
@@ -42,19 +41,18 @@ class Model;
 /// thread that called control or read.
 ///
 /// **Real time.** The loop inside control allocates nothing, takes no lock and writes no log. A
-/// thread that calls control or start...Control is given the highest priority of SCHED_FIFO and,
-/// with RealtimeConfig::kEnforce, memory is locked as far as allowed. A robot on a loopback address
-/// counts as simulated: where the kernel has no real-time support, kEnforce is a warning there (see
+/// thread that calls control or start...Control gets the highest priority of SCHED_FIFO and, with
+/// RealtimeConfig::kEnforce, memory is locked as far as allowed. A robot on a loopback address
+/// counts as simulated: on a kernel without real-time support, kEnforce is only a warning then (see
 /// franka_core/realtime_rule.h).
 ///
 /// **Time.** No call waits for ever. Unless franka/extensions.h sets other bounds: connecting takes
-/// at most 5 s; a motion or read is given up with a NetworkException when no state arrives for 1 s,
-/// a command when its answer does not come within 10 s, or, where it may take the robot long
-/// (automaticErrorRecovery, stop, the end of a motion, the download of a model), within 60 s or
-/// with no state arriving for 5 s.
+/// at most 5 s; a motion or read throws a NetworkException if no state arrives for 1 s; a command
+/// if its reply does not arrive within 10 s or, where it may take long (automaticErrorRecovery,
+/// stop, the end of a motion, the download of a model), within 60 s or if no state arrives for 5 s.
 ///
-/// Every member function may throw NetworkException when the connection is lost, and
-/// ProtocolException when the robot answers what the protocol does not allow.
+/// Every member function may throw NetworkException if the connection is lost, and
+/// ProtocolException if the robot's messages violate the protocol.
 class Robot {
  public:
   /// Connects.
@@ -76,17 +74,17 @@ class Robot {
 
   /// @name Motions
   /// Each call blocks until the motion ends. Callbacks get the newest state and the time since the
-  /// state before (0 at first, 1 ms when nothing is lost), and return the command for it; the one
-  /// marked by MotionFinished ends the motion. Commands are low-pass filtered
-  /// (`cutoff_frequency` [Hz]; kMaxCutoffFrequency switches it off), then kept within the limits of
-  /// the robot (`limit_rate`). With two callbacks the motion's comes first (see setControlOptions).
+  /// state before (0 at first, 1 ms without losses), and return the command for it; the one marked
+  /// by MotionFinished ends the motion. Commands are low-pass filtered (`cutoff_frequency` [Hz];
+  /// kMaxCutoffFrequency switches it off), then kept within the limits of the robot (`limit_rate`).
+  /// With two callbacks the motion's comes first (see setControlOptions).
   /// @throws ControlException if the motion is aborted; it holds the log.
   /// @throws CommandException if the robot does not start the motion.
   /// @throws InvalidOperationException if another motion or read runs.
-  /// @throws RealtimeException if realtime priority is enforced and cannot be had.
+  /// @throws RealtimeException if realtime priority is enforced and not available.
   /// @throws std::invalid_argument if a commanded value is not finite, a matrix no transformation,
   /// or an elbow's sign neither +1 nor -1.
-  /// Whatever a callback throws stops the robot and leaves control.
+  /// An exception of a callback stops the robot and propagates to the caller.
   /// @{
   void control(std::function<Torques(const RobotState&, franka::Duration)> control_callback,
                bool limit_rate = true, double cutoff_frequency = kDefaultCutoffFrequency);
@@ -138,8 +136,8 @@ class Robot {
       const research_interface::robot::Move::ControllerMode& control_type);
   std::unique_ptr<ActiveControlBase> startCartesianVelocityControl(
       const research_interface::robot::Move::ControllerMode& control_type);
-  /// The robot plans its own way to each commanded joint position (protocol 10). Commands need not
-  /// come every millisecond.
+  /// The robot plans its own motion to each commanded joint position (protocol 10). Commands need
+  /// not come every millisecond.
   /// @param maximum_velocities seven limits of the joint velocities [rad/s].
   /// @throws CommandException if the robot's system has no such motion.
   /// @throws std::invalid_argument without seven limits, or for one that is not positive.
@@ -148,8 +146,8 @@ class Robot {
       const std::optional<std::vector<double>>& maximum_velocities);
   /// @}
 
-  /// Calls back with every new state until the callback returns false. For following the robot
-  /// while something else moves it; not from within a control callback.
+  /// Calls back with every new state until the callback returns false. For monitoring a robot that
+  /// something else moves; not from within a control callback.
   /// @throws InvalidOperationException if a motion or another read runs.
   void read(std::function<bool(const RobotState&)> read_callback);
   /// Waits for a fresh state; states that arrived before the call are dropped.
@@ -162,12 +160,12 @@ class Robot {
   /// named where it matters).
   /// @{
 
-  /// Asks for a virtual wall (protocol 3 to 5).
+  /// Reads a virtual wall (protocol 3 to 5).
   /// @param id number of the wall.
   VirtualWallCuboid getVirtualWall(int32_t id);
 
-  /// Sets from which external torque or force on the robot reports a contact (lower) and stops
-  /// (upper), while it accelerates or decelerates and else (nominal).
+  /// Sets the external torques and forces above which the robot reports a contact (lower) or stops
+  /// (upper), while it accelerates or decelerates and otherwise (nominal).
   /// @param lower_torque_thresholds_acceleration, upper_torque_thresholds_acceleration,
   /// lower_torque_thresholds_nominal, upper_torque_thresholds_nominal for each joint [Nm].
   /// @param lower_force_thresholds_acceleration, upper_force_thresholds_acceleration,
@@ -197,44 +195,44 @@ class Robot {
   void setK(const std::array<double, 16>& EE_T_K);
   /// @param NE_T_EE pose of EE in the nominal end effector frame, 4x4 column-major.
   void setEE(const std::array<double, 16>& NE_T_EE);
-  /// Tells the robot what it carries besides the end effector.
+  /// Sets the mass that the robot carries besides the end effector.
   /// @param load_mass [kg]. @param F_x_Cload centre of mass in F [m].
   /// @param load_inertia about the centre of mass, axes of F, 3x3 column-major [kg m^2].
   void setLoad(double load_mass, const std::array<double, 3>& F_x_Cload,
                const std::array<double, 9>& load_inertia);
   /// Sets the robot's own filters of commands (protocol 3 to 5), each 1 to 1000 [Hz], where 1000
-  /// means none. Deprecated: the filters of control do the same on this side.
+  /// switches it off. Deprecated: the filters of control do the same in the client.
   void setFilters(double joint_position_filter_frequency, double joint_velocity_filter_frequency,
                   double cartesian_position_filter_frequency,
                   double cartesian_velocity_filter_frequency, double controller_filter_frequency);
   /// @}
 
-  /// Clears the errors after a reflex, as far as the robot can do that without the user. Returns
-  /// when the robot has recovered.
-  /// @throws CommandException if it cannot, or was disturbed.
+  /// Clears the errors after a reflex, as far as possible without the user. Returns when the robot
+  /// has recovered.
+  /// @throws CommandException if it cannot recover, or was interrupted.
   void automaticErrorRecovery();
 
-  /// Stops whatever motion runs; its control throws ControlException. May be called from another
+  /// Stops the running motion; its control throws ControlException. May be called from another
   /// thread or from a callback's thread after control has ended.
   /// @throws CommandException if the robot refuses.
   void stop();
 
-  /// Loads the model of this arm: from the description it sends (protocol 8 to 10), else from its
-  /// model library (3 to 9).
+  /// Loads the model of this arm: from its description (protocol 8 to 10), else from its model
+  /// library (3 to 9).
   /// @throws ModelException if it cannot be loaded, CommandException if the robot refuses.
   Model loadModel();
 
-  /// Whether the robot is a mobile base (see franka/mobile_model.h): one of protocol 10 whose
-  /// description says so. Real-time safe.
+  /// Whether the robot is a mobile base (see franka/mobile_model.h): one of protocol 10 with such a
+  /// description. Real-time safe.
   bool isMobileRobot() const noexcept;
 
-  /// The robot's description (URDF) as it sends it (protocol 8 to 10).
+  /// The robot's description (URDF), unchanged (protocol 8 to 10).
   /// @throws CommandException if the robot's system has none.
   std::string getRobotModel();
 
-  /// Highest velocity the rate limiter allows each joint at q [rad/s]: constant for the Panda,
-  /// dependent on the position for the FR3 (from its description for protocol 10). Safe in the
-  /// 1 kHz loop.
+  /// Highest velocity that the rate limiter allows for each joint at q [rad/s]: constant for the
+  /// Panda, dependent on the position for the FR3 (from its description for protocol 10). Safe in
+  /// the 1 kHz loop.
   /// @param joint_positions q [rad].
   std::array<double, 7> getUpperJointVelocityLimits(
       const std::array<double, 7>& joint_positions) const noexcept;
@@ -242,7 +240,7 @@ class Robot {
   std::array<double, 7> getLowerJointVelocityLimits(
       const std::array<double, 7>& joint_positions) const noexcept;
 
-  /// Chooses the behaviour of another version of the library for the motions started from now on.
+  /// Selects the behaviour of another version of the library for all motions started later.
   /// Extension of this library.
   void setControlOptions(const ControlOptions& options);
 

@@ -13,7 +13,7 @@
 
 namespace franka {
 
-/// What the robot is doing.
+/// The robot's mode.
 enum class RobotMode {
   kOther,                  ///< brakes closed, starting up, or busy with another task
   kIdle,                   ///< ready for a motion
@@ -77,7 +77,7 @@ struct RobotState {
   Errors last_motion_errors{};            ///< errors that aborted the last motion
   double
       control_command_success_rate{};  ///< share of the last 100 commands received; 0 without loop
-  RobotMode robot_mode = RobotMode::kUserStopped;  ///< what the robot is doing
+  RobotMode robot_mode = RobotMode::kUserStopped;  ///< mode of the robot
   Duration time{};  ///< robot clock, strictly increasing, 1 ms a state
 };
 

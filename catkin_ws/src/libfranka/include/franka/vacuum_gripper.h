@@ -14,10 +14,10 @@
 
 namespace franka {
 
-/// Name of a class that the vendor's header declares; this library has none.
+/// Declared in the vendor's header too; not defined in this library.
 class Network;
 
-/// A connection to a vacuum gripper. Threads and waiting: as franka::Gripper.
+/// A connection to a vacuum gripper. Threads and timeouts as for franka::Gripper.
 class VacuumGripper {
  public:
   /// Version of the protocol.
@@ -26,7 +26,7 @@ class VacuumGripper {
   /// Profiles of the device's own set-up.
   enum class ProductionSetupProfile { kP0, kP1, kP2, kP3 };
 
-  /// @param franka_address of the robot that the gripper is mounted on, maybe with a port.
+  /// @param franka_address of the robot with the gripper, optionally with a port.
   /// @throws NetworkException if the connection cannot be made within 5 s.
   /// @throws IncompatibleVersionException if the gripper speaks another protocol.
   explicit VacuumGripper(const std::string& franka_address);
@@ -42,10 +42,10 @@ class VacuumGripper {
   bool vacuum(uint8_t vacuum, std::chrono::milliseconds timeout,
               ProductionSetupProfile profile = ProductionSetupProfile::kP0) const;
 
-  /// Drops what is held. @returns whether it was. @throws as vacuum.
+  /// Drops the object. @returns whether it succeeded. @throws as vacuum.
   bool dropOff(std::chrono::milliseconds timeout) const;
 
-  /// Ends what the gripper is doing. @returns whether it succeeded. @throws as vacuum.
+  /// Ends the running command. @returns whether it succeeded. @throws as vacuum.
   bool stop() const;
 
   /// Waits for the next state, up to a second. @throws as Gripper::readOnce.

@@ -23,8 +23,8 @@ enum class VacuumGripperDeviceStatus : uint8_t {
 /// One state of the vacuum gripper.
 struct VacuumGripperState {
   bool in_control_range{};                    ///< vacuum within the set range
-  bool part_detached{};                       ///< the part was let go on command
-  bool part_present{};                        ///< vacuum says a part is held
+  bool part_detached{};                       ///< the part was released by a command
+  bool part_present{};                        ///< the vacuum shows that a part is held
   VacuumGripperDeviceStatus device_status{};  ///< health of the pump
   uint16_t actual_power{};                    ///< power of the pump [%]
   uint16_t vacuum{};                          ///< vacuum [mbar]

@@ -15,15 +15,15 @@ struct AbortRecord {
   RobotCommand command;
 };
 
-/// Why a motion was aborted, in sentences for the user: for each flag of the last state's
-/// reflex_reason which joint or axis broke it, and the value against the limit, as far as the
-/// logged states and commands show it.
+/// Explains to the user why a motion was aborted: for each flag of the last state's reflex_reason
+/// the joint or axis that caused it, and the value against the limit, as far as the logged states
+/// and commands show it.
 ///
 /// Velocities, accelerations, jerks and torque rates are those the robot computes (backward Euler
 /// over 1 ms, from the state the command answered). Pure; not for the 1 kHz loop.
 /// @param log oldest first, as kept by the client
-/// @param version of the robot's protocol, which says whose limits hold
-/// @returns one sentence a flag; none for an empty log
+/// @param version of the robot's protocol, which selects the limits
+/// @returns one sentence per flag; none for an empty log
 std::vector<std::string> diagnoseAbort(const std::vector<AbortRecord>& log, unsigned version);
 
 /// The number of states that did not arrive before the last one of the log.

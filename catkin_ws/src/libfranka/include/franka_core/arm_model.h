@@ -25,7 +25,7 @@ enum class ArmFrame {
 /// The 4x4 identity, column-major.
 constexpr std::array<double, 16> kIdentityTransform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-/// What hangs on the flange: end effector and load taken together.
+/// The body at the flange: end effector and load taken together.
 struct Payload {
   double mass{0.0};             ///< [kg]
   std::array<double, 3> com{};  ///< F_x_C, centre of mass in flange frame F [m]
@@ -33,23 +33,23 @@ struct Payload {
       inertia{};  ///< about the centre of mass, axes of F, 3x3 column-major [kg m^2]
 };
 
-/// What mass, Coriolis, gravity and Jacobian need, computed in one go.
+/// Mass, Coriolis, gravity, pose and Jacobian, computed together.
 struct ArmDynamics {
   std::array<double, 49> mass;     ///< 7x7 column-major [kg m^2]
   std::array<double, 7> coriolis;  ///< C(q, dq) dq [Nm]
   std::array<double, 7> gravity;   ///< torques that hold the arm [Nm]
-  std::array<double, 16> pose;     ///< of the asked frame in O, 4x4 column-major
+  std::array<double, 16> pose;     ///< of the requested frame in O, 4x4 column-major
   std::array<double, 42>
-      zero_jacobian;  ///< of the asked frame in O, 6x7 column-major, linear rows first
+      zero_jacobian;  ///< of the requested frame in O, 6x7 column-major, linear rows first
 };
 
 /// Kinematics and dynamics of the seven-joint chain with a payload at the flange.
 ///
 /// Parameters (link inertias, joint origins) come from a URDF; rotor inertia and friction are not
-/// in it. Every const function may be called from any thread and from the 1 kHz loop: no
+/// included. Every const function may be called from any thread and from the 1 kHz loop: no
 /// allocation, no lock, no exception. All poses and Jacobians are expressed in the base frame O
-/// (link0). Gravity vectors point the way things fall ([0, 0, -9.81] for a robot on a table) and
-/// are expressed in O [m/s^2].
+/// (link0). Gravity vectors point down ([0, 0, -9.81] for a robot on a table) and are expressed in
+/// O [m/s^2].
 class ArmModel {
  public:
   /// Fixed transform from parent joint to joint (column-major), and the link's inertia in its own
@@ -67,10 +67,10 @@ class ArmModel {
   ArmModel(const std::array<Link, 7>& links, const std::array<double, 16>& flange);
 
   /// Reads the chain `<prefix>link0` ... `<prefix>link8` from a URDF text. Bodies rigidly fixed to
-  /// one of the links 1 to 7 count as part of it; what hangs below link8 does not (see
+  /// one of the links 1 to 7 count as part of it; those below link8 do not (see
   /// endEffectorFromUrdf).
-  /// @param arm_id prefix without the underscore; empty means: find the one chain there is.
-  /// @throws std::invalid_argument with a sentence that names what is missing or wrong.
+  /// @param arm_id prefix without the underscore; empty: the only chain in the text.
+  /// @throws std::invalid_argument with a sentence that names the error.
   static ArmModel fromUrdf(const std::string& urdf, const std::string& arm_id = "");
 
   /// Pose of a frame in O. F_T_EE and EE_T_K matter only for kEndEffector and kStiffness.
@@ -104,8 +104,7 @@ class ArmModel {
                                         const std::array<double, 7>& ddq, const Payload& payload,
                                         const std::array<double, 3>& gravity_earth = {
                                             {0, 0, -9.81}}) const noexcept;
-  /// Mass, Coriolis, gravity, pose and zero Jacobian of one frame, sharing what they have in
-  /// common.
+  /// Mass, Coriolis, gravity, pose and zero Jacobian of one frame, with shared computation.
   void computeDynamics(ArmFrame frame, const std::array<double, 7>& q,
                        const std::array<double, 7>& dq, const std::array<double, 16>& F_T_EE,
                        const std::array<double, 16>& EE_T_K, const Payload& payload,
@@ -124,11 +123,11 @@ class ArmModel {
 /// A part of zero mass contributes nothing, its inertia included (protocol 8.4).
 Payload combine(const Payload& end_effector, const Payload& load) noexcept;
 
-/// What is mounted below `<prefix>link8` (hand and fingers, movable joints at position 0: fingers
-/// closed) as one body in the flange frame (decision 7). Zero payload when nothing is mounted.
+/// All bodies below `<prefix>link8` (hand and fingers, movable joints at position 0: fingers
+/// closed) as one body in the flange frame (decision 7). Zero payload if there are none.
 /// @param arm_id as for ArmModel::fromUrdf.
-/// @throws std::invalid_argument with a sentence when the URDF cannot be read, the chain is not
-/// there, or the hand or a moving link of it has no inertial.
+/// @throws std::invalid_argument with a sentence if the URDF cannot be read, the chain is missing,
+/// or the hand or a moving link of it has no inertial.
 Payload endEffectorFromUrdf(const std::string& urdf, const std::string& arm_id = "");
 
 }  // namespace franka_core

@@ -11,12 +11,12 @@
 #include <vector>
 
 /// @file
-/// The diagnosis for the log of a franka::ControlException, whichever libfranka made it. Only a
-/// header, so that it can be compiled against the vendor's library.
+/// The diagnosis for the log of a franka::ControlException of any libfranka. Header-only, so that
+/// it can be compiled against the vendor's library.
 
 namespace franka_core {
 
-/// A record of the public interface, as far as the diagnosis needs it.
+/// Converts a public record, as far as the diagnosis needs it.
 inline AbortRecord toAbortRecord(const franka::Record& record,
                                  const std::array<bool, kErrorCount>& reflex_reason) {
   AbortRecord result;
@@ -48,14 +48,14 @@ inline AbortRecord toAbortRecord(const franka::Record& record,
   result.command.dq_c = record.command.joint_velocities.dq;
   result.command.O_T_EE_c = record.command.cartesian_pose.O_T_EE;
   result.command.O_dP_EE_c = record.command.cartesian_velocities.O_dP_EE;
-  // Both generators carry the same elbow; zeros where none was commanded.
+  // Both generators have the same elbow; zeros if none was commanded.
   result.command.elbow_c = record.command.cartesian_pose.elbow;
   result.command.valid_elbow = result.command.elbow_c[0] != 0.0 || result.command.elbow_c[1] != 0.0;
   result.command.tau_J_d = record.command.torques.tau_J;
   return result;
 }
 
-/// As diagnoseAbort. The flags are read from their names in the text of last_motion_errors.
+/// Like diagnoseAbort. The flags are parsed from the names in the text of last_motion_errors.
 inline std::vector<std::string> diagnoseLog(const std::vector<franka::Record>& log,
                                             unsigned version) {
   std::vector<AbortRecord> records;

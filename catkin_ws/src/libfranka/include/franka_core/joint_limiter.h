@@ -8,21 +8,24 @@
 #include <array>
 #include <cstddef>
 
-// How a joint's commands are kept within velocity, acceleration and jerk: libfranka's client and
-// the simulated robot's controllers do it alike. All functions are pure and real-time safe.
+// Keeps joint commands within velocity, acceleration and jerk, for libfranka's client and the
+// simulated robot's controllers. All functions are pure and real-time safe.
 
 namespace franka_core {
 
-/// Of a joint's acceleration limit, how much braking before its end may need (our choice).
+/// Share of a joint's acceleration limit that braking before its end may use (chosen here: the rest
+/// is a reserve for the limiter's lag).
 constexpr double kBrakingShare = 0.9;
 
-/// Velocity limits that a limiter can follow, within those that shrink towards the joints' ends.
+/// Velocity limits that a limiter can follow, within the robot's limits that shrink towards the
+/// joints' ends.
 ///
-/// An FR3's velocity limit falls towards the ends of joints 5 and 7 faster than they may brake
-/// (limits.h). These fall only as fast as can be followed, and lie below the robot's by what the
-/// limiter lags behind and by what it gains while the jerk turns full acceleration into braking.
+/// An FR3's velocity limit falls towards the ends of joints 5 and 7 faster than they can brake
+/// (limits.h). These limits fall only as fast as a joint can follow, and are lower than the robot's
+/// by the limiter's lag and by the speed gained while the jerk limit turns full acceleration into
+/// braking.
 /// @param max_acceleration [rad/s^2] @param max_jerk [rad/s^3], of each joint
-/// @param margin kept free of the velocity far from the ends [rad/s]
+/// @param margin to the velocity limit far from the ends [rad/s]
 inline PositionVelocityLimits followable(PositionVelocityLimits limits,
                                          const std::array<double, 7>& max_acceleration,
                                          const std::array<double, 7>& max_jerk,
@@ -38,13 +41,13 @@ inline PositionVelocityLimits followable(PositionVelocityLimits limits,
   return limits;
 }
 
-/// What the velocities of the joints may be [rad/s].
+/// Allowed velocities of the joints [rad/s].
 struct JointVelocityRange {
   std::array<double, 7> lowest;
   std::array<double, 7> highest;
 };
 
-/// The range that these limits leave at position q [rad].
+/// The range that these limits allow at position q [rad].
 inline JointVelocityRange rangeAt(const PositionVelocityLimits& limits,
                                   const std::array<double, 7>& q) noexcept {
   JointVelocityRange range{};
@@ -55,8 +58,8 @@ inline JointVelocityRange rangeAt(const PositionVelocityLimits& limits,
   return range;
 }
 
-/// The velocity nearest to the desired one within jerk and acceleration, where the acceleration
-/// ends at the velocity limit; the two velocity limits may differ (protocol 5.6).
+/// The velocity nearest to the desired one within jerk and acceleration limits, with the
+/// acceleration ending at the velocity limit; the two velocity limits may differ (protocol 5.6).
 /// @param lowest @param highest velocity [rad/s] @param dt a cycle [s]
 /// @param last_velocity [rad/s] @param last_acceleration [rad/s^2] of the cycle before
 inline double limitVelocity(double lowest, double highest, double max_acceleration, double max_jerk,
@@ -67,14 +70,14 @@ inline double limitVelocity(double lowest, double highest, double max_accelerati
   const double stiffness = max_jerk / max_acceleration;
   const double up = std::min(stiffness * (highest - last_velocity), max_acceleration);
   const double down = std::max(stiffness * (lowest - last_velocity), -max_acceleration);
-  const double wanted =
+  const double desired =
       std::clamp(std::max(std::min(acceleration, up), down), -max_acceleration, max_acceleration);
-  // Ends that come nearer must not turn the acceleration faster than a wish may.
-  const double change = std::clamp(wanted - last_acceleration, -max_jerk * dt, max_jerk * dt);
+  // Approaching ends must not change the acceleration faster than the jerk limit.
+  const double change = std::clamp(desired - last_acceleration, -max_jerk * dt, max_jerk * dt);
   return last_velocity + (last_acceleration + change) * dt;
 }
 
-/// The same for each of an arm's joints.
+/// The same for all joints of an arm.
 inline std::array<double, 7> limitVelocities(const JointVelocityRange& range,
                                              const std::array<double, 7>& max_acceleration,
                                              const std::array<double, 7>& max_jerk,

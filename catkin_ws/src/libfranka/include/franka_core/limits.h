@@ -8,13 +8,13 @@
 #include <cstddef>
 
 /// @file
-/// The limits of both arms, each once. Source: Franka's published tables (protocol 5.5).
-/// Everything here is constant or pure, allocation-free and safe in the 1 kHz loop.
+/// The limits of both arms, each once. Source: Franka's published tables (protocol 5.5). Constant
+/// or pure, allocation-free and safe in the 1 kHz loop.
 
 namespace franka_core {
 
-/// What simulated arms take as a load or end effector (chosen here: three times what they lift, and
-/// as far from the flange as they reach).
+/// Largest load or end effector of simulated arms (chosen here: three times the payload of the arm,
+/// and as far from the flange as its reach).
 constexpr double kMaxPayloadMass = 10.0;     ///< [kg]
 constexpr double kMaxPayloadDistance = 1.0;  ///< of the centre of mass from the flange [m]
 constexpr double kMaxPayloadInertia = 10.0;  ///< each entry [kg m^2]
@@ -26,7 +26,7 @@ struct DerivativeLimits {
   double jerk;          ///< [m/s^3] or [rad/s^3]
 };
 
-/// Everything that bounds an arm. Joint arrays are in the order of the joints.
+/// All limits of an arm. Joint arrays are in the order of the joints.
 struct ArmLimits {
   std::array<double, 7> q_min;             ///< lowest position [rad]
   std::array<double, 7> q_max;             ///< highest position [rad]
@@ -38,12 +38,12 @@ struct ArmLimits {
   DerivativeLimits translation;            ///< of EE; velocity is that of the rate limiter
   DerivativeLimits rotation;               ///< of EE
   DerivativeLimits elbow;                  ///< of joint 3; velocity is that of the rate limiter
-  double documented_translation_velocity;  ///< as the robot's data sheet says [m/s]
-  double documented_elbow_velocity;        ///< as the robot's data sheet says [rad/s]
-  std::array<double, 7> rate_limiter_dq;   ///< velocity the client limits to: dq, or less [rad/s]
+  double documented_translation_velocity;  ///< in the robot's data sheet [m/s]
+  double documented_elbow_velocity;        ///< in the robot's data sheet [rad/s]
+  std::array<double, 7> rate_limiter_dq;   ///< velocity limit of the client: dq, or less [rad/s]
 };
 
-/// Panda, called FER since: protocols 3 to 5.
+/// Panda, also called FER: protocols 3 to 5.
 constexpr ArmLimits kFerLimits{{{-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973}},
                                {{2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973}},
                                {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}},
@@ -87,7 +87,7 @@ constexpr ArmLimits kFr3LimitsBefore59 = limits_detail::withPositions(
     kFr3Limits, {{-2.7437, -1.7837, -2.9007, -3.0421, -2.8065, 0.5445, -3.0159}},
     {{2.7437, 1.7837, 2.9007, -0.1518, 2.8065, 4.5169, 3.0159}});
 
-/// The limits that hold for a robot speaking this protocol version (decisions 8, 25).
+/// The limits of a robot with this protocol version (decisions 8, 25).
 constexpr const ArmLimits& limitsOfProtocol(unsigned version) noexcept {
   return version <= 5 ? kFerLimits : (version < 10 ? kFr3LimitsBefore59 : kFr3Limits);
 }
@@ -140,11 +140,11 @@ struct JointRange {
   double highest;
 };
 
-/// Velocity that the limit must leave at a position for a motion to end there [rad/s] (chosen here:
-/// a thousandth of a microradian a millisecond, well above what rounding makes of a limit of 0).
+/// Velocity that the limit must allow at a position for a motion to end there [rad/s] (chosen here:
+/// a thousandth of a microradian per millisecond, well above the rounding of a limit of 0).
 constexpr double kLeastVelocityOfReach = 1e-6;
 
-/// Where a joint (0 to 6) can go to: beyond, towards an end, the velocity limit is 0.
+/// Reachable positions of a joint (0 to 6): beyond, the velocity limit towards the end is 0.
 inline JointRange reachOf(const PositionVelocityLimits& limits, std::size_t joint) noexcept {
   const double offset = limits.offset[joint] + kLeastVelocityOfReach;
   const double dead_zone = offset * offset / limits.deceleration[joint];

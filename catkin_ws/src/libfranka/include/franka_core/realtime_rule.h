@@ -21,21 +21,21 @@ bool isLoopback(const sockaddr& address) noexcept;
 /// system's name resolver. Not real-time safe. Thread-safe.
 bool isLoopback(const std::string& address);
 
-/// What holds for the threads that control a robot.
+/// Rule for threads that control a robot.
 struct RealtimeRule {
   bool enforce;         ///< refuse to control the robot without real-time kernel and priority
-  std::string warning;  ///< where less is enforced than asked: a sentence that says so; else empty
+  std::string warning;  ///< a sentence if less is enforced than requested; else empty
 };
 
-/// A robot on a loopback address is a simulated one, which needs no real-time kernel: on a kernel
-/// without real-time support enforcement becomes a warning. There, and only there, the environment
-/// variable FRANKA_REALTIME decides otherwise: `enforce` as on other addresses, `ignore` never
-/// enforces and never warns. For other addresses the answer is what was asked.
+/// A robot on a loopback address is simulated and needs no real-time kernel: on a kernel without
+/// real-time support enforcement becomes a warning. Only for such addresses the environment
+/// variable FRANKA_REALTIME overrides this: `enforce` as on other addresses, `ignore` never
+/// enforces and never warns. For other addresses the request applies.
 /// Not real-time safe. Thread-safe.
-/// @param enforce what was asked: RealtimeConfig::kEnforce, or `realtime_config: enforce`.
-/// @param is_loopback whether the robot's address is one (see isLoopback).
-/// @param has_realtime_kernel what franka::hasRealtimeKernel says.
-/// @throws std::invalid_argument with a sentence if FRANKA_REALTIME decides and is neither.
+/// @param enforce the request: RealtimeConfig::kEnforce, or `realtime_config: enforce`.
+/// @param is_loopback result of isLoopback for the robot's address.
+/// @param has_realtime_kernel result of franka::hasRealtimeKernel.
+/// @throws std::invalid_argument with a sentence if FRANKA_REALTIME applies and is neither.
 RealtimeRule realtimeRule(bool enforce, bool is_loopback, bool has_realtime_kernel);
 
 }  // namespace franka_core

@@ -10,7 +10,7 @@ namespace franka_core {
 
 constexpr std::size_t kErrorCount = 41;  ///< (protocol 4.3)
 
-/// Numbers as on the wire and as in franka::RobotMode.
+/// Numbers as in the datagrams and in franka::RobotMode.
 enum class RobotMode : std::uint8_t {
   kOther,
   kIdle,
@@ -38,9 +38,9 @@ enum class ControllerMode : std::uint8_t {
   kOther
 };
 
-/// The state a control unit reports once a millisecond: the wire's fields of every protocol
-/// version, in double. Frames, units and layouts are those of franka::RobotState (transforms 4x4
-/// column-major, inertias 3x3 column-major, [m] [rad] [s] [N] [Nm] [kg]).
+/// The state of a control unit, once a millisecond: the fields of every protocol version, in
+/// double. Frames, units and layouts are those of franka::RobotState (transforms 4x4 column-major,
+/// inertias 3x3 column-major, [m] [rad] [s] [N] [Nm] [kg]).
 struct RobotState {
   std::uint64_t message_id{0};  ///< [ms] since the unit started; the client's clock
   std::array<double, 16> O_T_EE{}, O_T_EE_d{}, F_T_EE{}, EE_T_K{}, F_T_NE{}, NE_T_EE{};
@@ -50,7 +50,7 @@ struct RobotState {
   double m_load{0.0};
   std::array<double, 9> I_load{};
   std::array<double, 3> F_x_Cload{};
-  double m_total{0.0};  ///< not on the wire: end effector and load together
+  double m_total{0.0};  ///< not transmitted: end effector and load together
   std::array<double, 9> I_total{};
   std::array<double, 3> F_x_Ctotal{};
   std::array<double, 2> elbow{}, elbow_d{};
@@ -77,9 +77,9 @@ struct RobotState {
   double control_command_success_rate{0.0};
 };
 
-/// One millisecond's command, as on the wire.
+/// The command for one millisecond, as transmitted.
 struct RobotCommand {
-  std::uint64_t message_id{0};  ///< of the state that is answered
+  std::uint64_t message_id{0};  ///< of the state that it answers
   std::array<double, 7> q_c{}, dq_c{};
   std::array<double, 16> O_T_EE_c{};
   std::array<double, 6> O_dP_EE_c{};

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 /// @file
-/// Which robot speaks which version of the control interface, in words. Source: Franka's published
+/// Robot, system and libraries of each protocol version, in words. Source: Franka's published
 /// compatibility tables (protocol 1.1).
 
 namespace franka_core {

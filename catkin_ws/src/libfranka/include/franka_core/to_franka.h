@@ -6,12 +6,12 @@
 #include <franka_core/robot_state.h>
 
 /// @file
-/// From the control unit's state to the public one. Header-only, so that it works with whichever
-/// implementation of franka/robot_state.h the user links; franka_core itself names no symbol of it.
+/// Converts the control unit's state to the public one. Header-only, so that it works with any
+/// implementation of franka/robot_state.h; franka_core itself uses no symbol of it.
 
 namespace franka_core {
 
-/// The public name of a mode.
+/// The public value of a mode.
 inline franka::RobotMode toFranka(RobotMode mode) noexcept {
   switch (mode) {
     case RobotMode::kOther:
@@ -32,10 +32,9 @@ inline franka::RobotMode toFranka(RobotMode mode) noexcept {
   return franka::RobotMode::kOther;
 }
 
-/// Copies every field that the public state has. No allocation, no exception, safe in the 1 kHz
-/// loop from any thread that owns `to`. `time` is the message id in [ms], current_errors are
-/// `errors`, last_motion_errors are `reflex_reason`; the total payload is taken as the control unit
-/// composed it.
+/// Copies every field of the public state. No allocation, no exception, safe in the 1 kHz loop from
+/// any thread that owns `to`. `time` is the message id in [ms], current_errors are `errors`,
+/// last_motion_errors are `reflex_reason`; the total payload is that of the control unit.
 inline void toFranka(const RobotState& from, franka::RobotState& to) noexcept {
   to.O_T_EE = from.O_T_EE;
   to.O_T_EE_d = from.O_T_EE_d;

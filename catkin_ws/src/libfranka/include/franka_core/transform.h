@@ -6,7 +6,7 @@
 #include <string>
 
 /// @file
-/// The one rule by which client and robot accept 4x4 column-major matrices as transforms.
+/// The common rule of client and robot for 4x4 column-major matrices as transforms.
 
 namespace franka_core {
 
@@ -15,19 +15,18 @@ namespace franka_core {
 constexpr double kTransformTolerance = 1e-5;
 
 /// Whether a matrix passes the client's check of commanded poses: bottom row exactly 0 0 0 1, every
-/// row and column of the rotation of length 1 within kTransformTolerance. The translation and right
-/// angles are not looked at: the robot judges them (isRigidTransform).
+/// row and column of the rotation of length 1 within kTransformTolerance. Translation and right
+/// angles are not checked here but by the robot (isRigidTransform).
 /// Real-time safe. Thread-safe.
 bool isHomogeneousTransformation(const std::array<double, 16>& matrix) noexcept;
 
-/// Whether the robot takes a matrix as a pose or a frame: a finite homogeneous transformation whose
-/// columns stand at right angles within kTransformTolerance and that does not mirror.
+/// Whether the robot accepts a matrix as a pose or a frame: a finite homogeneous transformation
+/// whose columns are orthogonal within kTransformTolerance, without reflection.
 /// Real-time safe. Thread-safe.
 bool isRigidTransform(const std::array<double, 16>& matrix) noexcept;
 
-/// What keeps a matrix from being a rigid transform, as the end of a sentence that names the
-/// matrix: "its bottom row is 1e-17 0 0 1 and must be exactly 0 0 0 1"; empty for a rigid
-/// transform. Not real-time safe.
+/// Why a matrix is no rigid transform, as the end of a sentence that names the matrix: "its bottom
+/// row is 1e-17 0 0 1 and must be exactly 0 0 0 1"; empty if it is one. Not real-time safe.
 std::string transformFault(const std::array<double, 16>& matrix);
 
 }  // namespace franka_core

@@ -26,7 +26,7 @@ std::string number(double value) {
   return text;
 }
 
-/// "velocity" and so on, with an article.
+/// "a velocity" and so on.
 const char* derivativeName(int order) {
   return order == 1 ? "a velocity" : (order == 2 ? "an acceleration" : "a jerk");
 }
@@ -38,7 +38,7 @@ std::string againstLimit(const Excess& excess, int order) {
          " are allowed (at " + std::to_string(excess.time) + " ms)";
 }
 
-/// How far two poses are apart: "3 mm and 4 degrees"
+/// Distance of two poses: "3 mm and 4 degrees"
 std::string distance(const std::array<double, 16>& one, const std::array<double, 16>& other) {
   const Matrix4 a(one.data()), b(other.data());
   const double way = (a.topRightCorner<3, 1>() - b.topRightCorner<3, 1>()).norm();
@@ -63,7 +63,7 @@ std::string commanded(const std::optional<Excess>& excess, int order) {
   return commanded(excess, derivativeName(order), order);
 }
 
-/// The joint of q that is farthest out, and by how much [rad].
+/// The joint of q that is farthest beyond its range, and its position [rad].
 struct Position {
   std::size_t joint{0};
   double q{0.0};
@@ -159,13 +159,13 @@ std::string Diagnosis::positionViolation() const {
   for (const AbortRecord& record : log_) {
     keepFarther(measured, record.state.q, limits_);
   }
-  // From system 5.7.2 on this flag stands for joints that are to go there, too.
+  // From system 5.7.2 on this flag also reports commanded positions.
   const bool cartesian = std::any_of(log_.begin(), log_.end(), [](const AbortRecord& record) {
     return isUsed(record.command.O_T_EE_c) || isUsed(record.command.O_dP_EE_c);
   });
-  const Position wanted = cartesian ? solvedPosition() : commandedPosition();
-  if (measured.beyond <= 0.0 && wanted.beyond > 0.0) {
-    return rangeOf(wanted, cartesian ? kWouldHaveFollowed : kWasToGo, limits_);
+  const Position commanded_position = cartesian ? solvedPosition() : commandedPosition();
+  if (measured.beyond <= 0.0 && commanded_position.beyond > 0.0) {
+    return rangeOf(commanded_position, cartesian ? kWouldHaveFollowed : kWasToGo, limits_);
   }
   if (measured.beyond <= 0.0 && !cartesian && version_ >= 10) {
     const std::string text = unreachable();
@@ -176,7 +176,7 @@ std::string Diagnosis::positionViolation() const {
   return rangeOf(measured, "stood at", limits_);
 }
 
-/// Of a target of the asynchronous generator (protocol 10) where no velocity leads.
+/// For targets of the asynchronous generator (protocol 10) that no allowed velocity reaches.
 std::string Diagnosis::unreachable() const {
   for (auto record = log_.rbegin(); record != log_.rend(); ++record) {
     const std::array<double, 7>& q_c = record->command.q_c;
@@ -264,8 +264,8 @@ std::string Diagnosis::startPose() const {
   return std::string(kNoFirstCommand) + " Begin at O_T_EE_c.";
 }
 
-/// The record before the first or last command of an elbow: its state is what the command, that of
-/// the next record, answered.
+/// The record before the first or last command of an elbow: the next record's command answered its
+/// state.
 const AbortRecord* Diagnosis::elbowCommand(bool first) const {
   const AbortRecord* found = nullptr;
   for (std::size_t i = 1; i < log_.size() && !(first && found != nullptr); i++) {

@@ -18,7 +18,7 @@ using Matrix4 = Eigen::Map<const Eigen::Matrix4d>;
 using Twist = Eigen::Matrix<double, 6, 1>;
 using Joints = std::array<double, 7>;
 
-/// Two successive records: the command answered the first one's state.
+/// Two successive records: the command answers the first one's state.
 struct Step {
   const RobotState& before;
   const RobotCommand& command;
@@ -31,7 +31,7 @@ void keepWorse(std::optional<Excess>& worst, Excess excess, std::uint64_t time) 
   }
 }
 
-/// The worst of what `measure(step, found)` finds in the steps of the log.
+/// The largest excess that `measure(step, found)` reports over all steps of the log.
 template <typename Measure>
 std::optional<Excess> worstStep(const std::vector<AbortRecord>& log, Measure measure) {
   std::optional<Excess> worst;
@@ -43,7 +43,7 @@ std::optional<Excess> worstStep(const std::vector<AbortRecord>& log, Measure mea
   return worst;
 }
 
-/// Commanded joint velocity, whichever joint generator runs; nothing if none does.
+/// Commanded joint velocity of either joint generator; empty if none runs.
 std::optional<Joints> velocityOf(const Step& step) {
   if (isUsed(step.command.q_c)) {
     Joints dq{};
@@ -58,7 +58,7 @@ std::optional<Joints> velocityOf(const Step& step) {
   return std::nullopt;
 }
 
-/// Commanded twist [m/s, rad/s], whichever Cartesian generator runs; nothing if none does.
+/// Commanded twist [m/s, rad/s] of either Cartesian generator; empty if none runs.
 std::optional<Twist> twistOf(const Step& step) {
   if (isUsed(step.command.O_T_EE_c)) {
     const Matrix4 to(step.command.O_T_EE_c.data());
@@ -92,7 +92,7 @@ struct JointSample {
 };
 
 /// The desired joints of the motion and of the step that would have followed. The last state is not
-/// among them: by then the robot brakes.
+/// included: the robot already brakes in it.
 std::vector<JointSample> solvedSamples(const std::vector<AbortRecord>& log) {
   std::vector<JointSample> samples;
   for (std::size_t k = 0; k + 1 < log.size(); k++) {
@@ -126,7 +126,7 @@ double Excess::ratio() const {
   if (limit > 0.0) {
     return std::abs(value) / limit;
   }
-  // At the end of its range an FR3's joint may not move on at all.
+  // At the end of its range an FR3's joint may not move further at all.
   return value != 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
 }
 

@@ -12,7 +12,7 @@
 
 namespace franka_core {
 
-/// A value that was commanded or measured, and what is allowed.
+/// A commanded or measured value, and its limit.
 struct Excess {
   std::string what;   ///< "joint 3", "the translation"
   const char* unit;   ///< of the quantity whose derivative it is: "m", "rad", "Nm"
@@ -20,18 +20,18 @@ struct Excess {
   double limit{0.0};
   std::uint64_t time{0};  ///< [ms]
 
-  /// Of value and limit; infinite where nothing is allowed.
+  /// Of value and limit; infinite if the limit is 0.
   double ratio() const;
 };
 
-/// The quantities that a robot watches, as far as the log of a motion shows them: of each the one
-/// that is farthest beyond its limit. Nothing where the log does not show the quantity.
+/// The quantities that a robot limits, as far as the log of a motion shows them: of each quantity
+/// the value that is farthest beyond its limit. Empty if the log does not show the quantity.
 ///
-/// Commands are compared with the state they answered: backward differences over 1 ms. `order` is
-/// 1 for velocities, 2 for accelerations, 3 for jerks.
+/// Commands are compared with the state that they answer: backward differences over 1 ms. `order`
+/// is 1 for velocities, 2 for accelerations, 3 for jerks.
 class AbortMeasures {
  public:
-  /// @param log kept by the caller @param version of the robot's protocol
+  /// @param log owned by the caller @param version of the robot's protocol
   AbortMeasures(const std::vector<AbortRecord>& log, unsigned version);
 
   std::optional<Excess> commandedJoints(int order) const;
@@ -39,11 +39,11 @@ class AbortMeasures {
   /// The lowest derivative of the commanded elbow (joint 3) that is beyond its limit.
   std::optional<Excess> commandedElbow(int& order) const;
   std::optional<Excess> commandedTorques() const;
-  /// Of the joints that follow from Cartesian commands by inverse kinematics. States show what the
-  /// robot accepted; the step that it refused is what their last derivative leads to.
+  /// For joints that follow Cartesian commands by inverse kinematics. States show accepted steps;
+  /// the refused one is extrapolated by their last derivative.
   std::optional<Excess> solvedJoints(int order) const;
   std::optional<Excess> measuredJoints() const;
-  /// Where the joints of solvedJoints would have been after the refused step [rad].
+  /// Positions of the joints of solvedJoints after the refused step [rad].
   std::optional<std::array<double, 7>> solvedPositions() const;
 
  private:
@@ -53,7 +53,7 @@ class AbortMeasures {
   unsigned version_;
 };
 
-/// Whether a motion generator's command is in use: what a motion does not use stays zero.
+/// Whether a motion generator's command is in use: unused values are zero.
 template <std::size_t kSize>
 bool isUsed(const std::array<double, kSize>& values) {
   for (const double value : values) {

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything is expressed in O about the point O: bodies then add up without being moved from frame
-// to frame, and the composite-body, Newton-Euler and gravity recursions share one backward sweep.
+// Everything is expressed in O about the point O: inertias can then be summed without a change of
+// frame, and the composite-body, Newton-Euler and gravity recursions share one backward sweep.
 #include "arm_chain.h"
 
 namespace franka_core {
@@ -27,7 +27,7 @@ void jointAxes(const Joints& joints, Axes& axes) noexcept {
   }
 }
 
-// The payload is rigidly fixed to link 7 and moves as a part of it.
+// The payload is rigidly fixed to link 7.
 void linkBodies(const std::array<ArmModel::Link, 7>& links, const std::array<double, 16>& flange,
                 const Payload& payload, const Joints& joints, Bodies& bodies) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
@@ -37,8 +37,7 @@ void linkBodies(const std::array<ArmModel::Link, 7>& links, const std::array<dou
       bodies[6] + toBody(compose(joints[6], flange), payload.mass, payload.com, payload.inertia);
 }
 
-// Newton-Euler, outward sweep: the force each body needs on its own. `a` is the base's
-// acceleration.
+// Newton-Euler, outward sweep: the force of each body alone. `a` is the base's acceleration.
 void bodyForces(const Axes& axes, const Bodies& bodies, const std::array<double, 7>& dq,
                 const std::array<double, 7>& ddq, Screw a, Forces& forces) noexcept {
   Screw v = kRest;
@@ -50,7 +49,7 @@ void bodyForces(const Axes& axes, const Bodies& bodies, const std::array<double,
   }
 }
 
-// Torque of gravity on a composite body about a joint, with the sign of what holds it.
+// Torque about a joint that holds a composite body against gravity.
 double holdingTorque(const Screw& axis, const Body& body, const Vector& gravity_earth) noexcept {
   return -dot(axis, Screw{cross(body.moment, gravity_earth), body.mass * gravity_earth});
 }
@@ -95,7 +94,7 @@ std::array<double, 7> ArmModel::gravity(const std::array<double, 7>& q, const Pa
                                         const std::array<double, 3>& gravity_earth) const noexcept {
   Joints joints;
   jointPoses(links_, q, 7, joints);
-  // Gravity asks for mass and first moment only; no need to turn inertias.
+  // Gravity needs only mass and first moment, so inertias are not rotated.
   double mass = payload.mass;
   const Pose flange = compose(joints[6], flange_);
   Vector moment = mass * (flange.p + rotate(flange, payload.com.data()));
@@ -121,7 +120,7 @@ std::array<double, 7> ArmModel::inverseDynamics(
   jointPoses(links_, q, 7, joints);
   jointAxes(joints, axes);
   linkBodies(links_, flange_, payload, joints, bodies);
-  // Standing in gravity feels like being accelerated against it.
+  // Gravity acts like an acceleration of the base in the opposite direction.
   bodyForces(axes, bodies, dq, ddq,
              Screw{{0.0, 0.0, 0.0}, -1.0 * spatial::toVector(gravity_earth.data())}, forces);
   std::array<double, 7> result;

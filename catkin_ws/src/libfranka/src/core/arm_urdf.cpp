@@ -15,7 +15,7 @@ namespace {
 
 using spatial::Pose;
 
-// How far a joint axis may be from +z and still be taken as +z: rounding in the text.
+// Deviation of a joint axis from +z that counts as rounding in the text.
 constexpr double kAxisTolerance = 1e-9;
 
 [[noreturn]] void fail(const std::string& sentence) {
@@ -113,7 +113,7 @@ void checkFinite(const Pose& pose, const std::string& owner) {
   }
 }
 
-// Seven-joint part: the link's one joint turns about +z, fixed joints may stand before it.
+// The link's one revolute joint turns about +z; fixed joints may precede it.
 void checkArmJoint(const urdf::Joint& joint) {
   if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::CONTINUOUS) {
     fail("joint " + quoted(joint.name) +
@@ -131,7 +131,7 @@ void checkArmJoint(const urdf::Joint& joint) {
   }
 }
 
-// From `ancestor` down to `link`; the joint of `link` itself may move when `moves` says so.
+// From `ancestor` down to `link`; `moves` allows the joint of `link` itself to move.
 Pose transformBetween(const urdf::Link& ancestor, const urdf::LinkConstSharedPtr& link,
                       bool moves) {
   Pose transform = kIdentity;
@@ -153,7 +153,7 @@ Pose transformBetween(const urdf::Link& ancestor, const urdf::LinkConstSharedPtr
   return transform;
 }
 
-// A link's own mass, `at` being the link's pose in the frame that the result is expressed in.
+// A link's own mass; `at` is the link's pose in the frame of the result.
 Payload ownMass(const urdf::Link& link, const Pose& at) {
   const urdf::Inertial& inertial = *link.inertial;
   const Pose frame = at * toPose(inertial.origin);
@@ -175,7 +175,7 @@ Payload ownMass(const urdf::Link& link, const Pose& at) {
           {i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz}};
 }
 
-// Everything rigidly fixed to an arm link, without `flange_name` and what hangs below it.
+// All bodies rigidly fixed to an arm link, except `flange_name` and those below it.
 void addRigidBodies(const urdf::Link& link, const Pose& at, const std::string& flange_name,
                     Payload& sum) {
   if (link.inertial) {
@@ -193,8 +193,8 @@ void addRigidBodies(const urdf::Link& link, const Pose& at, const std::string& f
   }
 }
 
-// Everything below a link, joints at position 0. The hand and what moves must have a mass; other
-// links (tool centre points, coarse collision bodies) may be without.
+// All bodies below a link, joints at position 0. The hand and moving links must have a mass; other
+// links (tool centre points, coarse collision bodies) need none.
 void addSubtree(const urdf::Link& link, const Pose& at, const std::string& hand_name,
                 Payload& sum) {
   const bool moves = link.parent_joint && link.parent_joint->type != urdf::Joint::FIXED;

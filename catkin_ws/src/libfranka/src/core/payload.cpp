@@ -23,11 +23,11 @@ void addAbout(const Payload& part, const std::array<double, 3>& com,
 Payload combine(const Payload& end_effector, const Payload& load) noexcept {
   Payload total;
   total.mass = end_effector.mass + load.mass;
-  // Written so that a mass that is not a number also ends here.
+  // This form is also true for NaN.
   if (!(total.mass > 0.0)) {
     return Payload{};
   }
-  // One part alone is taken as given, without rounding.
+  // A single part is returned unchanged, without rounding.
   if (end_effector.mass == 0.0 || load.mass == 0.0) {
     return load.mass == 0.0 ? end_effector : load;
   }

@@ -10,8 +10,7 @@
 
 /// @file
 /// Vectors, frames and rigid bodies, all expressed in the base frame O; internal to ArmModel.
-/// Everything is inline, fixed-size and free of branches, so that the compiler can keep it in
-/// registers.
+/// Inline, fixed-size and free of branches, so that the compiler can keep values in registers.
 
 namespace franka_core {
 namespace spatial {
@@ -51,7 +50,7 @@ inline Pose compose(const Pose& pose, const std::array<double, 16>& transform) n
   return {rotate(pose, t), rotate(pose, t + 4), rotate(pose, t + 8), pose.p + rotate(pose, t + 12)};
 }
 
-/// Turns the frame about its own z axis.
+/// Rotates the frame about its own z axis.
 inline void turn(Pose& pose, double angle) noexcept {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -93,7 +92,7 @@ inline Symmetric rotateInertia(const Pose& r, const double* inertia) noexcept {
           a.x * r.x.z + b.x * r.y.z + c.x * r.z.z, a.y * r.x.z + b.y * r.y.z + c.y * r.z.z};
 }
 
-/// What the parallel-axis theorem adds for a mass at c: m (|c|^2 1 - c c^T).
+/// The parallel-axis term for a mass at c: m (|c|^2 1 - c c^T).
 inline Symmetric pointInertia(double m, const Vector& c) noexcept {
   const double xx = m * c.x * c.x;
   const double yy = m * c.y * c.y;
@@ -101,7 +100,7 @@ inline Symmetric pointInertia(double m, const Vector& c) noexcept {
   return {yy + zz, xx + zz, xx + yy, -m * c.x * c.y, -m * c.x * c.z, -m * c.y * c.z};
 }
 
-/// A rigid body, or several moving as one: mass, first moment and inertia about O.
+/// A rigid body, or several that move as one: mass, first moment and inertia about O.
 struct Body {
   double mass;
   Vector moment;
@@ -136,12 +135,12 @@ inline double dot(const Screw& a, const Screw& b) noexcept {
 /// Motion per unit of joint velocity: the axis through the joint.
 inline Screw jointAxis(const Pose& joint) noexcept { return {joint.z, cross(joint.p, joint.z)}; }
 
-/// Rate of change of motion b carried along by motion a.
+/// Rate of change of motion b that moves with motion a.
 inline Screw crossMotion(const Screw& a, const Screw& b) noexcept {
   return {cross(a.angular, b.angular), cross(a.angular, b.linear) + cross(a.linear, b.angular)};
 }
 
-/// Rate of change of force f carried along by motion a.
+/// Rate of change of force f that moves with motion a.
 inline Screw crossForce(const Screw& a, const Screw& f) noexcept {
   return {cross(a.angular, f.angular) + cross(a.linear, f.linear), cross(a.angular, f.linear)};
 }
@@ -152,7 +151,7 @@ inline Screw operator*(const Body& body, const Screw& v) noexcept {
           body.mass * v.linear + cross(v.angular, body.moment)};
 }
 
-/// Force that keeps the body on its way: momentum changed by motion v and acceleration a.
+/// Force on the body for motion v and acceleration a.
 inline Screw bodyForce(const Body& body, const Screw& v, const Screw& a) noexcept {
   return body * a + crossForce(v, body * v);
 }

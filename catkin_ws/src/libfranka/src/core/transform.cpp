@@ -22,7 +22,7 @@ bool hasExactBottomRow(const Matrix& m) noexcept {
   return m[3] == 0.0 && m[7] == 0.0 && m[11] == 0.0 && m[15] == 1.0;
 }
 
-// Lengths, not their squares: four-digit matrices such as 0.7071 must pass.
+// Lengths, not their squares: matrices with four digits such as 0.7071 must pass.
 double lengthOf(double x, double y, double z) noexcept { return std::sqrt(x * x + y * y + z * z); }
 
 double rowLength(const Matrix& m, std::size_t i) noexcept {
@@ -33,7 +33,7 @@ double columnLength(const Matrix& m, std::size_t i) noexcept {
   return lengthOf(at(m, 0, i), at(m, 1, i), at(m, 2, i));
 }
 
-// Comparisons that fail for NaN.
+// These comparisons are false for NaN.
 bool isUnit(double length) noexcept { return std::abs(length - 1.0) <= kTransformTolerance; }
 
 double productOfColumns(const Matrix& m, std::size_t i, std::size_t j) noexcept {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kSizeWithoutTorqueFinished = 370;
 
-// Everything behind the message id, in the order of the wire (protocol 4.2).
+// All fields after the message id, in the order of the datagram (protocol 4.2).
 template <typename Visitor, typename Command>
 void visitFields(Visitor& visit, Command& command, std::uint16_t version) noexcept {
   visit(command.q_c, command.dq_c, command.O_T_EE_c, command.O_dP_EE_c, command.elbow_c,

@@ -35,7 +35,7 @@ constexpr const Numbers& numbers(std::uint16_t version) noexcept {
   return version <= 9 ? kVersions8And9 : kVersion10;
 }
 
-/// Bytes behind the header.
+/// Bytes after the header.
 constexpr std::array<std::size_t, kCommandCount> kRequestPayload{
     {4, 56, 0, 4, 416, 56, 48, 7, 128, 128, 104, 40, 0, 2, 0}};
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint16_t kConnect = 0;
 
-// Bytes behind the header, in the order of Command (protocol 7.1).
+// Bytes after the header, in the order of Command (protocol 7.1).
 constexpr std::array<std::size_t, 5> kPayload{{4, 0, 40, 16, 0}};
 
 void write(const ConnectRequest& request, wire::Writer& writer) noexcept {
@@ -136,7 +136,7 @@ CodecError writeReply(std::uint16_t command, std::uint32_t command_id, const Rep
 }
 
 CodecError readReply(std::uint16_t command, Bytes message, Header& header, Reply& reply) noexcept {
-  // As with the robot, an answer to Connect may be longer.
+  // As with the robot, a reply to Connect may be longer.
   const std::size_t size = sizeOfReply(command);
   if (!isWhole(message, kMaxReceivedReplySize, header) || message.size < size ||
       (message.size > size && command != kConnect)) {

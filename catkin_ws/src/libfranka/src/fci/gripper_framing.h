@@ -7,7 +7,7 @@
 #include "wire.h"
 
 /// @file
-/// What gripper and vacuum gripper frame alike.
+/// Common framing of gripper and vacuum gripper.
 
 namespace franka_core::fci::gripper {
 
@@ -30,12 +30,12 @@ inline void readConnect(wire::Reader& reader, ConnectRequest& request) noexcept 
   request.udp_port = reader.integer<std::uint16_t>();
 }
 
-/// The whole message is there and is what its header says.
+/// Whether the message is complete and matches its header.
 inline bool isWhole(Bytes message, std::size_t max_size, Header& header) noexcept {
   return nextMessage(message, max_size, header) == CodecError::kNone && header.size == message.size;
 }
 
-/// Replies are those of both grippers: a status, and to Connect (number 0 of both) a version.
+/// Both grippers have the same replies: a status, and for Connect (number 0 of both) a version.
 CodecError writeReply(std::uint16_t command, std::uint32_t command_id, const Reply& reply,
                       ReplyMessage& message) noexcept;
 CodecError readReply(std::uint16_t command, Bytes message, Header& header, Reply& reply) noexcept;

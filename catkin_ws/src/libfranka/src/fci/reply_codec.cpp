@@ -198,7 +198,7 @@ CodecError decodeReply(std::uint16_t version, Command command, Bytes message, He
   }
   const CodecError framing = nextMessage(message, kMaxReplySize, header);
   const std::size_t size = replySize(version, command);
-  // Genuine clients take a longer answer to Connect, which some servers give.
+  // Genuine clients accept a longer reply to Connect, which some servers send.
   const bool open_ended = carriesModel(command) || command == Command::kConnect;
   const bool fits = open_ended ? message.size >= size : message.size == size;
   if (framing != CodecError::kNone || header.size != message.size || !fits) {

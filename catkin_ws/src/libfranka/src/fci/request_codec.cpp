@@ -59,7 +59,7 @@ CodecError write(std::uint16_t /*version*/, const ConnectRequest& request,
   return CodecError::kNone;
 }
 
-// The request counts motion generators from joint positions on, the state from idle on.
+// In the request, numbers of motion generators start at joint positions; in the state at idle.
 CodecError write(std::uint16_t version, const MoveRequest& request, wire::Writer& writer) noexcept {
   const auto controller = static_cast<std::uint8_t>(request.controller_mode);
   const auto generator = static_cast<std::uint8_t>(request.motion_generator_mode);
@@ -146,7 +146,7 @@ CodecError read(std::uint16_t /*version*/, wire::Reader& reader,
   return CodecError::kNone;
 }
 
-// The empty request of a command, found by walking the list of all.
+// The empty request of a command, found in the list of all.
 template <std::size_t kIndex = 0>
 Request emptyRequest(std::size_t index) noexcept {
   if constexpr (kIndex + 1 < kCommandCount) {

@@ -88,7 +88,7 @@ constexpr std::size_t sizeOf(WireType type) {
   }
 }
 
-// How a member is written.
+// Type and size of a member.
 struct Shape {
   std::size_t count;
   WireType type;
@@ -248,17 +248,17 @@ class StateReader {
   RobotState& state_;
 };
 
-// Looks at the few bytes that can be wrong before anything is taken over.
+// Checks the few bytes that can be invalid before anything is read.
 CodecError check(std::uint16_t version, const StateLayout& layout,
                  const std::uint8_t* data) noexcept {
   // From motion_generator_mode to robot_mode: the fields before the success rate.
   constexpr std::size_t kBytewiseFields = 5;
   const StateField* field = &layout.fields[layout.count - 1 - kBytewiseFields];
-  const auto knows = [&](const StateField& f, auto kind) {
+  const auto isValid = [&](const StateField& f, auto kind) {
     return data[f.offset] <= last(kind, version);
   };
-  const bool known = knows(field[0], MotionGeneratorMode{}) && knows(field[1], ControllerMode{}) &&
-                     knows(field[4], RobotMode{});
+  const bool known = isValid(field[0], MotionGeneratorMode{}) &&
+                     isValid(field[1], ControllerMode{}) && isValid(field[4], RobotMode{});
   bool booleans = true;
   for (const StateField* flags = field + 2; flags != field + 4; flags++) {
     for (std::size_t i = 0; i < flags->count; i++) {

@@ -39,7 +39,7 @@ std::string notPossible(RobotMode mode) {
          modeName(mode) + "\")!" + (mode == RobotMode::kOther ? " Did you open the brakes?" : "");
 }
 
-// Behind the genuine words: what an argument has to be, where that is asked for often.
+// Appended to the genuine text: the valid values of an argument, for common mistakes.
 std::string hint(Command command) {
   if (command != Command::kSetLoad) {
     return "";
@@ -53,7 +53,7 @@ std::string hint(Command command) {
   return text;
 }
 
-// What follows the command's name; empty for a status that is no failure of this command.
+// Text after the command's name; empty for a status that is no failure of this command.
 std::string ending(Command command, Status status, RobotMode mode) {
   switch (status) {
     case Status::kCommandNotPossibleRejected:
@@ -72,7 +72,7 @@ std::string ending(Command command, Status status, RobotMode mode) {
     case Status::kInputErrorAborted:
       return " command aborted: invalid input provided!";
     case Status::kAborted:
-      // The genuine client has no words of its own for a StopMove that was aborted.
+      // The genuine client has no text for an aborted StopMove.
       return command == Command::kStopMove ? notPossible(mode) : " command aborted!";
     case Status::kManualErrorRecoveryRequiredRejected:
       return " command rejected: manual error recovery required!";

@@ -8,7 +8,7 @@ namespace franka_core::fci::vacuum {
 
 namespace {
 
-// Bytes behind the header, in the order of Command (protocol 7.2).
+// Bytes after the header, in the order of Command (protocol 7.2).
 constexpr std::array<std::size_t, 4> kPayload{{4, 10, 8, 0}};
 
 void write(const ConnectRequest& request, wire::Writer& writer) noexcept {

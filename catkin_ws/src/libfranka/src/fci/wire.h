@@ -12,8 +12,8 @@
 #include <cstring>
 
 /// @file
-/// Little-endian numbers, packed, whatever the machine's own order. Callers compare sizes first;
-/// reader and writer then never step outside.
+/// Little-endian, packed numbers, independent of the machine's own order. Callers check sizes
+/// first, so that reader and writer stay within the buffer.
 
 namespace franka_core::fci::wire {
 
@@ -60,7 +60,7 @@ inline void storeF32(double value, std::uint8_t* to) noexcept {
   store(bits, to);
 }
 
-/// Takes values off the front of bytes that are known to suffice. Notes faults of values.
+/// Reads values from the front of a buffer of sufficient size. Records invalid values.
 class Reader {
  public:
   explicit Reader(const std::uint8_t* from) noexcept : from_(from) {}
@@ -107,7 +107,7 @@ class Reader {
   bool good_booleans_{true};
 };
 
-/// Puts values one behind the other into a buffer that is known to suffice.
+/// Appends values to a buffer of sufficient size.
 class Writer {
  public:
   explicit Writer(std::uint8_t* to) noexcept : to_(to) {}

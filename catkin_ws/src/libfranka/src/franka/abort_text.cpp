@@ -13,7 +13,7 @@ std::string reflexText(const std::string& text, const franka_core::RobotState& s
   std::ostringstream message;
   message << text << " " << Errors(state.reflex_reason);
   if (log.size() >= 2) {
-    // The last state is the one that shows the abort; its own rate is 0.
+    // The last state shows the abort; its own rate is 0.
     const franka_core::RobotState& before = log[log.size() - 2].state;
     const std::uint64_t lost = log.back().state.message_id - before.message_id - 1;
     message << "\ncontrol_command_success_rate: "

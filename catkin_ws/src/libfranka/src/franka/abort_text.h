@@ -13,8 +13,8 @@
 namespace franka {
 
 /// The text about a motion that ended by reflex: the genuine client's text word for word
-/// (protocol 3.4), then, on lines of their own, the cause as the log shows it.
-/// @param text what happened. @param state the newest one, whose reflex_reason says why.
+/// (protocol 3.4), followed by separate lines with the cause found in the log.
+/// @param text the event. @param state the newest one, with its reflex_reason.
 /// @param log the last states and commands, oldest first. @param version the robot's protocol.
 std::string reflexText(const std::string& text, const franka_core::RobotState& state,
                        const std::vector<MotionLog::Entry>& log, std::uint16_t version);

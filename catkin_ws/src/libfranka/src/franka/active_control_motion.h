@@ -18,15 +18,15 @@ namespace franka {
 /// A motion that the program drives; keeps the connection open and busy until it ends.
 class ActiveControl::Motion {
  public:
-  /// Starts the motion. Whether another operation runs is checked first.
-  /// @param checked_request checks the arguments and gives the request that starts the motion.
+  /// Starts the motion. First checks that no other operation runs.
+  /// @param checked_request checks the arguments and returns the request that starts the motion.
   Motion(std::shared_ptr<Robot::Impl> robot,
          const std::function<franka_core::fci::MoveRequest()>& checked_request);
   ~Motion();
 
   bool needsTorques() const noexcept { return needs_torques_; }
   std::pair<RobotState, Duration> read();
-  /// @param fill writes the command for a state, and says whether it is the last one.
+  /// @param fill writes the command for a state, and returns whether it is the last one.
   template <typename Fill>
   void write(Fill fill);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Joints = ArmRateLimits::Joints;
 
-// An FR3 tolerates no lost packets on top (kTolNumberPacketsLost of its client is 0).
+// An FR3 has no margin for lost packets (kTolNumberPacketsLost of its client is 0).
 constexpr double withoutPackets(double velocity) { return velocity - kLimitEps; }
 
 franka_core::DerivativeLimits withMargin(const franka_core::DerivativeLimits& limits) {
@@ -140,7 +140,7 @@ std::optional<franka_core::PositionVelocityLimits> velocityLimitsFromUrdf(const 
         !readAttribute(by_position, "deceleration_limit", limits.deceleration[i])) {
       return std::nullopt;
     }
-    limits.deceleration[i] *= 2.0;  // the table holds the factor under the root
+    limits.deceleration[i] *= 2.0;  // the table holds the factor under the square root
   }
   return robot != nullptr ? std::make_optional(limits) : std::nullopt;
 }

@@ -67,7 +67,7 @@ AsyncPositionControlHandler::CommandResult AsyncPositionControlHandler::setJoint
   std::array<double, 7> positions{};
   std::copy_n(target.joint_positions.begin(), 7, positions.begin());
   try {
-    // The newest state is what the target answers, and it tells whether the motion still runs.
+    // The target answers the newest state, which also shows whether the motion still runs.
     motion_->readOnce();
     motion_->writeOnce(JointPositions(positions));
   } catch (const std::invalid_argument& error) {
@@ -88,7 +88,7 @@ AsyncPositionControlHandler::TargetFeedback AsyncPositionControlHandler::getTarg
   try {
     const RobotState state = robot_state ? *robot_state : motion_->readOnce().first;
     if (showsEnd(state)) {
-      motion_->readOnce();  // throws what the robot says about it
+      motion_->readOnce();  // throws with the robot's reason
       throw ControlException("libfranka: The robot does not move any more.");
     }
     if (!target_) {
@@ -108,7 +108,7 @@ void AsyncPositionControlHandler::abort(const char* message) {
 }
 
 bool AsyncPositionControlHandler::showsEnd(const RobotState& state) const {
-  // States from before the motion say nothing about it.
+  // States from before the motion are not relevant.
   return state.time >= started_at_ && state.robot_mode != RobotMode::kMove;
 }
 

@@ -105,7 +105,7 @@ void shape(const Shaping& shaping, const CartesianPose& pose, const RobotState& 
     command.O_T_EE_c =
         cartesianLowpassFilter(kDeltaT, command.O_T_EE_c, reference, shaping.cutoff_frequency);
   }
-  // Before the limiter, whose own check would speak of rate limiting.
+  // Before the limiter, whose own error would mention rate limiting.
   if (!isHomogeneousTransformation(command.O_T_EE_c)) {
     throw std::invalid_argument("libfranka: The commanded pose is no homogeneous transformation: " +
                                 franka_core::transformFault(command.O_T_EE_c) + ".");

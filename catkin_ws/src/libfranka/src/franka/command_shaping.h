@@ -9,15 +9,15 @@
 
 namespace franka {
 
-/// How a callback's value becomes a command.
+/// Settings for converting a callback's value into a command.
 struct Shaping {
   const ArmRateLimits* limits;  ///< null: commands are not limited
   double cutoff_frequency;      ///< of the low-pass filter [Hz]; from kMaxCutoffFrequency on: none
-  bool start_at_command;        ///< the value itself is what it is filtered and limited against
+  bool start_at_command;        ///< the reference for filter and limiter is the value itself
 };
 
-/// Each function filters a value against the state it answers, limits it, checks it and writes it
-/// into the command. No allocation, lock or log; safe in the 1 kHz loop.
+/// Each function filters a value against the state that it answers, limits it, checks it and writes
+/// it into the command. No allocation, lock or log; safe in the 1 kHz loop.
 /// @throws std::invalid_argument if a value is not finite, a pose no homogeneous transformation, or
 /// an elbow's sign neither +1 nor -1.
 void shape(const Shaping& shaping, const Torques& torques, const franka_core::RobotState& state,
@@ -31,7 +31,7 @@ void shape(const Shaping& shaping, const CartesianPose& pose, const franka_core:
 void shape(const Shaping& shaping, const CartesianVelocities& velocities,
            const franka_core::RobotState& state, franka_core::RobotCommand& command);
 
-/// The shaping of motions that the program drives itself: checks only.
+/// For motions that the program drives itself: checks only.
 constexpr Shaping kUnshaped{nullptr, 1000.0, false};
 
 }  // namespace franka

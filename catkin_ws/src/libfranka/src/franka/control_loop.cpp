@@ -19,7 +19,7 @@ namespace {
 
 namespace fci = franka_core::fci;
 
-/// What a cycle works on.
+/// Data of one cycle.
 struct Cycle {
   const franka_core::RobotState& wire_state;
   const RobotState& state;
@@ -36,12 +36,12 @@ void requireSettings(const LoopSettings& settings) {
   }
 }
 
-// Positions and poses have a value to start from; for velocities and torques rest is the start.
+// Positions and poses start at a value; velocities and torques start at rest.
 template <typename Value>
 constexpr bool kHasStartValue =
     std::is_same_v<Value, JointPositions> || std::is_same_v<Value, CartesianPose>;
 
-/// Calls back, shapes the value into the command. @returns whether it is the last one.
+/// Calls back and shapes the value into the command. @returns whether it is the last one.
 template <typename Value>
 bool call(const Callback<Value>& callback, Cycle& cycle) {
   const Value value = callback(cycle.state, cycle.period);
@@ -51,8 +51,8 @@ bool call(const Callback<Value>& callback, Cycle& cycle) {
   return value.motion_finished;
 }
 
-/// Calls `step` once a state until it says that the motion ends.
-/// @param checked_request checks the arguments and gives the request that starts the motion.
+/// Calls `step` once per state until it returns that the motion ends.
+/// @param checked_request checks the arguments and returns the request that starts the motion.
 template <typename CheckedRequest, typename Step>
 void run(Robot::Impl& robot, CheckedRequest checked_request, const LoopSettings& settings,
          Step step) {
@@ -84,7 +84,7 @@ void run(Robot::Impl& robot, CheckedRequest checked_request, const LoopSettings&
     }
     motion.finish(command);
   } catch (...) {
-    // Also after the robot itself has ended the motion: it then has nothing left to stop.
+    // Also after the robot itself has ended the motion: there is then nothing to stop.
     motion.cancel();
     throw;
   }
@@ -151,8 +151,7 @@ void runMotionLoop(Robot::Impl& robot, const Callback<Torques>& control_callback
     return moveRequest(kExternal, kGeneratorOf<Value>);
   };
   if (robot.options().load().callback_order == CallbackOrder::kMotionFirst) {
-    // The callback that comes second is not asked once the first has ended the motion: its last
-    // value stays.
+    // The second callback is not called once the first has ended the motion: its last value stays.
     run(robot, checked_request, settings, [&](Cycle& cycle) {
       return call(motion_callback, cycle) || call(control_callback, cycle);
     });

@@ -16,33 +16,33 @@ namespace franka {
 template <typename Value>
 using Callback = std::function<Value(const RobotState&, Duration)>;
 
-/// What the user chose for one motion.
+/// The user's settings for one motion.
 struct LoopSettings {
   bool limit_rate;
   double cutoff_frequency;  ///< [Hz]
 };
 
 /// @name Loops
-/// Each runs a motion until a callback ends it. Whether another operation runs is checked before
+/// Each runs a motion until a callback ends it. A running operation is reported before errors of
 /// the arguments. @throws as Robot::control.
 /// @{
 
-/// A motion that torques alone move.
+/// A motion with torques alone.
 void runTorqueLoop(Robot::Impl& robot, const Callback<Torques>& control_callback,
                    const LoopSettings& settings);
 
-/// A motion generator that one of the robot's controllers follows.
+/// A motion generator followed by one of the robot's controllers.
 template <typename Value>
 void runMotionLoop(Robot::Impl& robot, const Callback<Value>& motion_callback,
                    ControllerMode controller, const LoopSettings& settings);
 
-/// A motion generator that the caller's torques follow.
+/// A motion generator followed by the caller's torques.
 template <typename Value>
 void runMotionLoop(Robot::Impl& robot, const Callback<Torques>& control_callback,
                    const Callback<Value>& motion_callback, const LoopSettings& settings);
 /// @}
 
-/// The motion generator that a kind of command drives.
+/// The motion generator for a kind of command.
 template <typename Value>
 constexpr franka_core::MotionGeneratorMode kGeneratorOf = franka_core::MotionGeneratorMode::kNone;
 template <>
@@ -55,8 +55,8 @@ template <>
 constexpr auto kGeneratorOf<CartesianVelocities> =
     franka_core::MotionGeneratorMode::kCartesianVelocity;
 
-/// The motion that carries torques alone. Before version 10 there is none without a motion
-/// generator: joint velocities that stay zero stand in.
+/// The motion generator of a motion with torques alone. Before version 10 none exists without a
+/// motion generator: joint velocities that stay zero are used.
 constexpr franka_core::MotionGeneratorMode torqueGeneratorOf(std::uint16_t version) noexcept {
   return version >= 10 ? franka_core::MotionGeneratorMode::kNone
                        : franka_core::MotionGeneratorMode::kJointVelocity;

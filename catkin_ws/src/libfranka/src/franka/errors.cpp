@@ -15,7 +15,7 @@ Errors::Errors() : Errors(std::array<bool, 41>{}) {}
 Errors::Errors(const Errors& other) : Errors(other.errors_) {}
 
 Errors& Errors::operator=(Errors other) {
-  // The references stay bound to this object's own flags; only the flags move.
+  // The references stay bound to this object's own flags; only the flags are copied.
   errors_ = other.errors_;
   return *this;
 }

@@ -9,12 +9,12 @@ namespace franka {
 
 namespace {
 
-// What two numbers mean, and what to do about them.
+// Explains two version numbers, and gives advice.
 std::string adviceFor(uint16_t server_version, uint16_t library_version) {
   const auto& oldest = franka_core::kRobotVersions.front();
   const auto& newest = franka_core::kRobotVersions.back();
   if (library_version != newest.version) {
-    // A gripper's protocol, which is not in the table.
+    // A gripper's protocol is not in the table.
     return "Please update the robot's system or the library so that both match.";
   }
   if (server_version < oldest.version) {

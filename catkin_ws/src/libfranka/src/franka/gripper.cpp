@@ -22,7 +22,7 @@ struct HandProtocol {
   static constexpr std::uint16_t kOldest = fci::kOldestGripperVersion;
   static constexpr std::uint16_t kNewest = fci::kNewestGripperVersion;
   static constexpr std::size_t kMaxReplySize = codec::kMaxReceivedReplySize;
-  static constexpr const char* kWho = fci::kGripper;
+  static constexpr const char* kTextPrefix = fci::kGripper;
 
   static void encodeRequest(std::uint32_t id, const Request& request, RequestMessage& message) {
     codec::encodeRequest(id, request, message);

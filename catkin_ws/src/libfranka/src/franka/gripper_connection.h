@@ -22,11 +22,12 @@
 
 namespace franka {
 
-/// What the hand and the vacuum gripper have in common: requests with one reply, and states that
-/// come by themselves.
+/// Common part of hand and vacuum gripper: requests with one reply, and states that arrive
+/// continuously.
 ///
-/// Protocol describes one of the two: its types and codec, kPort, kOldest, kNewest, and kWho, with
-/// which its texts begin. Threads: execute from any number, readOnce from one at a time.
+/// Protocol describes one of the two: its types and codec, kPort, kOldest, kNewest, and
+/// kTextPrefix, the start of its texts. Threads: execute from any number, readOnce from one at a
+/// time.
 template <typename Protocol>
 class GripperConnection {
  public:
@@ -39,23 +40,23 @@ class GripperConnection {
       : timeouts_(timeouts()), datagrams_(timeouts_.state) {
     const network::Endpoint endpoint = network::parseEndpoint(address, Protocol::kPort);
     const Deadline deadline = network::Clock::now() + timeouts_.connect;
-    const std::optional<std::uint16_t> wanted = offer(endpoint, Protocol::kNewest, deadline);
-    if (!wanted) {
+    const std::optional<std::uint16_t> required = offer(endpoint, Protocol::kNewest, deadline);
+    if (!required) {
       return;
     }
-    // A gripper takes only its own version, and says which that is.
+    // A gripper accepts only its own version, and replies with it.
     // NOLINTNEXTLINE(misc-redundant-expression)  kOldest and kNewest are the same in some protocols
-    if (*wanted < Protocol::kOldest || *wanted >= Protocol::kNewest ||
-        offer(endpoint, *wanted, deadline)) {
-      throw IncompatibleVersionException(*wanted, Protocol::kNewest);
+    if (*required < Protocol::kOldest || *required >= Protocol::kNewest ||
+        offer(endpoint, *required, deadline)) {
+      throw IncompatibleVersionException(*required, Protocol::kNewest);
     }
   }
 
   std::uint16_t version() const noexcept { return version_; }
 
   /// @returns whether the gripper succeeded.
-  /// @throws CommandException when the command failed or was aborted.
-  /// @throws NetworkException when no answer comes within `bound`.
+  /// @throws CommandException if the command failed or was aborted.
+  /// @throws NetworkException if no reply arrives within `bound`.
   bool execute(const Request& request, std::chrono::milliseconds bound) {
     const typename Protocol::Reply reply =
         decode(request, await(request, network::Clock::now() + bound, bound));
@@ -72,7 +73,7 @@ class GripperConnection {
     throw CommandException(text(franka_core::fci::kGripperFailed));
   }
 
-  /// The state in the next datagram, after those that are waiting already.
+  /// The state in the next datagram, after those already received.
   State readOnce() {
     const std::unique_lock<std::mutex> lock(state_mutex_, std::try_to_lock);
     if (!lock.owns_lock()) {
@@ -96,13 +97,13 @@ class GripperConnection {
     return state;
   }
 
-  /// What takes long, such as homing.
+  /// Bound of long commands, such as homing.
   std::chrono::milliseconds longBound() const noexcept { return timeouts_.long_command; }
 
  private:
   using Deadline = network::Clock::time_point;
 
-  static std::string text(const std::string& ending) { return Protocol::kWho + ending; }
+  static std::string text(const std::string& ending) { return Protocol::kTextPrefix + ending; }
 
   static franka_core::fci::CodecError findMessage(franka_core::fci::Bytes stream, std::uint32_t& id,
                                                   std::size_t& size) {
@@ -114,7 +115,7 @@ class GripperConnection {
     return error;
   }
 
-  /// @returns the version the gripper wants instead, or nothing if it agrees.
+  /// @returns the version that the gripper requires instead, or nothing if it agrees.
   std::optional<std::uint16_t> offer(const network::Endpoint& endpoint, std::uint16_t version,
                                      Deadline deadline) {
     channel_.reset();

@@ -8,11 +8,11 @@
 #include <ostream>
 
 /// @file
-/// The little JSON that states are written in; internal.
+/// Minimal JSON output for states; internal.
 
 namespace franka {
 
-/// A number, or `null` where JSON has no word for it.
+/// A number, or `null` if it is not finite.
 inline void writeJson(std::ostream& ostream, double value) {
   if (std::isfinite(value)) {
     ostream << value;
@@ -33,7 +33,7 @@ void writeJson(std::ostream& ostream, const std::array<double, kSize>& values) {
   ostream << "]";
 }
 
-/// Name and value of a member that is not the first of its object.
+/// Name and value of a member after the first one.
 template <typename Value>
 void writeMember(std::ostream& ostream, const char* name, const Value& value) {
   ostream << ", \"" << name << "\": ";

@@ -45,8 +45,8 @@ std::array<double, 16> multiply(const std::array<double, 16>& a, const std::arra
   return product;
 }
 
-/// Whether all that the loader would map is there: what lies beyond the end of a file that was cut
-/// off, it would touch and die.
+/// Whether all segments that the loader maps are present: it would crash on access beyond the end
+/// of a truncated file.
 bool isComplete(const std::vector<std::uint8_t>& object) {
   ElfW(Ehdr) header;
   if (object.size() < sizeof(header)) {
@@ -77,7 +77,7 @@ std::string pathOf(const network::Descriptor& memory) {
   return "/proc/self/fd/" + std::to_string(memory.get());
 }
 
-/// Whether the loader holds an object under this path.
+/// Whether the loader has an object under this path.
 bool isLoaded(const std::string& path) {
   void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD);
   if (handle != nullptr) {
@@ -86,10 +86,10 @@ bool isLoaded(const std::string& path) {
   return handle != nullptr;
 }
 
-/// The bytes as a file that is in memory only, under a path that the loader has not seen: for one
-/// that it has, it would hand out the object it knows instead of reading the file. Such paths are
-/// left behind by objects that the loader keeps although they were closed, and in a process that
-/// was forked and has closed its parent's files.
+/// The bytes as a file in memory, under a path that is new to the loader: for a known path, it
+/// would return the known object instead of reading the file. Known paths remain from objects that
+/// the loader keeps although they were closed, and in a forked process that closed its parent's
+/// files.
 network::Descriptor inMemory(const std::vector<std::uint8_t>& bytes) {
   network::Descriptor memory(memfd_create("franka_model", MFD_CLOEXEC));
   std::size_t written = 0;
@@ -112,7 +112,7 @@ network::Descriptor inMemory(const std::vector<std::uint8_t>& bytes) {
   return memory;
 }
 
-/// A loaded shared object. It never touches the disk.
+/// A loaded shared object. Never written to disk.
 class SharedObject {
  public:
   explicit SharedObject(const std::vector<std::uint8_t>& bytes) {
@@ -149,7 +149,7 @@ class SharedObject {
   }
 
  private:
-  network::Descriptor memory_;  // open as long as the object is loaded: its path is nobody else's
+  network::Descriptor memory_;  // open while the object is loaded, so that its path stays unique
   void* handle_{nullptr};
 };
 
@@ -227,7 +227,7 @@ class LibraryModel : public Model::Source {
   }
 
  private:
-  /// What hangs on the flange, down to the frame.
+  /// Transform from the flange to the frame.
   static std::array<double, 16> tip(Frame frame, const std::array<double, 16>& F_T_EE,
                                     const std::array<double, 16>& EE_T_K) {
     if (frame == Frame::kEndEffector) {

@@ -22,7 +22,7 @@ void writeValues(std::ostream& ostream, const char*, const std::array<double, kS
   }
 }
 
-// One place for the order of columns: header and lines walk through the same list.
+// Defines the order of columns once, for header and lines.
 template <typename Write>
 void forEachColumn(const Record& record, Write write) {
   write("state.q", record.state.q);

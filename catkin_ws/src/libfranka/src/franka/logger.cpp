@@ -29,7 +29,7 @@ namespace logging {
 
 namespace {
 
-// The interface's functions are free: the sinks are those of the process.
+// The interface has free functions: the sinks belong to the process.
 struct Sinks {
   std::mutex mutex;
   std::map<std::string, std::shared_ptr<LoggingSinkInterface>> by_name;

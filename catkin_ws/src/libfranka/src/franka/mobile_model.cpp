@@ -92,7 +92,7 @@ Elements jointsOf(const tinyxml2::XMLElement& robot) {
   return joints;
 }
 
-/// The joints from the root to the one whose name has this end, itself included.
+/// The joints from the root to the one whose name ends with the suffix, inclusive.
 Chain chainTo(const Elements& joints, const std::string& suffix) {
   const auto find = [&joints](auto matches) {
     const auto found = std::find_if(joints.begin(), joints.end(), matches);
@@ -149,7 +149,7 @@ MobileModel::MobileModel(const std::string& urdf) : data_(std::make_unique<Data>
   }
   const Elements joints = jointsOf(*robot);
   for (const char* suffix : kSuffixes) {
-    chainTo(joints, suffix);  // each has to be there
+    chainTo(joints, suffix);  // each must exist
   }
   for (std::size_t i = 0; i < kDriveJoints.size(); i++) {
     data_->chains[i] = chainTo(joints, kSuffixes[kDriveJoints[i]]);

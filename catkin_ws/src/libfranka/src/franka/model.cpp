@@ -22,7 +22,7 @@ namespace {
 
 namespace fci = franka_core::fci;
 
-/// The shared object has to run on this machine.
+/// The shared object must match this machine.
 constexpr fci::Architecture architecture() {
 #if defined(__aarch64__)
   return fci::Architecture::kArm64;
@@ -48,7 +48,7 @@ Model Robot::loadModel() {
     try {
       return Model(modelFromUrdf(getRobotModel(), ""));
     } catch (const Exception&) {
-      // Versions 8 and 9 have both; one that cannot be used leaves the other.
+      // Versions 8 and 9 have both; if one is unusable the other remains.
       if (!fci::hasModelLibrary(impl_->version())) {
         throw;
       }

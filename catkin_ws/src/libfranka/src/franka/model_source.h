@@ -12,7 +12,7 @@
 
 namespace franka {
 
-/// Computes what a Model answers. All functions are real-time safe; layouts as in Model.
+/// Computes the results of a Model. All functions are real-time safe; layouts as in Model.
 class Model::Source {
  public:
   virtual ~Source() = default;
@@ -41,8 +41,8 @@ class Model::Source {
 /// The arm of a URDF, computed by ArmModel. @throws ModelException
 std::unique_ptr<Model::Source> modelFromUrdf(const std::string& urdf, const std::string& arm_id);
 
-/// The shared object that robots with protocol 3 to 9 send. @throws ModelException when it cannot
-/// be loaded or lacks one of its functions
+/// The shared object from robots with protocol 3 to 9. @throws ModelException if it cannot be
+/// loaded or lacks one of its functions
 std::unique_ptr<Model::Source> modelFromLibrary(const std::vector<std::uint8_t>& shared_object);
 
 }  // namespace franka

@@ -11,19 +11,19 @@
 
 namespace franka {
 
-/// Keeps the last states and commands of a motion. Memory is taken at construction; add is for the
-/// 1 kHz loop.
+/// Stores the last states and commands of a motion. Memory is allocated at construction; add is
+/// real-time safe.
 class MotionLog {
  public:
   /// A received state and the command sent just before it.
   using Entry = franka_core::AbortRecord;
 
-  /// @param size how many entries are kept; may be 0.
+  /// @param size number of entries; may be 0.
   explicit MotionLog(std::size_t size) : ring_(size) {}
 
-  /// Adds an entry in the place of the oldest.
+  /// Adds an entry, replacing the oldest.
   void add(const franka_core::RobotState& state, const franka_core::RobotCommand& command) noexcept;
-  /// Everything kept, oldest first.
+  /// All entries, oldest first.
   std::vector<Entry> entries() const;
 
  private:
@@ -31,7 +31,7 @@ class MotionLog {
   std::size_t count_{0};  // of all entries ever added
 };
 
-/// The same for users.
+/// Converts entries to the public type.
 std::vector<Record> toRecords(const std::vector<MotionLog::Entry>& entries);
 
 }  // namespace franka

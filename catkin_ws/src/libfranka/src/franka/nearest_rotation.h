@@ -8,8 +8,8 @@
 namespace franka {
 
 /// The rotation nearest to the upper left 3x3 block of a 4x4 column-major matrix (least sum of
-/// squared differences), by a singular value decomposition. A quaternion of a block that is not
-/// quite orthogonal names another rotation, also when it is normalised. Real-time safe.
+/// squared differences), by a singular value decomposition. The (normalised) quaternion of a block
+/// that is not quite orthogonal is a different rotation. Real-time safe.
 inline Eigen::Matrix3d nearestRotation(const std::array<double, 16>& transform) {
   return Eigen::Affine3d(Eigen::Matrix4d::Map(transform.data())).rotation();
 }

@@ -46,18 +46,18 @@ Joints forEachJoint(Function function) {
   return values;
 }
 
-/// Whether what stands where libfranka up to 0.10 has an acceleration limit is the lower velocity
-/// limit of later releases: negative, or beyond a joint's end kLimitEps.
+/// Whether the argument at the position of libfranka 0.10's acceleration limit is the lower
+/// velocity limit of later releases: negative, or kLimitEps beyond a joint's end.
 bool isLowerVelocity(double max_acceleration) { return max_acceleration <= kLimitEps; }
 
-/// What one joint's velocity may be [rad/s].
+/// Allowed velocities of one joint [rad/s].
 struct VelocityRange {
   double lowest;
   double highest;
 };
 
-// Jerk limit first; then an acceleration small enough that the velocity limits can still be met by
-// braking with the jerk there is.
+// Jerk limit first; then an acceleration small enough that braking within the jerk limit can still
+// meet the velocity limits.
 double limitVelocity(const VelocityRange& range, double max_acceleration, double max_jerk,
                      double velocity, double last_velocity, double last_acceleration) {
   const double jerk = ((velocity - last_velocity) / kDeltaT - last_acceleration) / kDeltaT;
@@ -84,13 +84,13 @@ Eigen::Vector3d limitVelocity(const Bounds& bounds, const Eigen::Vector3d& veloc
   }
   const Eigen::Vector3d direction = acceleration / acceleration_norm;
   const double along = direction.dot(last_velocity);
-  // How much speed may be gained in this direction until the sphere of allowed velocities ends.
-  // Outside of it and heading past it the root would be of a negative number: then only braking is
-  // left.
+  // The remaining speed in this direction within the sphere of allowed velocities. Outside of it
+  // and moving past it the square is negative: then only braking is left.
   const double square =
       along * along - last_velocity.squaredNorm() + bounds.velocity * bounds.velocity;
   const double distance = -along + std::sqrt(std::max(square, 0.0));
-  // Beyond the sphere the room is negative, and as an acceleration it could exceed the limit.
+  // Beyond the sphere the remaining speed is negative, and as an acceleration it could exceed the
+  // limit.
   const double allowed =
       clampMagnitude(bounds.jerk / bounds.acceleration * distance, bounds.acceleration);
   return last_velocity + direction * std::min(acceleration_norm, allowed) * kDeltaT;
@@ -122,7 +122,7 @@ double limitRate(double max_velocity, double max_acceleration, double max_jerk,
                  double commanded_position, double last_commanded_position,
                  double last_commanded_velocity, double last_commanded_acceleration) {
   if (isLowerVelocity(max_acceleration)) {
-    // In this order: upper and lower velocity, acceleration, jerk, velocity, and the last two.
+    // Actual meaning: upper and lower velocity, acceleration, jerk, velocity, and the last two.
     const double commanded_velocity = last_commanded_position;
     requireFinite(std::array<double, 1>{commanded_velocity});
     return limitVelocity({max_acceleration, max_velocity}, max_jerk, commanded_position,
@@ -157,7 +157,7 @@ Joints limitRate(const Joints& max_velocity, const Joints& max_acceleration, con
                  const Joints& last_commanded_velocities,
                  const Joints& last_commanded_accelerations) {
   if (std::any_of(max_acceleration.begin(), max_acceleration.end(), isLowerVelocity)) {
-    // In this order: upper and lower velocity, acceleration, jerk, velocity, and the last two.
+    // Actual meaning: upper and lower velocity, acceleration, jerk, velocity, and the last two.
     const Joints& commanded_velocities = last_commanded_positions;
     requireFinite(commanded_velocities);
     return forEachJoint([&](std::size_t i) {
@@ -194,17 +194,17 @@ std::array<double, 6> limitRate(double max_translational_velocity,
                                 const std::array<double, 6>& last_O_ddP_EE_c) {
   requireFinite(O_dP_EE_c);
   using Twist = Eigen::Matrix<double, 6, 1>;
-  const Eigen::Map<const Twist> wanted(O_dP_EE_c.data());
+  const Eigen::Map<const Twist> desired(O_dP_EE_c.data());
   const Eigen::Map<const Twist> last(last_O_dP_EE_c.data());
   const Eigen::Map<const Twist> last_acceleration(last_O_ddP_EE_c.data());
   std::array<double, 6> limited{};
   Eigen::Map<Twist> result(limited.data());
   result.head<3>() = limitVelocity(
       {max_translational_velocity, max_translational_acceleration, max_translational_jerk},
-      wanted.head<3>(), last.head<3>(), last_acceleration.head<3>());
+      desired.head<3>(), last.head<3>(), last_acceleration.head<3>());
   result.tail<3>() =
       limitVelocity({max_rotational_velocity, max_rotational_acceleration, max_rotational_jerk},
-                    wanted.tail<3>(), last.tail<3>(), last_acceleration.tail<3>());
+                    desired.tail<3>(), last.tail<3>(), last_acceleration.tail<3>());
   return limited;
 }
 
@@ -222,7 +222,7 @@ std::array<double, 16> limitRate(double max_translational_velocity,
         "libfranka rate limiting: the commanded pose is no homogeneous transformation: " +
         franka_core::transformFault(O_T_EE_c) + ".");
   }
-  const Eigen::Map<const Eigen::Matrix4d> wanted(O_T_EE_c.data());
+  const Eigen::Map<const Eigen::Matrix4d> desired(O_T_EE_c.data());
   const Eigen::Map<const Eigen::Matrix4d> last(last_O_T_EE_c.data());
   const Eigen::Matrix3d last_rotation = nearestRotation(last_O_T_EE_c);
   const Eigen::AngleAxisd step(
@@ -231,7 +231,7 @@ std::array<double, 16> limitRate(double max_translational_velocity,
   std::array<double, 6> twist{};
   Eigen::Map<Eigen::Vector3d> linear(twist.data());
   Eigen::Map<Eigen::Vector3d> angular(twist.data() + 3);
-  linear = (wanted.topRightCorner<3, 1>() - last.topRightCorner<3, 1>()) / kDeltaT;
+  linear = (desired.topRightCorner<3, 1>() - last.topRightCorner<3, 1>()) / kDeltaT;
   angular = step.angle() / kDeltaT * step.axis();
   twist =
       limitRate(max_translational_velocity, max_translational_acceleration, max_translational_jerk,

@@ -14,7 +14,7 @@ namespace franka {
 namespace {
 
 void lockMemory() {
-  // Under a limit, memory asked for later could be refused because it cannot be locked.
+  // Under a limit, later allocations could fail because they cannot be locked.
   rlimit limit{};
   const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
   static_cast<void>(mlockall(unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT));

@@ -6,11 +6,10 @@
 
 namespace franka {
 
-/// Makes the calling thread fit for the 1 kHz loop: highest priority of SCHED_FIFO, and, where
-/// enforced, memory locked as far as this process may (a failure to lock is no error). With kIgnore
-/// the priority is tried for and done without.
-/// @throws RealtimeException if enforced and the kernel has no realtime, or the priority cannot be
-/// had.
+/// Prepares the calling thread for the 1 kHz loop: highest priority of SCHED_FIFO and, if enforced,
+/// memory locked as far as permitted (a failure to lock is no error). With kIgnore a failure to get
+/// the priority is ignored.
+/// @throws RealtimeException if enforced and the kernel or the priority is not available.
 void prepareControlThread(RealtimeConfig realtime_config);
 
 }  // namespace franka

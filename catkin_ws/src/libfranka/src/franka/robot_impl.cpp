@@ -24,14 +24,14 @@ namespace {
 namespace fci = franka_core::fci;
 using franka_core::MotionGeneratorMode;
 
-// A wait for a state looks so often whether the connection still stands.
+// Period at which a wait for a state checks the connection.
 constexpr std::chrono::milliseconds kSlice{50};
 
-// A robot's clock and this machine's differ by less; so far may the time at which a starved client
-// reads a state lie behind that at which it came (our choice).
+// Tolerance between a robot's clock and this machine's. Chosen here: a starved client may read a
+// state this much later than it arrived.
 constexpr std::chrono::milliseconds kSameTime{50};
 
-// More datagrams than this in one go are left for the next look; nobody sends so many in earnest.
+// More datagrams than this are left for the next call (a real robot never sends so many).
 constexpr int kDatagramsAtOnce = 4096;
 
 fci::CodecError findMessage(fci::Bytes stream, std::uint32_t& id, std::size_t& size) {
@@ -73,8 +73,8 @@ Robot::Impl::Operation::Operation(Impl& robot) : robot_(robot) {
   if (robot_.busy_.test_and_set(std::memory_order_acquire)) {
     throw InvalidOperationException(fci::kOtherOperationRunning);
   }
-  // A thread that waits for a reply may be looking for states just now; it never does so for long.
-  // Sleeping lets it go on even where this thread has realtime priority on the same core.
+  // A thread that waits for a reply may hold the states for a short time. Sleeping lets it continue
+  // even if this thread has realtime priority on the same core.
   while (robot_.states_in_use_.test_and_set(std::memory_order_acquire)) {
     std::this_thread::sleep_for(std::chrono::microseconds(50));
   }
@@ -118,14 +118,14 @@ RealtimeConfig Robot::Impl::realtimeForMotion() {
 void Robot::Impl::connect(const std::string& address) {
   const network::Endpoint endpoint = network::parseEndpoint(address, fci::kRobotPort);
   const Clock::time_point deadline = Clock::now() + timeouts_.connect;
-  const std::optional<std::uint16_t> wanted = offer(endpoint, fci::kNewestRobotVersion, deadline);
-  if (!wanted) {
+  const std::optional<std::uint16_t> required = offer(endpoint, fci::kNewestRobotVersion, deadline);
+  if (!required) {
     return;
   }
-  // A robot accepts only its own version and replies which that is (protocol 2.2).
-  if (!fci::isRobotVersion(*wanted) || *wanted == fci::kNewestRobotVersion ||
-      offer(endpoint, *wanted, deadline)) {
-    throw IncompatibleVersionException(*wanted, fci::kNewestRobotVersion);
+  // A robot accepts only its own version and replies with it (protocol 2.2).
+  if (!fci::isRobotVersion(*required) || *required == fci::kNewestRobotVersion ||
+      offer(endpoint, *required, deadline)) {
+    throw IncompatibleVersionException(*required, fci::kNewestRobotVersion);
   }
 }
 
@@ -149,7 +149,7 @@ std::optional<std::uint16_t> Robot::Impl::offer(const network::Endpoint& endpoin
   if (reply.status != fci::Status::kSuccess) {
     return reply.server_version;
   }
-  // The robot knows best what it will send.
+  // The version in the reply determines the states that the robot sends.
   if (fci::isRobotVersion(reply.server_version)) {
     version_ = reply.server_version;
   }
@@ -162,18 +162,18 @@ void Robot::Impl::readDescription() {
     const std::string urdf(text.begin(), text.end());
     is_mobile_ = isMobileRobotUrdf(urdf);
     const auto limits = velocityLimitsFromUrdf(urdf);
-    // A description without limits leaves those of the published table.
+    // Without limits in the description those of the published table stay.
     if (limits) {
       limits_.position_velocity = limits;
     }
   } catch (const CommandException&) {
-    // So does a robot that gives none.
+    // The same without a description.
   }
 }
 
 namespace {
 
-// Replies to a request are kept only as long as somebody waits for them.
+// Replies to a request are kept only while a caller waits for them.
 struct Forget {
   Robot::Impl& robot;
   std::uint32_t id;
@@ -308,7 +308,7 @@ const franka_core::RobotState& Robot::Impl::receiveState() {
     repeated_ = false;
     const Datagram datagram = datagrams_.receive(buffer_.data(), buffer_.size());
     news = datagram.any && accept(datagram);
-    // What came right behind it is newer still.
+    // Datagrams that arrived meanwhile are newer.
     news = takeStates() || news;
     const Clock::time_point now = Clock::now();
     waited = repeated_ ? Clock::duration{}
@@ -355,7 +355,7 @@ bool Robot::Impl::takeStates() {
 
 bool Robot::Impl::takeStatesUnlessInUse() {
   if (states_in_use_.test_and_set(std::memory_order_acquire)) {
-    return true;  // who uses them has a timeout of its own
+    return true;  // the current holder has a timeout of its own
   }
   struct Release {
     std::atomic_flag& flag;
@@ -364,7 +364,7 @@ bool Robot::Impl::takeStatesUnlessInUse() {
   return takesStatesIn();
 }
 
-// Also where what comes is the last state once more: the robot is there.
+// A repeated state also counts: the robot is there.
 bool Robot::Impl::takesStatesIn() {
   repeated_ = false;
   return takeStates() || repeated_;

@@ -21,11 +21,11 @@
 
 namespace franka {
 
-/// The connection itself: requests and replies over TCP, states and commands over UDP, in whatever
-/// version the robot speaks.
+/// The connection itself: requests and replies over TCP, states and commands over UDP, in the
+/// robot's protocol version.
 ///
-/// Two kinds of functions: those about requests may be called from any thread; those about states
-/// only by who holds an Operation. The latter neither allocate nor lock.
+/// Functions for requests may be called from any thread; functions for states only by the holder of
+/// an Operation. The latter neither allocate nor lock.
 class Robot::Impl {
  public:
   using Clock = network::Clock;
@@ -36,9 +36,9 @@ class Robot::Impl {
   Impl(const std::string& address, RealtimeConfig realtime_config, std::size_t log_size);
 
   std::uint16_t version() const noexcept { return version_; }
-  /// What the thread of a motion has to have: as constructed, unless franka_core::realtimeRule
-  /// lifts it for a simulated robot, which is said once. Not real-time safe. Thread-safe.
-  /// @throws RealtimeException if the environment variable FRANKA_REALTIME makes no sense.
+  /// Realtime requirement of a motion's thread: as constructed, unless franka_core::realtimeRule
+  /// lifts it for a simulated robot, which is logged once. Not real-time safe. Thread-safe. @throws
+  /// RealtimeException if the environment variable FRANKA_REALTIME is invalid.
   RealtimeConfig realtimeForMotion();
   std::size_t logSize() const noexcept { return log_size_; }
   const ArmRateLimits& limits() const noexcept { return limits_; }
@@ -49,7 +49,7 @@ class Robot::Impl {
   /// The exclusive right to receive states: one motion or read at a time.
   class Operation {
    public:
-    /// @throws InvalidOperationException if another one lives.
+    /// @throws InvalidOperationException if another one exists.
     explicit Operation(Impl& robot);
     ~Operation();
     Operation(const Operation&) = delete;
@@ -67,9 +67,9 @@ class Robot::Impl {
   /// @{
 
   /// Sends a request and waits for its reply.
-  /// @throws CommandException unless the robot agrees, or if it knows no such command.
+  /// @throws CommandException if the robot refuses, or does not have the command.
   Reply execute(const Request& request);
-  /// A request whose reply carries a model. @throws CommandException likewise; for
+  /// For requests whose reply carries a model. @throws CommandException likewise; for
   /// LoadModelLibrary ModelException.
   std::vector<std::uint8_t> download(const Request& request) {
     return download(request, timeouts_.long_command);
@@ -79,7 +79,7 @@ class Robot::Impl {
   /// of the protocol has no such request.
   std::uint32_t send(const Request& request);
   void forget(std::uint32_t id) { channel_->forget(id); }
-  /// The next reply if it is there.
+  /// The next reply if it has arrived.
   std::optional<Reply> tryReceive(Command command, std::uint32_t id);
   /// Waits for the next reply. @param owns_states whether the caller holds an Operation.
   /// @throws NetworkException after `bound`, or Timeouts::silence without a state.
@@ -95,26 +95,25 @@ class Robot::Impl {
   /// The newest state.
   const franka_core::RobotState& state() const noexcept { return states_[newest_]; }
   /// Waits for a newer state. Older and repeated ones are dropped; but a robot that repeats its
-  /// last state waits for another client (a simulated one in lock-step), and is waited for in turn.
+  /// last state waits for another client (a simulated one in lock-step), so the wait is extended.
   /// Time in which this process itself does not run does not count.
-  /// @throws NetworkException after Timeouts::state, or Timeouts::silence where
-  /// keepsOtherTime; at once if the connection is closed.
-  /// @throws ProtocolException for a datagram that is no state.
+  /// @throws NetworkException after Timeouts::state, or Timeouts::silence if keepsOtherTime; at
+  /// once if the connection is closed.
+  /// @throws ProtocolException for an invalid datagram.
   const franka_core::RobotState& receiveState();
-  /// Takes in what has arrived, without waiting. @returns whether there was a newer state.
+  /// Reads datagrams that have arrived, without waiting. @returns whether there was a newer state.
   bool takeStates();
   /// Sends a command in answer to the newest state. @throws NetworkException if it cannot be sent.
   void sendCommand(franka_core::RobotCommand& command);
 
-  /// A motion begins (or ends): from now on its clock is compared with this machine's.
+  /// A motion starts (or ends): from now on its clock is compared with this machine's.
   void beginMotion() noexcept;
   void endMotion() noexcept { motion_began_.reset(); }
-  /// Whether the robot's clock has gone differently from this machine's in this motion. No robot's
-  /// does; a simulated one's does that waits for its client's answers, and a busy machine may hold
-  /// it up.
+  /// Whether the robot's clock differs from this machine's in this motion. Real robots keep time; a
+  /// simulated one that waits for its client's answers does not, and load may delay it.
   bool keepsOtherTime() const noexcept;
 
-  /// Whether the newest state shows a motion generator or the external controller at work.
+  /// Whether the newest state shows an active motion generator or external controller.
   bool isMoving() const noexcept;
   /// @}
 
@@ -126,10 +125,11 @@ class Robot::Impl {
   };
 
   void connect(const std::string& address);
-  /// Offers a version. @returns the version the robot wants instead, or nothing if it agrees.
+  /// Offers a version. @returns the version that the robot requires instead, or nothing if it
+  /// agrees.
   std::optional<std::uint16_t> offer(const network::Endpoint& endpoint, std::uint16_t version,
                                      Clock::time_point deadline);
-  /// What kind of robot it is, and its velocity limits, from the description it sends.
+  /// Reads the kind of robot and its velocity limits from its description.
   void readDescription();
   std::vector<std::uint8_t> download(const Request& request, std::chrono::milliseconds bound);
   std::vector<std::uint8_t> receiveMessage(Command command, std::uint32_t id,
@@ -152,14 +152,14 @@ class Robot::Impl {
   bool is_mobile_{false};
   std::unique_ptr<network::CommandChannel> channel_;
 
-  std::atomic_flag busy_ = ATOMIC_FLAG_INIT;           // an Operation lives
-  std::atomic_flag states_in_use_ = ATOMIC_FLAG_INIT;  // guards what follows
+  std::atomic_flag busy_ = ATOMIC_FLAG_INIT;           // an Operation exists
+  std::atomic_flag states_in_use_ = ATOMIC_FLAG_INIT;  // guards the members below
   network::DatagramSocket datagrams_;
   franka_core::fci::StateBuffer buffer_{};
-  std::array<franka_core::RobotState, 2> states_;  // the newest, and room for the next
+  std::array<franka_core::RobotState, 2> states_;  // the newest, and a buffer for the next
   std::size_t newest_{0};
   Clock::time_point received_at_{};  // the newest state
-  bool repeated_{false};             // it has come once more since
+  bool repeated_{false};             // it has been repeated since
   std::optional<Moment> motion_began_;
   std::atomic<franka_core::RobotMode> mode_{franka_core::RobotMode::kOther};
 };

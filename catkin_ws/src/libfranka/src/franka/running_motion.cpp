@@ -34,7 +34,7 @@ RunningMotion::RunningMotion(Robot::Impl& robot, const fci::MoveRequest& request
 }
 
 void RunningMotion::abandonStart() noexcept {
-  // Unless the robot itself says that there is no motion, it may be moving by now.
+  // Unless the robot itself reports that there is no motion, it may already be moving.
   if (!end_) {
     cancel();
   }
@@ -53,7 +53,7 @@ void RunningMotion::requireRunning() const {
   }
 }
 
-/// What the robot says at the end of a motion it says once: who asks again hears the same.
+/// The robot reports the end of a motion once: later calls throw the same again.
 template <typename Function>
 void RunningMotion::concludeWith(Function function) {
   try {
@@ -158,7 +158,7 @@ RunningMotion::Reply RunningMotion::lastReply() {
   const auto bound = robot_.bounds().long_command;
   Reply reply = robot_.receive(fci::Command::kMove, id_, bound, /*owns_states=*/true);
   if (reply.status == fci::Status::kMotionStarted) {
-    // The first reply, repeated, says nothing new.
+    // A repetition of the first reply.
     reply = robot_.receive(fci::Command::kMove, id_, bound, /*owns_states=*/true);
   }
   if (reply.status == fci::Status::kMotionStarted) {
@@ -191,7 +191,7 @@ void RunningMotion::cancel() noexcept {
       }
     }
   } catch (...) {
-    // What made us stop the robot is told; that it does not answer any more follows from it.
+    // The first failure is reported; a missing reply to the stop follows from it.
   }
   if (id) {
     robot_.forget(*id);

@@ -13,9 +13,8 @@
 
 namespace franka {
 
-/// One motion on the robot, from the command Move to its second reply. The holder of the robot's
-/// Operation drives it from one thread; send and receive neither allocate nor lock while the motion
-/// runs.
+/// One motion on the robot, from Move to its second reply. The holder of the robot's Operation
+/// drives it from one thread; send and receive neither allocate nor lock while the motion runs.
 class RunningMotion {
  public:
   /// Starts the motion; returns when the robot's states show it.
@@ -26,18 +25,19 @@ class RunningMotion {
   RunningMotion(const RunningMotion&) = delete;
   RunningMotion& operator=(const RunningMotion&) = delete;
 
-  /// Answers the newest state. @throws what ended the motion, if receive or finish has told it.
+  /// Answers the newest state. @throws the end of the motion, if receive or finish has thrown it.
   void send(const franka_core::RobotCommand& command);
-  /// Waits for the next state. @throws ControlException if it shows that the motion has ended; from
-  /// then on at once.
+  /// Waits for the next state. @throws ControlException if it shows that the motion has ended, also
+  /// in all later calls.
   const franka_core::RobotState& receive();
-  /// Ends the motion with this command, which the robot gets until it stands still.
+  /// Ends the motion with this command, which is repeated until the robot stands still.
   /// @throws ControlException if the motion ends in another way.
   void finish(franka_core::RobotCommand command);
-  /// Stops the robot, as far as it can be reached.
+  /// Stops the robot if it can be reached.
   void cancel() noexcept;
 
-  /// Whether torques alone move the arm: then it is they that are finished, not a motion generator.
+  /// Whether the motion has torques alone: then torques are marked finished, not a motion
+  /// generator.
   bool isTorqueOnly() const noexcept {
     return request_.motion_generator_mode == franka_core::MotionGeneratorMode::kNone;
   }
@@ -60,8 +60,8 @@ class RunningMotion {
   const franka_core::fci::MoveRequest request_;
   MotionLog log_;
   std::uint32_t id_{0};
-  std::optional<Reply> early_end_;  // the second reply, where it came before the motion was shown
-  std::exception_ptr end_;          // what was thrown because the motion has ended
+  std::optional<Reply> early_end_;  // the second reply, if it came before a state showed the motion
+  std::exception_ptr end_;          // the exception that ended the motion
   franka_core::RobotCommand sent_;
   bool connection_lost_{false};
 };

@@ -22,7 +22,7 @@ ArmFrame armFrame(Frame frame) {
   return static_cast<ArmFrame>(frame);
 }
 
-/// Answers by ArmModel.
+/// Results of ArmModel.
 class UrdfModel : public Model::Source {
  public:
   explicit UrdfModel(const ArmModel& arm) : arm_(arm) {}

@@ -26,7 +26,7 @@ struct VacuumProtocol {
   static constexpr std::uint16_t kOldest = fci::kVacuumGripperVersion;
   static constexpr std::uint16_t kNewest = fci::kVacuumGripperVersion;
   static constexpr std::size_t kMaxReplySize = franka_core::fci::gripper::kMaxReceivedReplySize;
-  static constexpr const char* kWho = fci::kVacuumGripper;
+  static constexpr const char* kTextPrefix = fci::kVacuumGripper;
 
   static void encodeRequest(std::uint32_t id, const Request& request, RequestMessage& message) {
     codec::encodeRequest(id, request, message);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fci = franka_core::fci;
 
-// How soon a waiting thread sees a reply that another thread has read.
+// Delay until a waiting thread receives a reply that another thread has read.
 constexpr std::chrono::milliseconds kSlice{10};
 
 int millisecondsUntil(Clock::time_point deadline, std::chrono::milliseconds at_most) {
@@ -72,7 +72,7 @@ Descriptor connectTo(const Endpoint& endpoint, Clock::time_point deadline) {
   return socket;
 }
 
-// Without keepalives a robot without power looks like a silent one (protocol 2.2).
+// Without keepalives a robot without power cannot be told from a silent one (protocol 2.2).
 void enableKeepalive(int socket) {
   const auto set = [socket](int level, int option, int value) {
     setsockopt(socket, level, option, &value, sizeof(value));

@@ -23,9 +23,9 @@ using Clock = std::chrono::steady_clock;
 
 /// The TCP connection to a robot or gripper: requests out, replies in.
 ///
-/// Replies belong to requests by their id. They are kept until asked for, also when another thread
-/// reads them from the socket; two replies to one request queue up. Replies that nobody waits for
-/// (see expect, forget) are dropped. All functions may be called from any thread and end in bounded
+/// Replies belong to requests by their id. They are kept until requested, also if another thread
+/// reads them from the socket; two replies to one request are queued. Unexpected replies (see
+/// expect, forget) are dropped. All functions may be called from any thread and end in bounded
 /// time; only closedByServer is for the 1 kHz loop.
 class CommandChannel {
  public:
@@ -34,25 +34,25 @@ class CommandChannel {
                                                        std::uint32_t& id, std::size_t& size);
   using Message = std::vector<std::uint8_t>;
 
-  /// How long one request may take to leave this machine.
+  /// Time limit for sending one request.
   static constexpr std::chrono::seconds kSendTimeout{5};
 
-  /// Connects. A server that dies or vanishes is noticed within 4 s (TCP keepalive).
+  /// Connects. A server that dies or vanishes is detected within 4 s (TCP keepalive).
   /// @throws NetworkException if there is no connection by `deadline`.
   CommandChannel(const Endpoint& endpoint, FindMessage find_message, Clock::time_point deadline);
   ~CommandChannel();
   CommandChannel(const CommandChannel&) = delete;
   CommandChannel& operator=(const CommandChannel&) = delete;
 
-  /// A new request's id, 0 at first; its replies are kept from now on.
+  /// A new request's id, starting at 0; its replies are kept from now on.
   std::uint32_t expect();
-  /// Drops what came for this id and whatever else may come.
+  /// Drops all present and future replies to this id.
   void forget(std::uint32_t id);
   /// Sends one request.
   /// @throws NetworkException if the connection is lost or takes no bytes for kSendTimeout.
   void send(franka_core::fci::Bytes request);
 
-  /// The next reply to this request if it is there.
+  /// The next reply to this request if it has arrived.
   /// @throws NetworkException if the server has closed the connection and all replies are read.
   /// @throws ProtocolException if the stream cannot be read.
   std::optional<Message> tryReceive(std::uint32_t id);
@@ -63,7 +63,7 @@ class CommandChannel {
                                  const std::function<void()>& watch = {});
 
   /// Whether the server has closed the connection or vanished, as far as visible without reading
-  /// what it sent before. One system call; safe in the 1 kHz loop.
+  /// earlier data. One system call; safe in the 1 kHz loop.
   bool closedByServer() const noexcept;
 
   /// Whether the server is on this machine (see franka_core::isLoopback). Real-time safe.
@@ -80,7 +80,7 @@ class CommandChannel {
   std::mutex send_mutex_;
   std::mutex receive_mutex_;
   std::atomic<std::uint32_t> next_id_{0};
-  std::map<std::uint32_t, std::vector<Message>> replies_;  // one entry for each expected id
+  std::map<std::uint32_t, std::vector<Message>> replies_;  // one entry per expected id
   std::vector<std::uint8_t> stream_;
   std::optional<franka_core::fci::CodecError> broken_;
   bool closed_{false};

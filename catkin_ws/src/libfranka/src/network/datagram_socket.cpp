@@ -12,8 +12,8 @@
 namespace franka::network {
 
 namespace {
-// A wait that is shorter is not worth going to sleep for (our choice; a sleep costs some 50 us).
-constexpr std::chrono::microseconds kSwift{100};
+// Waits up to this length do not sleep (chosen here: a sleep costs about 50 us).
+constexpr std::chrono::microseconds kMaxSpin{100};
 }  // namespace
 
 DatagramSocket::DatagramSocket(std::chrono::milliseconds timeout)
@@ -43,19 +43,18 @@ DatagramSocket::Received DatagramSocket::receive(std::uint8_t* buffer,
                                                  std::size_t capacity) noexcept {
   const auto begin = std::chrono::steady_clock::now();
   Received received{false, 0};
-  if (swift_) {
-    received = awaitSwiftly(buffer, capacity);
+  if (spins_) {
+    received = spin(buffer, capacity);
   }
   if (!received.any) {
     received = receiveFromRobot(buffer, capacity, 0);
   }
-  swift_ = may_spin_ && received.any && std::chrono::steady_clock::now() - begin < kSwift;
+  spins_ = may_spin_ && received.any && std::chrono::steady_clock::now() - begin < kMaxSpin;
   return received;
 }
 
-DatagramSocket::Received DatagramSocket::awaitSwiftly(std::uint8_t* buffer,
-                                                      std::size_t capacity) noexcept {
-  const auto deadline = std::chrono::steady_clock::now() + kSwift;
+DatagramSocket::Received DatagramSocket::spin(std::uint8_t* buffer, std::size_t capacity) noexcept {
+  const auto deadline = std::chrono::steady_clock::now() + kMaxSpin;
   Received received = tryReceive(buffer, capacity);
   while (!received.any && std::chrono::steady_clock::now() < deadline) {
     received = tryReceive(buffer, capacity);
@@ -66,7 +65,7 @@ DatagramSocket::Received DatagramSocket::awaitSwiftly(std::uint8_t* buffer,
 DatagramSocket::Received DatagramSocket::receiveFromRobot(std::uint8_t* buffer,
                                                           std::size_t capacity,
                                                           int flags) noexcept {
-  // A signal, or a stranger's datagram, does not end the wait, but does not prolong it for ever.
+  // A signal, or another sender's datagram, neither ends the wait nor extends it.
   const auto deadline = std::chrono::steady_clock::now() + timeout_;
   do {
     socklen_t address_size = sizeof(last_sender_);

@@ -10,14 +10,14 @@
 
 namespace franka::network {
 
-/// Where a server listens.
+/// Address of a server.
 struct Endpoint {
   std::string host;
   std::uint16_t port;
 };
 
-/// Takes `host` or `host:port` apart.
-/// @param default_port port where none is named.
+/// Parses `host` or `host:port`.
+/// @param default_port port if none is given.
 /// @throws NetworkException with a sentence if the host is empty or the port no port.
 Endpoint parseEndpoint(const std::string& address, std::uint16_t default_port);
 

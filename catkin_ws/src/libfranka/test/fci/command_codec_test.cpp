@@ -35,8 +35,8 @@ RobotCommand randomCommand(franka_test::FciRandom& random, std::uint16_t version
   return command;
 }
 
-// Offsets typed from the description of the packet.
-TEST_P(CommandOfVersion, hasEachFieldAtItsPlace) {
+// Offsets typed from the description of the datagram.
+TEST_P(CommandOfVersion, HasEachFieldAtItsOffset) {
   RobotCommand command;
   command.message_id = 0x1122334455667788;
   command.q_c[6] = 1.25;
@@ -68,7 +68,7 @@ TEST_P(CommandOfVersion, hasEachFieldAtItsPlace) {
   EXPECT_EQ(buffer[370], GetParam() >= 7 ? 1 : 0);
 }
 
-TEST_P(CommandOfVersion, comesBackTheSame) {
+TEST_P(CommandOfVersion, RoundTripsUnchanged) {
   franka_test::FciRandom random(GetParam());
   for (int i = 0; i < 200; i++) {
     const RobotCommand sent = randomCommand(random, GetParam());
@@ -90,7 +90,7 @@ TEST_P(CommandOfVersion, comesBackTheSame) {
   }
 }
 
-TEST_P(CommandOfVersion, isRefusedAtEveryOtherSize) {
+TEST_P(CommandOfVersion, IsRefusedAtEveryOtherSize) {
   RobotCommand command;
   command.message_id = 5;
   for (std::size_t size = 0; size < 400; size++) {
@@ -102,8 +102,8 @@ TEST_P(CommandOfVersion, isRefusedAtEveryOtherSize) {
   }
 }
 
-// Every number in turn: read whole, and said to be none.
-TEST_P(CommandOfVersion, tellsOfNumbersThatAreNotFinite) {
+// Every number in turn: read completely, and reported as not finite.
+TEST_P(CommandOfVersion, ReportsNonFiniteNumbers) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
         -std::numeric_limits<double>::infinity()}) {
@@ -120,7 +120,7 @@ TEST_P(CommandOfVersion, tellsOfNumbersThatAreNotFinite) {
   }
 }
 
-TEST_P(CommandOfVersion, isRefusedWithTruthValuesThatAreNone) {
+TEST_P(CommandOfVersion, IsRefusedWithInvalidBooleans) {
   std::vector<std::size_t> places{312, 313};
   if (GetParam() >= 7) {
     places.push_back(370);
@@ -136,7 +136,7 @@ TEST_P(CommandOfVersion, isRefusedWithTruthValuesThatAreNone) {
   }
 }
 
-TEST(CommandCodec, refusesVersionsThatDoNotExist) {
+TEST(CommandCodec, RefusesUnknownVersions) {
   CommandBuffer buffer{};
   RobotCommand command;
   for (const std::uint16_t version : {0, 2, 11, 65535}) {

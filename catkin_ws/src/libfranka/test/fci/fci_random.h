@@ -39,7 +39,7 @@ class FciRandom {
     (fill(values), ...);
   }
 
-  /// A state in which everything that the version carries is random.
+  /// A state in which every field of the version is random.
   franka_core::RobotState state(std::uint16_t version) {
     franka_core::RobotState s;
     s.message_id = engine_();
@@ -59,7 +59,7 @@ class FciRandom {
   }
 
  private:
-  // To what the version can carry.
+  // Reduces a state to the fields and precision of the version.
   static void reduce(franka_core::RobotState& s, std::uint16_t version) {
     if (version < 10) {
       s.accelerometer_top = {};

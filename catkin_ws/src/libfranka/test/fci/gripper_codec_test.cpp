@@ -18,7 +18,7 @@ using franka_test::view;
 namespace gripper = franka_core::fci::gripper;
 namespace vacuum = franka_core::fci::vacuum;
 
-// What both codecs do with a request that is cut or lengthened by any number of bytes.
+// Both codecs with a request shortened or lengthened by any number of bytes.
 template <typename Codec, typename Request>
 void expectRefusedAtEveryOtherSize(const Request& request, const Codec& codec) {
   const std::vector<std::uint8_t> whole = codec.encode(request);
@@ -70,14 +70,14 @@ struct VacuumCodec {
   }
 };
 
-// Seen on the wire from panda-python 1.1.1: command 0, id 0, 14 bytes, version 3, a port.
-TEST(GripperCodec, writesTheGenuineConnect) {
+// Recorded from panda-python 1.1.1: command 0, id 0, 14 bytes, version 3, a port.
+TEST(GripperCodec, WritesTheGenuineConnect) {
   gripper::RequestMessage message;
   gripper::encodeRequest(0, gripper::ConnectRequest{3, 0x1234}, message);
   EXPECT_EQ(toVector(message), fromHex("0000 00000000 0e000000 0300 3412"));
 }
 
-TEST(GripperCodec, ordersTheGraspAsOnTheWire) {
+TEST(GripperCodec, WritesTheFieldsOfGraspInOrder) {
   gripper::GraspRequest grasp;
   grasp.width = 1.0;
   grasp.epsilon_inner = 2.0;
@@ -89,7 +89,7 @@ TEST(GripperCodec, ordersTheGraspAsOnTheWire) {
                     "000000000000e03f 0000000000004040"));
 }
 
-TEST(GripperCodec, comesBackTheSameAndOnlyAtItsSize) {
+TEST(GripperCodec, RoundTripsUnchangedOnlyAtItsSize) {
   const gripper::Request requests[] = {gripper::ConnectRequest{3, 4711}, gripper::HomingRequest{},
                                        gripper::GraspRequest{0.02, 0.01, 0.03, 0.1, 40.0},
                                        gripper::MoveRequest{0.08, 0.05}, gripper::StopRequest{}};
@@ -101,12 +101,12 @@ TEST(GripperCodec, comesBackTheSameAndOnlyAtItsSize) {
   }
 }
 
-TEST(GripperCodec, refusesUnknownCommands) {
+TEST(GripperCodec, RefusesUnknownCommands) {
   EXPECT_EQ(GripperCodec::decode(fromHex("0500 00000000 0a000000")), CodecError::kUnknownCommand);
   EXPECT_EQ(VacuumCodec::decode(fromHex("0400 00000000 0a000000")), CodecError::kUnknownCommand);
 }
 
-TEST(GripperCodec, findsMessagesInAStream) {
+TEST(GripperCodec, FindsMessagesInAStream) {
   const auto stream = fromHex("0100 05000000 0c000000 0000 ff");
   gripper::Header header;
   for (std::size_t size = 0; size <= stream.size(); size++) {
@@ -121,7 +121,7 @@ TEST(GripperCodec, findsMessagesInAStream) {
             CodecError::kTooLong);
 }
 
-TEST(GripperCodec, carriesEachStatus) {
+TEST(GripperCodec, TransmitsEachStatus) {
   for (int c = 0; c < 5; c++) {
     const auto command = static_cast<gripper::Command>(c);
     const int last = command == gripper::Command::kConnect ? 1 : 3;
@@ -161,7 +161,7 @@ TEST(GripperCodec, carriesEachStatus) {
   }
 }
 
-TEST(GripperCodec, readsAStateWrittenByHand) {
+TEST(GripperCodec, ReadsAStateWrittenByHand) {
   const auto bytes =
       fromHex("07000000 7b14ae47e17aa43f 7b14ae47e17ab43f 01 2300");  // 0.04 and 0.08 m, 35 deg C
   gripper::State state;
@@ -176,7 +176,7 @@ TEST(GripperCodec, readsAStateWrittenByHand) {
   EXPECT_EQ(std::vector<std::uint8_t>(again.begin(), again.end()), bytes);
 }
 
-TEST(GripperCodec, refusesFaultyStates) {
+TEST(GripperCodec, RefusesInvalidStates) {
   gripper::State state;
   for (std::size_t size = 0; size < 40; size++) {
     const std::vector<std::uint8_t> bytes(size, 0);
@@ -190,7 +190,7 @@ TEST(GripperCodec, refusesFaultyStates) {
   EXPECT_EQ(state.message_id, 0U);
 }
 
-TEST(VacuumCodec, comesBackTheSameAndOnlyAtItsSize) {
+TEST(VacuumCodec, RoundTripsUnchangedOnlyAtItsSize) {
   const vacuum::Request requests[] = {
       vacuum::ConnectRequest{1, 4711}, vacuum::VacuumRequest{100, vacuum::Profile::kP2, -5},
       vacuum::DropOffRequest{std::numeric_limits<std::int64_t>::max()}, vacuum::StopRequest{}};
@@ -202,17 +202,17 @@ TEST(VacuumCodec, comesBackTheSameAndOnlyAtItsSize) {
   }
 }
 
-TEST(VacuumCodec, writesARequestAsOnTheWire) {
+TEST(VacuumCodec, WritesARequestInOrder) {
   EXPECT_EQ(VacuumCodec::encode(vacuum::VacuumRequest{100, vacuum::Profile::kP2, 3000}),
             fromHex("0100 0d0c0b0a 14000000 64 02 b80b000000000000"));
 }
 
-TEST(VacuumCodec, refusesUnknownProfiles) {
+TEST(VacuumCodec, RefusesUnknownProfiles) {
   EXPECT_EQ(VacuumCodec::decode(fromHex("0100 0d0c0b0a 14000000 64 04 b80b000000000000")),
             CodecError::kUnknownEnum);
 }
 
-TEST(VacuumCodec, carriesReplies) {
+TEST(VacuumCodec, TransmitsReplies) {
   vacuum::Reply sent;
   sent.status = vacuum::Status::kUnsuccessful;
   vacuum::ReplyMessage message;
@@ -226,7 +226,7 @@ TEST(VacuumCodec, carriesReplies) {
   EXPECT_EQ(vacuum::replySize(vacuum::Command::kConnect), 14U);
 }
 
-TEST(VacuumCodec, readsAStateWrittenByHand) {
+TEST(VacuumCodec, ReadsAStateWrittenByHand) {
   const auto bytes = fromHex("07000000 01 00 01 02 50000000 9cffffff");
   vacuum::State state;
   ASSERT_EQ(vacuum::decodeState(view(bytes), state), CodecError::kNone);
@@ -242,7 +242,7 @@ TEST(VacuumCodec, readsAStateWrittenByHand) {
   EXPECT_EQ(std::vector<std::uint8_t>(again.begin(), again.end()), bytes);
 }
 
-TEST(VacuumCodec, refusesFaultyStates) {
+TEST(VacuumCodec, RefusesInvalidStates) {
   vacuum::State state;
   for (std::size_t size = 0; size < 30; size++) {
     const std::vector<std::uint8_t> bytes(size, 0);

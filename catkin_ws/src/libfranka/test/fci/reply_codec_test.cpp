@@ -16,7 +16,7 @@ using franka_test::toVector;
 using franka_test::view;
 using S = Status;
 
-// Typed from the description of the protocol, apart from the codec: statuses by number.
+// Typed from the description of the protocol, independent of the codec: statuses by number.
 std::vector<Status> statusesOf(Command command, bool from_version_6) {
   const S unsafe = S::kRejectedDueToActivatedSafetyFunctions;
   const S not_possible = S::kCommandNotPossibleRejected;
@@ -93,7 +93,7 @@ class ReplyOfVersion : public ::testing::TestWithParam<std::uint16_t> {
 
 INSTANTIATE_TEST_SUITE_P(Versions, ReplyOfVersion, ::testing::Range<std::uint16_t>(3, 11));
 
-TEST_P(ReplyOfVersion, carriesEachStatusOfItsCommandAndNoOther) {
+TEST_P(ReplyOfVersion, TransmitsOnlyTheStatusesOfItsCommand) {
   for (const Command command : commands()) {
     const std::vector<Status> due = statusesOf(command, GetParam() >= 6);
     for (std::size_t i = 0; i < kStatusCount; i++) {
@@ -125,7 +125,7 @@ TEST_P(ReplyOfVersion, carriesEachStatusOfItsCommandAndNoOther) {
   }
 }
 
-TEST_P(ReplyOfVersion, isRefusedWithAnUnknownStatus) {
+TEST_P(ReplyOfVersion, IsRefusedWithAnUnknownStatus) {
   for (const Command command : commands()) {
     ReplyMessage message;
     ASSERT_EQ(encodeReply(GetParam(), command, 1, Reply{}, message), CodecError::kNone);
@@ -141,7 +141,7 @@ TEST_P(ReplyOfVersion, isRefusedWithAnUnknownStatus) {
   }
 }
 
-TEST_P(ReplyOfVersion, isRefusedWhenCutOrLengthened) {
+TEST_P(ReplyOfVersion, IsRefusedAtAnotherSize) {
   for (const Command command : commands()) {
     ReplyMessage message;
     ASSERT_EQ(encodeReply(GetParam(), command, 1, Reply{}, message), CodecError::kNone);
@@ -171,14 +171,14 @@ TEST_P(ReplyOfVersion, isRefusedWhenCutOrLengthened) {
 }
 
 // Motion started is 1 in every version, a reflex 6 up to version 5 and 8 from version 6 on.
-TEST(ReplyCodec, shiftsTheMoveStatusesWithVersion6) {
+TEST(ReplyCodec, ShiftsTheMoveStatusesWithVersion6) {
   EXPECT_EQ(statusNumber(5, Command::kMove, S::kReflexAborted), 6);
   EXPECT_EQ(statusNumber(6, Command::kMove, S::kReflexAborted), 8);
   EXPECT_EQ(statusFromNumber(5, Command::kMove, 7), S::kEmergencyAborted);
   EXPECT_EQ(statusFromNumber(10, Command::kMove, 7), S::kInvalidArgumentRejected);
 }
 
-TEST(ReplyCodec, writesTheRobotsVersion) {
+TEST(ReplyCodec, WritesTheRobotsVersion) {
   Reply reply;
   reply.status = S::kIncompatibleLibraryVersion;
   reply.server_version = 10;
@@ -197,7 +197,7 @@ TEST(ReplyCodec, writesTheRobotsVersion) {
   }
 }
 
-TEST(ReplyCodec, carriesAVirtualWall) {
+TEST(ReplyCodec, TransmitsAVirtualWall) {
   Reply sent;
   sent.cartesian_limit.object_world_size = {1.0, 2.0, 3.0};
   for (std::size_t i = 0; i < 16; i++) {
@@ -222,7 +222,7 @@ TEST(ReplyCodec, carriesAVirtualWall) {
             CodecError::kNotInThisVersion);
 }
 
-TEST(ReplyCodec, carriesModels) {
+TEST(ReplyCodec, TransmitsModels) {
   const std::vector<std::uint8_t> library = fromHex("7f 45 4c 46 00 01");
   std::vector<std::uint8_t> message;
   ASSERT_EQ(encodeModelReply(5, Command::kLoadModelLibrary, 4, view(library), message),
@@ -239,7 +239,7 @@ TEST(ReplyCodec, carriesModels) {
   EXPECT_EQ(message, fromHex("0b000000 04000000 0d000000 00"));
 }
 
-TEST(ReplyCodec, carriesNoModelWhereThereIsNone) {
+TEST(ReplyCodec, TransmitsNoModelForOtherVersions) {
   std::vector<std::uint8_t> message;
   const Bytes nothing;
   EXPECT_EQ(encodeModelReply(5, Command::kGetRobotModel, 4, nothing, message),

@@ -18,7 +18,7 @@ using franka_test::fromHex;
 using franka_test::toVector;
 using franka_test::view;
 
-// Typed from the description of the protocol, apart from the codec; -1: not in that version.
+// Typed from the description of the protocol, independent of the codec; -1: not in that version.
 struct Row {
   Command command;
   int number_3_to_5, number_6_and_7, number_8_and_9, number_10;
@@ -104,7 +104,7 @@ class RequestOfVersion : public ::testing::TestWithParam<std::uint16_t> {};
 
 INSTANTIATE_TEST_SUITE_P(Versions, RequestOfVersion, ::testing::Range<std::uint16_t>(3, 11));
 
-TEST_P(RequestOfVersion, hasItsNumberAndSize) {
+TEST_P(RequestOfVersion, HasItsNumberAndSize) {
   for (const Row& row : kRows) {
     const int number = numberIn(row, GetParam());
     const auto name = static_cast<int>(row.command);
@@ -121,8 +121,8 @@ TEST_P(RequestOfVersion, hasItsNumberAndSize) {
   EXPECT_FALSE(commandFromNumber(GetParam(), 0xffffffff));
 }
 
-// Written, read and written again: the same bytes, and no byte of the payload without effect.
-TEST_P(RequestOfVersion, comesBackTheSame) {
+// Written, read and written again: the same bytes, and every byte of the payload has an effect.
+TEST_P(RequestOfVersion, RoundTripsUnchanged) {
   franka_test::FciRandom random(GetParam());
   for (int round = 0; round < 50; round++) {
     const std::vector<Request> requests = randomRequests(random, GetParam());
@@ -150,7 +150,7 @@ TEST_P(RequestOfVersion, comesBackTheSame) {
   }
 }
 
-TEST_P(RequestOfVersion, isRefusedWhenCutOrLengthened) {
+TEST_P(RequestOfVersion, IsRefusedAtAnotherSize) {
   franka_test::FciRandom random(GetParam());
   const std::vector<Request> requests = randomRequests(random, GetParam());
   for (const Row& row : kRows) {
@@ -160,7 +160,7 @@ TEST_P(RequestOfVersion, isRefusedWhenCutOrLengthened) {
       continue;
     }
     for (std::size_t size = 0; size < message.size + 20; size++) {
-      // The header tells the old size, then the new one; neither may be taken for the whole.
+      // The header contains the old size, then the new one; both must be refused.
       for (const bool honest : {false, true}) {
         std::vector<std::uint8_t> bytes = toVector(message);
         bytes.resize(size);
@@ -177,7 +177,7 @@ TEST_P(RequestOfVersion, isRefusedWhenCutOrLengthened) {
   }
 }
 
-TEST_P(RequestOfVersion, withAnUnknownCommandStillGivesItsId) {
+TEST_P(RequestOfVersion, WithAnUnknownCommandKeepsItsId) {
   std::vector<std::uint8_t> bytes = fromHex("40000000 07000000 0c000000");
   Header header;
   Request request;
@@ -185,15 +185,15 @@ TEST_P(RequestOfVersion, withAnUnknownCommandStillGivesItsId) {
   EXPECT_EQ(header.command_id, 7U);
 }
 
-// Seen on the wire from panda-python 1.1.1: command 0, id 0, 16 bytes, version 5, a port.
-TEST(RequestCodec, writesTheGenuineConnect) {
+// Recorded from panda-python 1.1.1: command 0, id 0, 16 bytes, version 5, a port.
+TEST(RequestCodec, WritesTheGenuineConnect) {
   RequestMessage message;
   ASSERT_EQ(encodeRequest(5, 0, ConnectRequest{5, 0x1234}, message), CodecError::kNone);
   EXPECT_EQ(toVector(message), fromHex("00000000 00000000 10000000 0500 3412"));
 }
 
 // The genuine client's Move: joint impedance and joint positions, deviations 10, 3.12, 2 pi.
-TEST(RequestCodec, writesTheGenuineMove) {
+TEST(RequestCodec, WritesTheGenuineMove) {
   RequestMessage message;
   ASSERT_EQ(encodeRequest(5, 3, MoveRequest{}, message), CodecError::kNone);
   const std::string deviation = "0000000000002440 f6285c8fc2f50840 182d4454fb211940";
@@ -201,8 +201,9 @@ TEST(RequestCodec, writesTheGenuineMove) {
             fromHex("01000000 03000000 44000000 00000000 00000000" + deviation + deviation));
 }
 
-// From protocol 7 on torque alone is generator 4 with controller 2; the state then shows 5 and 2.
-TEST(RequestCodec, countsMotionGeneratorsOneBelowTheState) {
+// From protocol 7 on torque alone is generator 4 with controller 2; the state then contains 5 and
+// 2.
+TEST(RequestCodec, NumbersMotionGeneratorsOneBelowTheState) {
   MoveRequest move;
   move.controller_mode = ControllerMode::kExternalController;
   move.motion_generator_mode = MotionGeneratorMode::kNone;
@@ -214,7 +215,7 @@ TEST(RequestCodec, countsMotionGeneratorsOneBelowTheState) {
   EXPECT_EQ(message.size, 0U);
 }
 
-TEST(RequestCodec, placesTheAsynchronousGeneratorBehindTheDeviations) {
+TEST(RequestCodec, PlacesTheAsynchronousGeneratorAfterTheDeviations) {
   MoveRequest move;
   move.use_async_motion_generator = true;
   move.maximum_velocity = {1, 0, 0, 0, 0, 0, 0};
@@ -225,7 +226,7 @@ TEST(RequestCodec, placesTheAsynchronousGeneratorBehindTheDeviations) {
   EXPECT_EQ(encodeRequest(9, 0, move, message), CodecError::kNotInThisVersion);
 }
 
-TEST(RequestCodec, refusesModesThatCannotBeAskedFor) {
+TEST(RequestCodec, RefusesModesThatCannotBeRequested) {
   RequestMessage message;
   MoveRequest move;
   move.motion_generator_mode = MotionGeneratorMode::kIdle;
@@ -235,7 +236,7 @@ TEST(RequestCodec, refusesModesThatCannotBeAskedFor) {
   EXPECT_EQ(encodeRequest(5, 0, move, message), CodecError::kUnknownEnum);
 }
 
-TEST(RequestCodec, refusesChoicesOutsideTheirLists) {
+TEST(RequestCodec, RefusesUnknownEnumerators) {
   struct Case {
     std::uint16_t version;
     Request request;
@@ -265,7 +266,7 @@ TEST(RequestCodec, refusesChoicesOutsideTheirLists) {
     EXPECT_EQ(header.command_id, 9U);
     EXPECT_EQ(commandOf(request), Command::kStopMove);
   }
-  // Torque alone is known, but not before version 7.
+  // Torque alone exists, but not before version 7.
   RequestMessage message;
   ASSERT_EQ(encodeRequest(6, 9, MoveRequest{}, message), CodecError::kNone);
   message.data[16] = 4;
@@ -274,7 +275,7 @@ TEST(RequestCodec, refusesChoicesOutsideTheirLists) {
   EXPECT_EQ(decodeRequest(6, message.bytes(), header, request), CodecError::kNotInThisVersion);
 }
 
-TEST(RequestCodec, findsMessagesInAStream) {
+TEST(RequestCodec, FindsMessagesInAStream) {
   const auto stream = fromHex("02000000 05000000 0d000000 07 ffff");
   Header header;
   for (std::size_t size = 0; size <= stream.size(); size++) {
@@ -292,7 +293,7 @@ TEST(RequestCodec, findsMessagesInAStream) {
             CodecError::kTooLong);
 }
 
-TEST(RequestCodec, refusesVersionsThatDoNotExist) {
+TEST(RequestCodec, RefusesUnknownVersions) {
   RequestMessage message;
   Header header;
   Request request;

@@ -21,7 +21,7 @@ using franka_core::fci::StateField;
 using franka_core::fci::StateLayout;
 namespace fci = franka_core::fci;
 
-// Typed from the description of the packets, apart from the codec; -1: not in that version.
+// Typed from the description of the datagrams, independent of the codec; -1: not in that version.
 struct Row {
   const char* name;
   std::size_t count;  // numbers, from version 5 on
@@ -99,12 +99,12 @@ class StateOfVersion : public ::testing::TestWithParam<std::uint16_t> {};
 
 INSTANTIATE_TEST_SUITE_P(Versions, StateOfVersion, ::testing::Range<std::uint16_t>(3, 11));
 
-TEST_P(StateOfVersion, hasItsSize) {
+TEST_P(StateOfVersion, HasItsSize) {
   const std::size_t sizes[] = {2085, 2341, 2373, 2373, 2373, 2373, 2373, 1377};
   EXPECT_EQ(fci::stateSize(GetParam()), sizes[GetParam() - 3]);
 }
 
-TEST_P(StateOfVersion, hasEachFieldAtItsPlace) {
+TEST_P(StateOfVersion, HasEachFieldAtItsOffset) {
   const StateLayout* layout = fci::stateLayout(GetParam());
   ASSERT_NE(layout, nullptr);
   std::size_t index = 0;
@@ -123,7 +123,7 @@ TEST_P(StateOfVersion, hasEachFieldAtItsPlace) {
 }
 
 // Bytes written by hand at the table's offsets are read into the members of those names.
-TEST_P(StateOfVersion, readsBytesPutAtTheTablesOffsets) {
+TEST_P(StateOfVersion, ReadsBytesAtTheTablesOffsets) {
   const std::uint16_t version = GetParam();
   StateBuffer buffer{};
   const auto put = [&](const char* name, std::size_t index, double value) {
@@ -183,8 +183,8 @@ TEST_P(StateOfVersion, readsBytesPutAtTheTablesOffsets) {
   EXPECT_EQ(state.robot_mode, franka_core::RobotMode::kReflex);
 }
 
-// Each byte of the datagram matters, and only to what stands there: written back it is the same.
-TEST_P(StateOfVersion, comesBackTheSame) {
+// Each byte of the datagram affects only its own field: written again it is the same.
+TEST_P(StateOfVersion, RoundTripsUnchanged) {
   franka_test::FciRandom random(GetParam());
   for (int i = 0; i < 200; i++) {
     const RobotState sent = random.state(GetParam());
@@ -200,18 +200,18 @@ TEST_P(StateOfVersion, comesBackTheSame) {
   }
 }
 
-TEST_P(StateOfVersion, isRefusedAtEveryOtherSize) {
+TEST_P(StateOfVersion, IsRefusedAtEveryOtherSize) {
   const std::vector<std::uint8_t> bytes(fci::kMaxStateSize + 10, 0);
   RobotState state;
   for (std::size_t size = 0; size <= bytes.size(); size++) {
-    // A copy of exactly that size, so that the sanitizer sees a step outside.
+    // A copy of exactly that size, so that the sanitizer detects access beyond it.
     const std::vector<std::uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<long>(size));
     EXPECT_EQ(fci::decodeState(GetParam(), {cut.data(), size}, state),
               size == fci::stateSize(GetParam()) ? CodecError::kNone : CodecError::kWrongSize);
   }
 }
 
-TEST_P(StateOfVersion, isRefusedWithUnknownModesAndLeavesTheOldState) {
+TEST_P(StateOfVersion, IsRefusedWithUnknownModesAndKeepsTheOldState) {
   const StateLayout& layout = *fci::stateLayout(GetParam());
   const auto offsetOf = [&](const std::string& name) {
     for (std::size_t i = 0; i < layout.count; i++) {
@@ -248,7 +248,7 @@ TEST_P(StateOfVersion, isRefusedWithUnknownModesAndLeavesTheOldState) {
   }
 }
 
-TEST(StateCodec, refusesVersionsThatDoNotExist) {
+TEST(StateCodec, RefusesUnknownVersions) {
   StateBuffer buffer{};
   RobotState state;
   for (const std::uint16_t version : {0, 1, 2, 11, 65535}) {
@@ -259,7 +259,7 @@ TEST(StateCodec, refusesVersionsThatDoNotExist) {
   }
 }
 
-TEST(StateCodec, doesNotSendAGeneratorThatTheVersionLacks) {
+TEST(StateCodec, DoesNotSendAGeneratorThatTheVersionLacks) {
   StateBuffer buffer{};
   RobotState state;
   state.motion_generator_mode = franka_core::MotionGeneratorMode::kNone;
@@ -267,7 +267,7 @@ TEST(StateCodec, doesNotSendAGeneratorThatTheVersionLacks) {
   EXPECT_EQ(fci::encodeState(7, state, buffer), CodecError::kNone);
 }
 
-TEST(StateCodec, completesWhatOldVersionsLack) {
+TEST(StateCodec, FillsFieldsThatOldVersionsLack) {
   franka_test::FciRandom random(1);
   RobotState sent = random.state(10);
   StateBuffer buffer{};
@@ -285,7 +285,7 @@ TEST(StateCodec, completesWhatOldVersionsLack) {
   EXPECT_EQ(received.accelerometer_top[2][1], 0.0);
 }
 
-TEST(StateCodec, composesTheTotalPayload) {
+TEST(StateCodec, ComposesTheTotalPayload) {
   RobotState sent;
   sent.m_ee = 1.0;
   sent.F_x_Cee = {0.0, 0.0, 0.1};

@@ -12,8 +12,8 @@ namespace {
 using namespace franka_core::fci;  // NOLINT: the whole vocabulary of replies
 using franka_core::RobotMode;
 
-// Word for word as people and programs know them.
-TEST(Texts, areTheGenuineOnes) {
+// Word for word as users and programs know them.
+TEST(Texts, MatchTheGenuineClient) {
   struct Case {
     Command command;
     Status status;
@@ -67,7 +67,7 @@ TEST(Texts, areTheGenuineOnes) {
   }
 }
 
-TEST(Texts, tellGoodFromRejectedFromAborted) {
+TEST(Texts, DistinguishGoodRejectedAndAborted) {
   EXPECT_EQ(meaning(Status::kSuccess), Meaning::kGood);
   EXPECT_EQ(meaning(Status::kMotionStarted), Meaning::kGood);
   EXPECT_EQ(meaning(Status::kPreempted), Meaning::kAborted);
@@ -76,7 +76,7 @@ TEST(Texts, tellGoodFromRejectedFromAborted) {
   EXPECT_EQ(meaning(Status::kIncompatibleLibraryVersion), Meaning::kRejected);
 }
 
-TEST(Texts, nameEachModeAndCommandOnce) {
+TEST(Texts, NameEachModeAndCommandOnce) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < kCommandCount; i++) {
     names.insert(commandName(static_cast<Command>(i)));
@@ -89,7 +89,7 @@ TEST(Texts, nameEachModeAndCommandOnce) {
   EXPECT_EQ(modes.size(), 7U);
 }
 
-TEST(CodecErrors, areSentencesThatDiffer) {
+TEST(CodecErrors, AreDifferentSentences) {
   std::set<std::string> sentences;
   for (int i = 0; i <= static_cast<int>(CodecError::kNotFinite); i++) {
     const std::string text = describe(static_cast<CodecError>(i));
@@ -99,7 +99,7 @@ TEST(CodecErrors, areSentencesThatDiffer) {
   EXPECT_EQ(sentences.size(), 11U);
 }
 
-TEST(CodecErrors, nameTheSizesThatDiffer) {
+TEST(CodecErrors, NameBothSizes) {
   EXPECT_EQ(sentence(CodecError::kWrongSize, "robot state of protocol version 5", 1377, 2373),
             "Cannot use the robot state of protocol version 5 (1377 bytes where 2373 are due): The "
             "message does not have the size that this protocol version gives it.");

@@ -10,9 +10,9 @@
 #include <cstring>
 
 /// @file
-/// What the fuzzers share. Each input is one byte for the version, then the bytes to decode. A
-/// fuzzer looks for steps outside (the sanitizers) and for messages that were accepted and do not
-/// come back as the same bytes.
+/// Common part of the fuzzers. Each input is one byte for the version, then the bytes to decode. A
+/// fuzzer finds invalid memory accesses (the sanitizers) and accepted messages that are not encoded
+/// to the same bytes.
 
 namespace franka_fuzz {
 
@@ -23,7 +23,7 @@ inline void require(bool holds, const char* what) {
   }
 }
 
-/// Spreads the byte over all versions and a few that do not exist.
+/// Maps the byte to all versions and a few that do not exist.
 inline std::uint16_t robotVersion(std::uint8_t byte) {
   return static_cast<std::uint16_t>(byte % 12);
 }

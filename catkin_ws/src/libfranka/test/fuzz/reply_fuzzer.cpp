@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) {
     return 0;
   }
-  // The high bits choose the command that the client waits for.
+  // The high bits select the command that the client waits for.
   const std::uint16_t version = franka_fuzz::robotVersion(data[0] & 0x0fU);
   const Bytes message{data + 1, size - 1};
   for (std::size_t i = data[0] >> 4U; i < kCommandCount; i += 16) {

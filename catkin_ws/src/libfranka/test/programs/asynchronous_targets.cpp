@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sends an FR3 to targets to which it finds its own way, and logs what becomes of them.
+// Moves an FR3 to asynchronous targets, and logs the results.
 #include <franka/exception.h>
 #include <franka/robot.h>
 
@@ -16,7 +16,7 @@
 
 namespace {
 
-/// Counts messages that are no mere information.
+/// Counts warnings and errors.
 class ProblemCounter : public franka::LoggingSinkInterface {
  public:
   std::string getName() const override { return "ProblemCounter"; }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Grasps an object, looks whether it is still there, and lets go of it.
+// Grasps an object, checks that it is still there, and releases it.
 #include <franka/exception.h>
 #include <franka/gripper.h>
 

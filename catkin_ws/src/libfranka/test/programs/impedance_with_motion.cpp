@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A joint impedance controller of the user's own that follows a Cartesian pose: two callbacks and
-// the model, while the state is printed by another thread.
+// A joint impedance controller of the user that follows a Cartesian pose: two callbacks and the
+// model, while another thread prints the state.
 #include <franka/duration.h>
 #include <franka/exception.h>
 #include <franka/model.h>

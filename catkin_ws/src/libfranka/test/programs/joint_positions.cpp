@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves one joint by a little and back: the robot's settings, joint positions, the log of an abort.
+// Moves one joint slightly and back: the robot's settings, joint positions, the log of an abort.
 #include <franka/exception.h>
 #include <franka/robot.h>
 

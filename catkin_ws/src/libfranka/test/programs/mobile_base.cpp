@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Says where a mobile base's drive modules are, or that the robot is an arm.
+// Prints the positions of a mobile base's drive modules, or that the robot is an arm.
 #include <franka/exception.h>
 #include <franka/mobile_model.h>
 #include <franka/model.h>

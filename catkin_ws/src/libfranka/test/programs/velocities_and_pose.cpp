@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Joint and Cartesian velocities, and a Cartesian pose, one after the other.
+// Joint and Cartesian velocities, and a Cartesian pose, in sequence.
 #include <franka/exception.h>
 #include <franka/robot.h>
 

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Turns joint 1 within velocity limits that depend on the position, which the program keeps itself.
+// Turns joint 1 within velocity limits that depend on the position and that the program itself
+// applies.
 #include <franka/control_types.h>
 #include <franka/exception.h>
 #include <franka/joint_velocity_limits.h>
@@ -25,16 +26,16 @@ int main(int argc, char** argv) {
     robot.control(
         [&](const franka::RobotState& state, franka::Duration period) -> franka::JointVelocities {
           time += period.toSec();
-          const std::array<double, 7> wanted{{time < 0.05 ? 0.2 : 0.0, 0, 0, 0, 0, 0, 0}};
+          const std::array<double, 7> desired{{time < 0.05 ? 0.2 : 0.0, 0, 0, 0, 0, 0, 0}};
           const franka::JointVelocities velocities(
               franka::limitRate(robot.getUpperJointVelocityLimits(state.q_d),
                                 robot.getLowerJointVelocityLimits(state.q_d), max_acceleration,
-                                max_jerk, wanted, state.dq_d, state.ddq_d));
+                                max_jerk, desired, state.dq_d, state.ddq_d));
           return time < 0.1 ? velocities : franka::MotionFinished(velocities);
         },
         franka::ControllerMode::kJointImpedance, false, franka::kMaxCutoffFrequency);
 
-    // The same limits without asking the robot: from the published table, and from its description.
+    // The same limits without the robot: from the published table, and from its description.
     const std::array<double, 7> q{{0, 0, 0, -1.5, 0, 1.5, 0}};
     const std::array<double, 7> upper = franka::computeUpperLimitsJointVelocity(q);
     const std::array<double, 7> lower = franka::computeLowerLimitsJointVelocity(q);

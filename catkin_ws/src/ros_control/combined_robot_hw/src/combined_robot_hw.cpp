@@ -43,7 +43,7 @@ bool areNames(const std::vector<std::string>& names, const std::list<ControllerI
                     });
 }
 
-/// Calls a member outside the control loop; an exception counts as a refusal.
+/// Calls a member outside the control loop; an exception is a refusal.
 bool agrees(RobotHW& robot, const std::list<ControllerInfo>& start_list,
             const std::list<ControllerInfo>& stop_list) {
   try {
@@ -165,7 +165,7 @@ void CombinedRobotHW::takeBack(const Plan& plan, std::size_t members) {
 void CombinedRobotHW::doSwitch(const std::list<ControllerInfo>& start_list,
                                const std::list<ControllerInfo>& stop_list) {
   if (!isPlanned(start_list, stop_list)) {
-    // Only for callers that did not prepare this switch; it allocates.
+    // Only for callers that did not prepare this switch; allocates.
     plan_ = makePlan(start_list, stop_list);
   }
   for (std::size_t i = 0; i < robot_hw_list_.size(); ++i) {

@@ -7,7 +7,8 @@
 
 namespace guard {
 
-/// How often an action allocates or locks. The guard's own header may stand in one file only.
+/// Number of allocations and locks of an action. The guard's own header may be included in one file
+/// only.
 std::size_t allocationsAndLocks(const std::function<void()>& action);
 
 }  // namespace guard

@@ -38,7 +38,7 @@ class Loading : public testing::Test {
     nh_.setParam(name + "/joints", joints);
   }
 
-  /// That init refuses, and leaves nothing behind.
+  /// Expects that init fails and registers nothing.
   void expectRefusal() {
     EXPECT_FALSE(combined_.init(root_, nh_));
     EXPECT_EQ(0u, combined_.members());
@@ -53,7 +53,7 @@ class Loading : public testing::Test {
 
 }  // namespace
 
-TEST_F(Loading, combinesTheRobotsNamedInOrder) {
+TEST_F(Loading, CombinesTheRobotsNamedInOrder) {
   ASSERT_TRUE(combined_.init(root_, nh_));
   ASSERT_EQ(2u, combined_.members());
   ASSERT_NE(nullptr, combined_.member(0));
@@ -65,7 +65,7 @@ TEST_F(Loading, combinesTheRobotsNamedInOrder) {
   EXPECT_EQ(5.0, combined_.member(1)->command[0]);
 }
 
-TEST_F(Loading, readsAndWritesAllOfThem) {
+TEST_F(Loading, ReadsAndWritesAllOfThem) {
   ASSERT_TRUE(combined_.init(root_, nh_));
   combined_.get<EffortJointInterface>()->getHandle("l1").setCommand(3.0);
   combined_.get<EffortJointInterface>()->getHandle("r1").setCommand(4.0);
@@ -78,7 +78,7 @@ TEST_F(Loading, readsAndWritesAllOfThem) {
   EXPECT_EQ(0.002, combined_.member(1)->write_period);
 }
 
-TEST_F(Loading, needsAListOfNames) {
+TEST_F(Loading, RequiresAListOfNames) {
   nh_.deleteParam("robot_hardware");
   expectRefusal();
   nh_.setParam("robot_hardware", "left");
@@ -93,7 +93,7 @@ TEST_F(Loading, needsAListOfNames) {
   expectRefusal();
 }
 
-TEST_F(Loading, needsATypeThatExists) {
+TEST_F(Loading, RequiresAnExistingType) {
   nh_.deleteParam("right/type");
   expectRefusal();
   nh_.setParam("right/type", 5);
@@ -104,14 +104,14 @@ TEST_F(Loading, needsATypeThatExists) {
   expectRefusal();
 }
 
-TEST_F(Loading, givesUpWhenOneRobotFails) {
+TEST_F(Loading, FailsIfOneRobotFails) {
   for (const char* way : {"false", "exception", "word"}) {
     nh_.setParam("right/fail", way);
     expectRefusal();
   }
 }
 
-TEST_F(Loading, canBeTriedAgain) {
+TEST_F(Loading, CanBeTriedAgain) {
   nh_.setParam("right/fail", "false");
   expectRefusal();
   nh_.setParam("right/fail", "");

@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kStrict = 2;
 
-/// Commands an effort of 1 to the joints that the parameter `joints` names.
+/// Commands an effort of 1 to the joints in the parameter `joints`.
 class Pusher : public controller_interface::Controller<hardware_interface::EffortJointInterface> {
  public:
   bool init(hardware_interface::EffortJointInterface* efforts, ros::NodeHandle& nh) override {
@@ -83,7 +83,7 @@ class Managed : public testing::Test {
     ++steps_;
   }
 
-  /// Switches while the loop runs; `during` is asked before each cycle.
+  /// Switches while the loop runs; calls `during` before each cycle.
   template <class During>
   bool switched(const Names& start, const Names& stop, During during) {
     auto answer = std::async(std::launch::async, [&] {
@@ -113,7 +113,7 @@ class Managed : public testing::Test {
 
 }  // namespace
 
-TEST_F(Managed, switchesReachTheMembersWithoutAnAllocationInTheLoop) {
+TEST_F(Managed, SwitchesReachTheMembersWithoutAnAllocationInTheLoop) {
   ASSERT_TRUE(switched({"both"}, {}));
   EXPECT_TRUE(runs("both"));
   step();
@@ -126,7 +126,7 @@ TEST_F(Managed, switchesReachTheMembersWithoutAnAllocationInTheLoop) {
   EXPECT_EQ(0u, calls_) << "allocations and locks in " << steps_ << " cycles";
 }
 
-TEST_F(Managed, conflictsOfOneMemberRefuseTheSwitch) {
+TEST_F(Managed, ConflictsOfOneMemberRefuseTheSwitch) {
   ASSERT_TRUE(switched({"left"}, {}));
   EXPECT_FALSE(switched({"both"}, {}));
   EXPECT_TRUE(runs("left") && !runs("both"));
@@ -134,7 +134,7 @@ TEST_F(Managed, conflictsOfOneMemberRefuseTheSwitch) {
   EXPECT_TRUE(switched({"both"}, {})) << "the left arm's own rule allows it";
 }
 
-TEST_F(Managed, aMemberThatRefusesLeavesEverythingAsItWas) {
+TEST_F(Managed, RefusalOfAMemberChangesNothing) {
   ASSERT_TRUE(switched({"left"}, {}));
   right_.agrees = false;
   EXPECT_FALSE(switched({"both"}, {"left"}));
@@ -145,7 +145,7 @@ TEST_F(Managed, aMemberThatRefusesLeavesEverythingAsItWas) {
   EXPECT_EQ("left", left_.prepared[2].first.front().name) << "the way back";
 }
 
-TEST_F(Managed, controllersWaitForTheSlowestMember) {
+TEST_F(Managed, ControllersWaitForTheSlowestMember) {
   right_.result = State::ONGOING;
   int waited = 0;
   ASSERT_TRUE(switched({"both"}, {}, [&] {
@@ -159,7 +159,7 @@ TEST_F(Managed, controllersWaitForTheSlowestMember) {
   EXPECT_EQ(0u, calls_);
 }
 
-TEST_F(Managed, anErrorOfOneMemberAbortsTheStart) {
+TEST_F(Managed, AnErrorOfOneMemberAbortsTheStart) {
   left_.result = State::ERROR;
   switched({"both"}, {});
   EXPECT_TRUE(manager_.getControllerByName("both")->isAborted());

@@ -68,7 +68,7 @@ class Switching : public testing::Test {
 
 }  // namespace
 
-TEST_F(Switching, eachMemberHearsWhatConcernsIt) {
+TEST_F(Switching, EachMemberGetsItsOwnControllers) {
   const Controllers list{
       effort("both", {"l1", "r1", "nowhere"}),
       controller("mixed", {{kEffort, {"r2"}}, {kPosition, {"l2"}}, {"other::Interface", {"l1"}}}),
@@ -81,7 +81,7 @@ TEST_F(Switching, eachMemberHearsWhatConcernsIt) {
   EXPECT_EQ("both(e: r1;)mixed(e: r2;)nothing()", text(filtered));
 }
 
-TEST_F(Switching, prepareAndDoReachEveryMember) {
+TEST_F(Switching, PrepareAndDoReachEveryMember) {
   const Controllers start{effort("both", {"l1", "r1"})};
   const Controllers stop{effort("old", {"r2"})};
   ASSERT_TRUE(combined_.prepareSwitch(start, stop));
@@ -102,7 +102,7 @@ TEST_F(Switching, prepareAndDoReachEveryMember) {
   EXPECT_EQ("", text(*right_.last_stop));
 }
 
-TEST_F(Switching, nobodyStaysPreparedWhenOneRefuses) {
+TEST_F(Switching, RefusalOfAMemberRevertsPreparations) {
   Robot& third = combined_.add({"t1"});
   const Controllers start{effort("new", {"l1", "r1", "t1"})};
   const Controllers stop{effort("old", {"l2"})};
@@ -115,13 +115,13 @@ TEST_F(Switching, nobodyStaysPreparedWhenOneRefuses) {
   EXPECT_THAT(third.prepared, IsEmpty()) << "not asked at all";
 }
 
-TEST_F(Switching, aMemberThatThrowsRefuses) {
+TEST_F(Switching, ExceptionOfAMemberIsARefusal) {
   right_.throws = true;
   EXPECT_FALSE(combined_.prepareSwitch({effort("new", {"l1", "r1"})}, none_));
   EXPECT_EQ(2u, left_.prepared.size());
 }
 
-TEST_F(Switching, aRefusedSwitchDoesNotDisturbThePlanBefore) {
+TEST_F(Switching, RefusedSwitchKeepsThePreviousPlan) {
   const Controllers start{effort("good", {"l1"})};
   ASSERT_TRUE(combined_.prepareSwitch(start, none_));
   right_.agrees = false;
@@ -130,14 +130,14 @@ TEST_F(Switching, aRefusedSwitchDoesNotDisturbThePlanBefore) {
   EXPECT_EQ("good(e: l1;)", text(*left_.last_start));
 }
 
-TEST_F(Switching, aSwitchThatWasNotPreparedIsFilteredAllTheSame) {
+TEST_F(Switching, UnpreparedSwitchIsFilteredToo) {
   ASSERT_TRUE(combined_.prepareSwitch({effort("one", {"l1"})}, none_));
   combined_.doSwitch({effort("other", {"l2", "r2"})}, none_);
   EXPECT_EQ("other(e: l2;)", text(*left_.last_start));
   EXPECT_EQ("other(e: r2;)", text(*right_.last_start));
 }
 
-TEST_F(Switching, theWorstResultCounts) {
+TEST_F(Switching, WorstResultCounts) {
   const Controllers start{effort("both", {"l1", "r1"}), effort("left", {"l2"})};
   ASSERT_TRUE(combined_.prepareSwitch(start, none_));
   combined_.doSwitch(start, none_);
@@ -153,12 +153,12 @@ TEST_F(Switching, theWorstResultCounts) {
       EXPECT_EQ(left, combined_.switchResult(start.back())) << "the right arm is not concerned";
     }
   }
-  EXPECT_EQ(1u, right_.asked_claims);
+  EXPECT_EQ(1u, right_.claim_count);
   left_.result = State::ERROR;
   EXPECT_EQ(State::DONE, combined_.switchResult(effort("not of this switch", {"l1"})));
 }
 
-TEST_F(Switching, theLoopNeitherAllocatesNorLocks) {
+TEST_F(Switching, TheLoopNeitherAllocatesNorLocks) {
   ASSERT_NE(0u, guard::allocationsAndLocks([this] { left_.prepared.emplace_back(); }))
       << "the guard sleeps";
   const Controllers start{effort("a controller with quite a long name", {"l1", "r1"})};
@@ -179,11 +179,11 @@ TEST_F(Switching, theLoopNeitherAllocatesNorLocks) {
   EXPECT_EQ(200, done);
 }
 
-TEST_F(Switching, conflictsAreJudgedByTheMemberConcerned) {
+TEST_F(Switching, ConflictsAreCheckedByTheirMember) {
   const Controllers clash{effort("a", {"l1", "r1"}), effort("b", {"l1"})};
   EXPECT_TRUE(combined_.checkForConflict(clash));
-  EXPECT_EQ("a(e: l1;)b(e: l1;)", text(left_.judged));
-  EXPECT_EQ("a(e: r1;)", text(right_.judged));
+  EXPECT_EQ("a(e: l1;)b(e: l1;)", text(left_.checked));
+  EXPECT_EQ("a(e: r1;)", text(right_.checked));
   EXPECT_FALSE(combined_.checkForConflict({effort("a", {"l1"}), effort("b", {"l2", "r1"})}));
 
   left_.lenient = true;
@@ -191,7 +191,7 @@ TEST_F(Switching, conflictsAreJudgedByTheMemberConcerned) {
   EXPECT_TRUE(combined_.checkForConflict({effort("a", {"r1"}), effort("b", {"r1"})}));
 }
 
-TEST_F(Switching, resourcesOfNoMemberOrOfSeveralKeepTheCommonRule) {
+TEST_F(Switching, ResourcesOfNoneOrSeveralMembersFollowTheCommonRule) {
   left_.lenient = right_.lenient = true;
   const auto own = [](const std::string& name) {
     return controller(name, {{"other::Interface", {"lamp"}}});

@@ -12,7 +12,7 @@
 
 namespace combined_robot_hw_test {
 
-/// Combines robots that a test made.
+/// Combines robots created by a test.
 class Combined : public combined_robot_hw::CombinedRobotHW {
  public:
   using CombinedRobotHW::filterControllerList;

@@ -18,7 +18,7 @@ namespace combined_robot_hw_test {
 using hardware_interface::ControllerInfo;
 typedef std::list<ControllerInfo> Controllers;
 
-/// A robot that writes down what it is asked, and answers what a test wants.
+/// A robot that records calls and returns values set by a test.
 class Robot : public hardware_interface::RobotHW {
  public:
   Robot() = default;
@@ -53,7 +53,7 @@ class Robot : public hardware_interface::RobotHW {
   }
 
   bool checkForConflict(const Controllers& info) const override {
-    judged = info;
+    checked = info;
     return lenient ? false : RobotHW::checkForConflict(info);
   }
   bool prepareSwitch(const Controllers& start, const Controllers& stop) override {
@@ -70,7 +70,7 @@ class Robot : public hardware_interface::RobotHW {
   }
   SwitchState switchResult() const override { return result; }
   SwitchState switchResult(const ControllerInfo& info) const override {
-    asked_claims = info.claimed_resources.size();
+    claim_count = info.claimed_resources.size();
     return result;
   }
   void read(const ros::Time& time, const ros::Duration& /*period*/) override {
@@ -86,8 +86,8 @@ class Robot : public hardware_interface::RobotHW {
   std::string root_namespace;
   bool lenient{false}, agrees{true}, throws{false};
   SwitchState result{SwitchState::DONE};
-  mutable Controllers judged;
-  mutable std::size_t asked_claims{0};
+  mutable Controllers checked;
+  mutable std::size_t claim_count{0};
   std::vector<std::pair<Controllers, Controllers>> prepared;
   int switches{0};
   const Controllers* last_start{nullptr};

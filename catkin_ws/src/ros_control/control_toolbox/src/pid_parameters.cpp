@@ -13,11 +13,11 @@ namespace control_toolbox {
 
 namespace {
 
-/// Where dynamic reconfigure opens when nobody names a place.
+/// Default namespace of dynamic reconfigure.
 constexpr const char* kDefaultNamespace = "pid";
 
-/// Reads an optional parameter into `value`, which keeps its default when there is none.
-/// @return false, with an error in the log, when it is there with the wrong type.
+/// Reads an optional parameter into `value`, which keeps its default if it is not set. @return
+/// false, with an error in the log, if it has the wrong type.
 template <class Value>
 bool readOptional(const ros::NodeHandle& node, const std::string& name, const char* type,
                   Value& value) {

@@ -30,7 +30,7 @@ Pid::Reconfigure::Reconfigure(const ros::NodeHandle& node, const ParametersConfi
 void Pid::Reconfigure::show(const ParametersConfig& config) { server_.updateConfig(config); }
 
 void Pid::initDynamicReconfig(ros::NodeHandle& node) {
-  // The old server, if any, must have withdrawn its service before the new one offers it.
+  // The old server must withdraw its service before the new one offers it.
   reconfigure_.reset();
   reconfigure_ = std::make_unique<Reconfigure>(node, configOf(getGains()), this);
 }
@@ -50,7 +50,7 @@ void Pid::updateDynamicReconfig(ParametersConfig config) {
 }
 
 void Pid::dynamicReconfigCallback(ParametersConfig& config, std::uint32_t /* level */) {
-  // Only the gains: the server publishes the configuration it has just handed over by itself.
+  // Only the gains: the server itself publishes the configuration that it passed here.
   gains_.set(Gains(config.p, config.i, config.d, config.i_clamp_max, config.i_clamp_min,
                    config.antiwindup));
 }

@@ -13,14 +13,14 @@ namespace control_toolbox {
 /// The dynamic reconfigure server of one Pid. Not real-time safe.
 class Pid::Reconfigure {
  public:
-  /// Starts with `config`, then hands every change to `pid`, which must outlive it.
+  /// Starts with `config`, then passes every change to `pid`, which must outlive it.
   Reconfigure(const ros::NodeHandle& node, const ParametersConfig& config, Pid* pid);
 
-  /// Shows other values than those last set through the server.
+  /// Shows values that were not set through the server.
   void show(const ParametersConfig& config);
 
  private:
-  // The server keeps a reference: the mutex stands first and goes last.
+  // The server keeps a reference: the mutex is declared first and destroyed last.
   boost::recursive_mutex mutex_;
   dynamic_reconfigure::Server<ParametersConfig> server_;
 };

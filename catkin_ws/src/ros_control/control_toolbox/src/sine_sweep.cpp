@@ -24,7 +24,7 @@ double SineSweep::update(double time) {
   if (!(time >= 0.0 && time <= duration_)) {
     return 0.0;
   }
-  // The integral of start_ exp(growth_ t), also where the frequency stays.
+  // The integral of start_ exp(growth_ t), also for a constant frequency.
   const double angle = start_ * (growth_ == 0.0 ? time : std::expm1(growth_ * time) / growth_);
   return amplitude_ * std::sin(angle);
 }

@@ -12,7 +12,7 @@ using control_toolbox::Pid;
 using control_toolbox::PidGainsSetter;
 using control_toolbox::SetPidGains;
 
-TEST(PidGainsSetter, SetsAllPidsAndTheParametersByItsService) {
+TEST(PidGainsSetter, ServiceSetsAllPidsAndParameters) {
   Pid one(1.0);
   Pid other(2.0);
   PidGainsSetter setter;
@@ -44,7 +44,7 @@ TEST(PidGainsSetter, SetsAllPidsAndTheParametersByItsService) {
   EXPECT_TRUE(restarted.getGains().antiwindup_);
 }
 
-TEST(PidGainsSetter, RefusesWhatIsNotFiniteAsAWhole) {
+TEST(PidGainsSetter, RefusesNonFiniteGainsAsAWhole) {
   Pid pid(1.0, 2.0);
   PidGainsSetter setter;
   setter.add(&pid);
@@ -57,7 +57,7 @@ TEST(PidGainsSetter, RefusesWhatIsNotFiniteAsAWhole) {
   EXPECT_FALSE(ros::param::has("gains_setter_refuses/p"));
 }
 
-TEST(PidGainsSetter, RefusesNoPid) {
+TEST(PidGainsSetter, RefusesANullPointer) {
   PidGainsSetter setter;
   EXPECT_THROW(setter.add(nullptr), std::invalid_argument);
 }

@@ -38,7 +38,7 @@ void expectGains(Pid& pid, const std::vector<double>& expected, bool antiwindup)
   EXPECT_EQ(antiwindup, gains.antiwindup_);
 }
 
-/// Asks the reconfigure server in `ns` to change one number. @return what it then holds.
+/// Changes one number by the reconfigure server in `ns`. @return the server's resulting values.
 dynamic_reconfigure::Config reconfigure(const std::string& ns, const std::string& name,
                                         double value) {
   dynamic_reconfigure::Reconfigure call;
@@ -71,7 +71,7 @@ TEST(PidParameters, ReadsAllGains) {
   expectGains(pid, {3.0, 2.0, 1.0, 5.0, -5.0}, true);
 }
 
-TEST(PidParameters, SideLimitsWinOverTheCommonOneWhateverTheirSign) {
+TEST(PidParameters, SideLimitsOverrideTheCommonOneForAnySign) {
   Pid pid;
   ASSERT_TRUE(pid.initParam(ns("sides")));
   expectGains(pid, {1.0, 0.0, 0.0, 4.0, -3.0}, false);
@@ -152,7 +152,7 @@ TEST(PidParameters, ReadsXml) {
   EXPECT_FALSE(pid.initXml(nullptr));
 }
 
-TEST(PidParameters, PublishesItsStateWhenAsked) {
+TEST(PidParameters, PublishesItsStateIfConfigured) {
   Pid pid;
   ASSERT_TRUE(pid.initParam(ns("published")));
   std::mutex mutex;

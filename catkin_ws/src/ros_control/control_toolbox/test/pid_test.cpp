@@ -31,7 +31,7 @@ Errors errorsOf(Pid& pid) {
 }  // namespace
 
 TEST(Pid, ProportionalIntegralAndDerivativePartsAddUp) {
-  // Worked out by hand: dt 0.5, errors 2, 3, -1, gains 10, 4, 0.5, wide limits.
+  // Computed by hand: dt 0.5, errors 2, 3, -1, gains 10, 4, 0.5, wide limits.
   Pid pid(10.0, 4.0, 0.5, 100.0, -100.0);
   const ros::Duration dt(0.5);
   EXPECT_DOUBLE_EQ(20.0 + 4.0 + 2.0, pid.computeCommand(2.0, dt));    // I 1, de 4
@@ -44,7 +44,7 @@ TEST(Pid, ProportionalIntegralAndDerivativePartsAddUp) {
   EXPECT_DOUBLE_EQ(-8.0, errors.d);
 }
 
-TEST(Pid, GivenDerivativeIsUsedAsItIs) {
+TEST(Pid, UsesAGivenDerivative) {
   Pid pid(2.0, 0.0, 3.0, 0.0, 0.0);
   EXPECT_DOUBLE_EQ(2.0 * 1.5 + 3.0 * -4.0, pid.computeCommand(1.5, -4.0, kSecond));
   EXPECT_DOUBLE_EQ(-4.0, errorsOf(pid).d);
@@ -106,20 +106,20 @@ TEST(Pid, AntiwindupWithANegativeOrNoIntegralGain) {
   EXPECT_DOUBLE_EQ(4.0, errorsOf(none).i);
 }
 
-TEST(Pid, NoTimeGivesNoCommandAndNoIntegral) {
+TEST(Pid, ZeroPeriodGivesNoCommandAndNoIntegral) {
   Pid pid(1.0, 1.0, 1.0, 5.0, -5.0);
   pid.computeCommand(2.0, kSecond);
   EXPECT_EQ(0.0, pid.computeCommand(7.0, ros::Duration(0.0)));
-  EXPECT_DOUBLE_EQ(2.0, errorsOf(pid).p);  // the form with two arguments stores nothing
+  EXPECT_DOUBLE_EQ(2.0, errorsOf(pid).p);  // the overload with two arguments stores nothing
   EXPECT_EQ(0.0, pid.computeCommand(7.0, 8.0, ros::Duration(0.0)));
   EXPECT_DOUBLE_EQ(7.0, errorsOf(pid).p);
   EXPECT_DOUBLE_EQ(8.0, errorsOf(pid).d);
   EXPECT_DOUBLE_EQ(2.0, errorsOf(pid).i);
-  // The next derivative is taken from the last error that counted, 2.
+  // The next derivative uses the last valid error, 2.
   EXPECT_DOUBLE_EQ(3.0 + 5.0 + 1.0, pid.computeCommand(3.0, kSecond));
 }
 
-TEST(Pid, WhatIsNotFiniteGivesNoCommandAndLeavesTheIntegral) {
+TEST(Pid, NonFiniteInputGivesNoCommandAndKeepsTheIntegral) {
   Pid pid(1.0, 1.0, 1.0, 5.0, -5.0);
   for (const double bad : {kNan, kInf, -kInf}) {
     EXPECT_EQ(0.0, pid.computeCommand(bad, kSecond));
@@ -137,7 +137,7 @@ TEST(Pid, NegativeTimeKeepsTheDerivative) {
   EXPECT_DOUBLE_EQ(-8.0 + 3.0 + 1.0, pid.computeCommand(3.0, kSecond));
 }
 
-TEST(Pid, CopiesTakeGainsButNoState) {
+TEST(Pid, CopiesHaveGainsButNoState) {
   Pid source(1.0, 2.0, 3.0, 4.0, -5.0, true);
   source.computeCommand(1.0, kSecond);
   Pid copy(source);
@@ -170,7 +170,7 @@ TEST(Pid, GainsChangeWithoutAReset) {
   EXPECT_DOUBLE_EQ(2.0, pid.computeCommand(1.0, kSecond));
 }
 
-TEST(Pid, DefaultsToNothing) {
+TEST(Pid, DefaultGainsAreZero) {
   Pid pid;
   EXPECT_EQ(0.0, pid.computeCommand(3.0, kSecond));
   const Pid::Gains gains = pid.getGains();
@@ -203,8 +203,8 @@ TEST(Pid, StepsNeitherAllocateNorLock) {
   EXPECT_EQ(0u, scope.sleeps());
 }
 
-// Two threads set gains, each all of them to one number; a step must never see a mixture.
-TEST(Pid, StepsSeeWholeSetsOfGainsWhileOthersSetThem) {
+// Two threads set gains, all to one number; a step must never use a mixture.
+TEST(Pid, StepsUseConsistentGainsDuringConcurrentWrites) {
   Pid pid(1.0, 1.0, 1.0, 1.0, 1.0);
   std::atomic<int> running{2};
   auto set = [&](double number) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The signals and filters, against closed forms and second answers.
+// Signals and filters, against closed forms and independent results.
 #include <control_toolbox/dither.h>
 #include <control_toolbox/filters.h>
 #include <control_toolbox/sine_sweep.h>
@@ -15,7 +15,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
-TEST(Sinusoid, passesItsQuartersAndHasItsDerivatives) {
+TEST(Sinusoid, MatchesQuarterValuesAndDerivatives) {
   control_toolbox::Sinusoid wave(0.5, 2.0, 0.25, M_PI / 2.0);
   double qd = 0.0;
   double qdd = 0.0;
@@ -36,7 +36,7 @@ TEST(Sinusoid, passesItsQuartersAndHasItsDerivatives) {
 }
 
 // The phase is the integral of the frequency, here by Simpson's rule.
-TEST(SineSweep, integratesAFrequencyThatGrowsInRatios) {
+TEST(SineSweep, PhaseIsTheIntegralOfAnExponentialFrequency) {
   for (const double end : {8.0, 2.0, 0.5}) {
     control_toolbox::SineSweep sweep;
     ASSERT_TRUE(sweep.init(2.0, end, 3.0, 1.5));
@@ -54,7 +54,7 @@ TEST(SineSweep, integratesAFrequencyThatGrowsInRatios) {
   }
 }
 
-TEST(SineSweep, refusesWhatIsNoSweep) {
+TEST(SineSweep, RefusesInvalidArguments) {
   control_toolbox::SineSweep sweep;
   EXPECT_EQ(0.0, sweep.update(0.1));
   for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
@@ -66,7 +66,7 @@ TEST(SineSweep, refusesWhatIsNoSweep) {
   EXPECT_EQ(0.0, sweep.update(0.1));
 }
 
-TEST(Dither, isNormalWhiteNoise) {
+TEST(Dither, IsNormalWhiteNoise) {
   control_toolbox::Dither dither;
   EXPECT_EQ(0.0, dither.update());
   ASSERT_TRUE(dither.init(2.0, 7.0));
@@ -92,7 +92,7 @@ TEST(Dither, isNormalWhiteNoise) {
   EXPECT_NEAR(std::erf(std::sqrt(0.5)), double(within) / kCount, 0.5 * five);
 }
 
-TEST(Dither, repeatsItselfAndRefusesWhatIsNoNoise) {
+TEST(Dither, IsRepeatableAndRefusesInvalidArguments) {
   control_toolbox::Dither one;
   control_toolbox::Dither other;
   ASSERT_TRUE(one.init(1.0, 3.0));
@@ -111,14 +111,14 @@ TEST(Dither, repeatsItselfAndRefusesWhatIsNoNoise) {
   }
 }
 
-TEST(Filters, clampKeepsToTheLimits) {
+TEST(Filters, ClampKeepsToTheLimits) {
   EXPECT_EQ(2, filters::clamp(1, 2, 4));
   EXPECT_EQ(3, filters::clamp(3, 2, 4));
   EXPECT_EQ(4, filters::clamp(5, 2, 4));
   EXPECT_EQ(-0.5, control_toolbox::filters::clamp(-0.7, -0.5, 0.5));
 }
 
-TEST(Filters, smoothingAnswersAStepInPowers) {
+TEST(Filters, SmoothingHasAGeometricStepResponse) {
   for (const double alpha : {0.0, 0.1, 0.5, 1.0}) {
     double value = 1.0;
     for (int n = 1; n <= 50; ++n) {

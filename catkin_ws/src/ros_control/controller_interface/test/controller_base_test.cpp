@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 namespace {
 
-/// Writes down every callback with the state it found.
+/// Records every callback with the state at that time.
 class Recorder : public ControllerBase {
  public:
   void starting(const ros::Time& time) override { note("starting", time); }
@@ -62,7 +62,7 @@ void expectTransition(bool (ControllerBase::*request)(const ros::Time&), const c
 
 }  // namespace
 
-TEST(ControllerBase, startsAfterConstruction) {
+TEST(ControllerBase, StartsAfterConstruction) {
   Recorder controller;
   EXPECT_EQ(State::CONSTRUCTED, controller.state_.load());
   EXPECT_FALSE(controller.isInitialized());
@@ -72,7 +72,7 @@ TEST(ControllerBase, startsAfterConstruction) {
   EXPECT_FALSE(controller.isAborted());
 }
 
-TEST(ControllerBase, queriesMatchOneStateEach) {
+TEST(ControllerBase, QueriesMatchOneStateEach) {
   Recorder controller;
   for (const State state : kReadyStates) {
     controller.state_ = state;
@@ -84,23 +84,23 @@ TEST(ControllerBase, queriesMatchOneStateEach) {
   }
 }
 
-TEST(ControllerBase, start) {
+TEST(ControllerBase, Start) {
   expectTransition(&ControllerBase::startRequest, "starting", State::RUNNING);
 }
 
-TEST(ControllerBase, stop) {
+TEST(ControllerBase, Stop) {
   expectTransition(&ControllerBase::stopRequest, "stopping", State::STOPPED);
 }
 
-TEST(ControllerBase, wait) {
+TEST(ControllerBase, Wait) {
   expectTransition(&ControllerBase::waitRequest, "waiting", State::WAITING);
 }
 
-TEST(ControllerBase, abort) {
+TEST(ControllerBase, Abort) {
   expectTransition(&ControllerBase::abortRequest, "aborting", State::ABORTED);
 }
 
-TEST(ControllerBase, updatesOnlyWhileRunning) {
+TEST(ControllerBase, UpdatesOnlyWhileRunning) {
   Recorder controller;
   for (const State state :
        {State::CONSTRUCTED, State::INITIALIZED, State::STOPPED, State::WAITING, State::ABORTED}) {

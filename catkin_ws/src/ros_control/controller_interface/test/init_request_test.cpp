@@ -27,7 +27,7 @@ using testing::IsEmpty;
 
 namespace {
 
-/// Makes the protected initRequest reachable and records the calls of init.
+/// Makes the protected initRequest accessible and records the calls of init.
 template <class Base>
 class Open : public Base {
  public:
@@ -111,7 +111,7 @@ class InitRequestTest : public testing::Test {
 
 }  // namespace
 
-TEST_F(InitRequestTest, callsBothInitsAndReportsTheClaims) {
+TEST_F(InitRequestTest, CallsBothInitsAndReportsTheClaims) {
   Single controller;
   efforts_.claim("left over from somebody else");
   ASSERT_TRUE(request(controller));
@@ -124,14 +124,14 @@ TEST_F(InitRequestTest, callsBothInitsAndReportsTheClaims) {
   EXPECT_EQ("hardware_interface::EffortJointInterface", controller.interfaceType());
 }
 
-TEST_F(InitRequestTest, refusesASecondRequest) {
+TEST_F(InitRequestTest, RefusesASecondRequest) {
   Single controller;
   ASSERT_TRUE(request(controller));
   EXPECT_FALSE(request(controller));
   EXPECT_TRUE(controller.isInitialized());
 }
 
-TEST_F(InitRequestTest, aFailedInitLeavesNoClaims) {
+TEST_F(InitRequestTest, FailedInitLeavesNoClaims) {
   Single first;
   first.two_argument_result_ = false;
   EXPECT_FALSE(request(first));
@@ -145,7 +145,7 @@ TEST_F(InitRequestTest, aFailedInitLeavesNoClaims) {
   EXPECT_THAT(claimed_, IsEmpty());
 }
 
-TEST_F(InitRequestTest, needsItsInterface) {
+TEST_F(InitRequestTest, RequiresItsInterface) {
   RobotHW bare;
   Single controller;
   EXPECT_FALSE(controller.initRequest(&bare, root_nh_, controller_nh_, claimed_));
@@ -153,7 +153,7 @@ TEST_F(InitRequestTest, needsItsInterface) {
   EXPECT_FALSE(controller.isInitialized());
 }
 
-TEST_F(InitRequestTest, severalInterfacesAreListedInTheOrderOfTheTemplate) {
+TEST_F(InitRequestTest, SeveralInterfacesAreListedInTheOrderOfTheTemplate) {
   robot_.registerInterface(&velocities_);
   Multi controller;
   ASSERT_TRUE(request(controller));
@@ -170,13 +170,13 @@ TEST_F(InitRequestTest, severalInterfacesAreListedInTheOrderOfTheTemplate) {
   EXPECT_THAT(efforts_.getClaims(), IsEmpty());
 }
 
-TEST_F(InitRequestTest, severalInterfacesMustAllBeThere) {
+TEST_F(InitRequestTest, RequiresAllOfSeveralInterfaces) {
   Multi controller;
   EXPECT_FALSE(request(controller));
   EXPECT_THAT(controller.calls_, IsEmpty());
 }
 
-TEST_F(InitRequestTest, unlessTheyAreOptional) {
+TEST_F(InitRequestTest, AllowsMissingOptionalInterfaces) {
   Multi controller(true);
   ASSERT_TRUE(request(controller));
   EXPECT_FALSE(controller.saw_velocity_);
@@ -185,7 +185,7 @@ TEST_F(InitRequestTest, unlessTheyAreOptional) {
   EXPECT_EQ("hardware_interface::EffortJointInterface", claimed_[1].hardware_interface);
 }
 
-TEST(EnumerateElements, joinsWithPrefixAndSuffix) {
+TEST(EnumerateElements, JoinsWithPrefixAndSuffix) {
   const std::vector<std::string> names = {"a", "b"};
   EXPECT_EQ("- 'a'\n- 'b'",
             controller_interface::internal::enumerateElements(names, "\n", "- '", "'"));

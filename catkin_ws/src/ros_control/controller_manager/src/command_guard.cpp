@@ -53,7 +53,7 @@ void CommandGuard::collect(const hw::InterfaceResources& claimed, hw::RobotHW& r
   for (const std::string& joint : claimed.resources) {
     watch(joints->getHandle(joint));
   }
-  // Looking is no claim.
+  // getHandle() claimed the joints, but reading them must not claim.
   joints->clearClaims();
 }
 

@@ -62,7 +62,7 @@ void ControllerManager::update(const ros::Time& time, const ros::Duration& perio
       thrown.keepOf([&] { controller->updateRequest(time, period); });
     }
   }
-  // Also where one throws in every cycle: this is how it is stopped.
+  // Also if a controller throws in every cycle: this is how it is stopped.
   thrown.keepOf([&] { handover_->serve(*robot_hw_, time); });
   thrown.rethrow();
 }
@@ -244,7 +244,7 @@ bool ControllerManager::unloadController(const std::string& name) {
 }
 
 bool ControllerManager::reloadControllerLibraries(bool force_kill) {
-  // Names only: whoever held the controllers would keep their libraries from being unloaded.
+  // Names only: a reference to a controller would prevent unloading its library.
   std::vector<std::string> loaded;
   std::vector<std::string> running;
   for (const ControllerSpec& spec : getControllers()) {
@@ -260,7 +260,7 @@ bool ControllerManager::reloadControllerLibraries(bool force_kill) {
         static_cast<int>(loaded.size()));
     return false;
   }
-  // Without anything to stop this must not wait for the loop.
+  // Without running controllers this must not wait for the loop.
   constexpr int kBestEffort = controller_manager_msgs::SwitchControllerRequest::BEST_EFFORT;
   if (!running.empty() && !switchController({}, running, kBestEffort)) {
     ROS_ERROR(

@@ -8,7 +8,7 @@ namespace controller_manager {
 namespace internal {
 
 namespace {
-// Far above the millisecond a cycle lasts: beyond it the loop hangs inside a controller.
+// Far above a cycle of a millisecond: beyond it the loop hangs inside a controller.
 constexpr std::chrono::milliseconds kLongestCycle{1000};
 }  // namespace
 

@@ -50,8 +50,8 @@ ControllerWatch::Fault ControllerWatch::run(const ros::Time& time, const ros::Du
     controller_.updateRequest(time, period);
     return Fault::kNone;
   }
-  // What stands there now is what the robot got last, be it from this controller's last update, its
-  // starting() or a stranger.
+  // These are the robot's last commands, from this controller's last update, its starting() or
+  // another writer.
   commands_.remember();
   ExceptionText thrown;
   if (!runsThrough([&] { controller_.updateRequest(time, period); }, thrown)) {
@@ -87,7 +87,7 @@ void ControllerWatch::restart(const ros::Time& time) {
 }
 
 void ControllerWatch::note(const char* text) {
-  // The text of a fault not yet settled is being read.
+  // The text of a fault that is not handled yet may be read now.
   if (fault() == Fault::kNone) {
     copyText(text, text_);
   }

@@ -63,7 +63,7 @@ ManagerServices::ManagerServices(ControllerManager& manager, const ros::NodeHand
       nh_.advertiseService("unload_controller", &ManagerServices::unloadController, this);
   reload_libraries_ = waiting_nh_.advertiseService("reload_controller_libraries",
                                                    &ManagerServices::reloadLibraries, this);
-  // Waits for a controller that is being created, as the services of the node's queue do.
+  // May wait for a controller that is being created, like the services of the node's queue.
   list_controller_types_ =
       nh_.advertiseService("list_controller_types", &ManagerServices::listControllerTypes, this);
   switch_controller_ =

@@ -13,9 +13,9 @@ namespace internal {
 
 namespace {
 
-// How soon a fault is settled; far below what the user notices.
+// Period of handling faults; too short for users to notice.
 constexpr std::chrono::milliseconds kFaultPeriod{2};
-// Far above the millisecond a cycle lasts: beyond it the loop hangs inside a controller.
+// Far above a cycle of a millisecond: beyond it the loop hangs inside a controller.
 constexpr std::chrono::milliseconds kLongestCycle{1000};
 
 double readPositive(const ros::NodeHandle& nh, const std::string& name) {
@@ -181,7 +181,7 @@ void Supervisor::publish() {
   const std::size_t filled = window_.load(std::memory_order_relaxed);
   window_.store(1 - filled, std::memory_order_seq_cst);
   if (!gate_.waitUntilLeft(kLongestCycle)) {
-    // The loop may still write what would be read here: try again next time.
+    // The loop may still write the statistics to read: try again next time.
     window_.store(filled, std::memory_order_seq_cst);
     return;
   }

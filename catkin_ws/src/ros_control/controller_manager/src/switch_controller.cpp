@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The switch as seen from outside the loop: what is asked for, whether it is possible, and how it
-// went.
+// A switch from outside the loop: the request, whether it is possible, and its result.
 #include <controller_manager/controller_manager.h>
 #include <controller_manager/internal/controller_registry.h>
 #include <controller_manager/internal/loop_gate.h>
@@ -25,7 +24,7 @@ namespace {
 
 typedef std::vector<std::string> Names;
 
-// [s] for the robot to take over from a controller that was aborted.
+// [s] for the robot to replace an aborted controller.
 constexpr double kFaultTimeout = 1.0;
 
 bool contains(const Names& names, const std::string& name) {
@@ -36,11 +35,11 @@ void remove(Names& names, const std::string& name) {
   names.erase(std::remove(names.begin(), names.end(), name), names.end());
 }
 
-/// The names that are loaded, none twice, in the order asked for.
-/// @returns false, in strict mode, if one is not.
-bool resolve(const ControllerList& list, const Names& asked, const char* verb, bool strict,
+/// Removes unknown and duplicate names, keeping the order. @returns false, in strict mode, if a
+/// name is unknown.
+bool resolve(const ControllerList& list, const Names& requested, const char* verb, bool strict,
              Names& resolved) {
-  for (const std::string& name : asked) {
+  for (const std::string& name : requested) {
     if (list.find(name) != nullptr) {
       if (!contains(resolved, name)) {
         resolved.push_back(name);
@@ -60,7 +59,8 @@ bool resolve(const ControllerList& list, const Names& asked, const char* verb, b
   return true;
 }
 
-/// Takes out what is stopped or running already. @returns false, in strict mode, if something is.
+/// Removes controllers that are already stopped or running. @returns false, in strict mode, if
+/// there are any.
 bool dropPointless(const ControllerList& list, bool strict, Names& start, Names& stop) {
   for (const ControllerSpec& spec : list.specs()) {
     const std::string& name = spec.info.name;
@@ -83,7 +83,7 @@ bool dropPointless(const ControllerList& list, bool strict, Names& start, Names&
   return true;
 }
 
-/// What would run after the switch.
+/// The running controllers after the switch.
 std::list<hardware_interface::ControllerInfo> runningAfter(const ControllerList& list,
                                                            const Names& start, const Names& stop) {
   std::list<hardware_interface::ControllerInfo> infos;
@@ -259,7 +259,7 @@ bool ControllerManager::carryOut(const Names& start_controllers, const Names& st
       break;
   }
   explainWithdrawal(turn.elapsed());
-  // The robot prepared for a switch that never came: let it prepare for the way back.
+  // The robot prepared for a switch that was withdrawn: let it prepare the reverse switch.
   const std::lock_guard<std::mutex> lock(services_mutex_);
   if (!robot_hw_->prepareSwitch(stop_list, start_list)) {
     ROS_WARN("The robot refused to take the preparations of that switch back");
@@ -320,7 +320,7 @@ bool ControllerManager::settleFault(const std::string& name, bool first) {
     const std::lock_guard<std::mutex> lock(services_mutex_);
     const internal::ControllerListPtr list = registry_->snapshot();
     const ControllerSpec* const spec = list->find(name);
-    // Somebody may have started or unloaded it meanwhile.
+    // It may have been started or unloaded meanwhile.
     if (spec == nullptr || !spec->c->isAborted()) {
       return true;
     }
@@ -337,7 +337,7 @@ bool ControllerManager::settleFault(const std::string& name, bool first) {
       reportOutcome(turn.request());
       return true;
     case SwitchHandover::Result::kAbandoned:
-      // The robot knows; only the fallbacks are lost.
+      // The robot has been notified; only the fallbacks are lost.
       explainWithdrawal(turn.elapsed());
       return true;
     case SwitchHandover::Result::kWithdrawn:

@@ -14,9 +14,9 @@ using Phase = SwitchRequest::Phase;
 
 namespace {
 constexpr std::chrono::microseconds kPollPeriod{200};
-// The original's grace beyond the timeout, for a loop whose clock stands still.
-constexpr double kGrace = 1.0;
-// Far above the millisecond a cycle lasts.
+// The original's extra time beyond the timeout, for a loop whose clock stands still.
+constexpr double kExtraTime = 1.0;
+// Far above a cycle of a millisecond.
 constexpr std::chrono::milliseconds kLongestCycle{1000};
 }  // namespace
 
@@ -108,7 +108,7 @@ SwitchHandover::Result SwitchHandover::Turn::await() {
     if ((must_end || elapsed() > limit) && withdraw()) {
       return Result::kWithdrawn;
     }
-    if (must_end || elapsed() > limit + kGrace) {
+    if (must_end || elapsed() > limit + kExtraTime) {
       request.cancelled.store(true, std::memory_order_relaxed);
       return Result::kAbandoned;
     }

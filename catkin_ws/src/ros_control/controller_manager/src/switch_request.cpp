@@ -54,7 +54,7 @@ bool SwitchRequest::begin(hardware_interface::RobotHW& robot, const ros::Time& t
   }
   begin_ = time;
   robot.doSwitch(start_list, stop_list);
-  // In the first cycle only: later ones would stop restarted controllers again.
+  // Only in the first cycle: later ones would stop restarted controllers again.
   for (const Stop& stopped : stops) {
     if (stopped.controller->isRunning()) {
       stop(stopped, time);
@@ -123,13 +123,13 @@ SwitchRequest::Outcome SwitchRequest::reasonToGiveUp(SwitchState state,
   if (state == SwitchState::ERROR) {
     return Outcome::kRobotError;
   }
-  // As seconds, because ros::Time throws on differences out of range.
+  // In seconds, because ros::Time throws on differences out of range.
   return timeout > 0.0 && time.toSec() - begin_.toSec() > timeout ? Outcome::kTimeout
                                                                   : Outcome::kPending;
 }
 
-// The robot is asked once whether it is done and a second time whether it failed. Robots written
-// for the original count on that, as do their tests.
+// switchResult is called once for done and a second time for failure. Robots written for the
+// original rely on this, as do their tests.
 bool SwitchRequest::startTogether(hardware_interface::RobotHW& robot, const ros::Time& time) {
   const bool ready = robot.switchResult() == SwitchState::DONE;
   const Outcome reason = ready ? Outcome::kPending : reasonToGiveUp(robot.switchResult(), time);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Controllers, a loader and a robot that do as they are told, for the tests of the manager.
+// Scripted controllers, loader and robot for the tests of the manager.
 
 #include <controller_interface/controller.h>
 #include <controller_manager/controller_loader_interface.h>
@@ -27,7 +27,7 @@ class DummyController
   DummyController() { ++living(); }
   ~DummyController() override { --living(); }
 
-  /// How many exist.
+  /// Number of instances.
   static std::atomic<int>& living() {
     static std::atomic<int> count{0};
     return count;
@@ -74,8 +74,8 @@ class ThrowingController : public DummyController {
   }
 };
 
-/// Sets its parameter `loading` to true and is not ready before somebody has set it to false, for a
-/// minute at most.
+/// Sets its parameter `loading` to true and is ready once a test sets it to false, or after a
+/// minute.
 class SlowController : public DummyController {
   bool init(hardware_interface::EffortJointInterface* hw, ros::NodeHandle& nh) override {
     nh.setParam("loading", true);
@@ -87,8 +87,8 @@ class SlowController : public DummyController {
   }
 };
 
-/// Knows the types dummy/Good, dummy/Refusing, dummy/Throwing, dummy/Slow and dummy/Broken (fails
-/// to load).
+/// Has the types dummy/Good, dummy/Refusing, dummy/Throwing, dummy/Slow and dummy/Broken (fails to
+/// load).
 class DummyLoader : public controller_manager::ControllerLoaderInterface {
  public:
   DummyLoader() : ControllerLoaderInterface("dummies::DummyController") {}
@@ -118,7 +118,7 @@ class DummyLoader : public controller_manager::ControllerLoaderInterface {
   int reloads_{0};
 };
 
-/// Has the joints j0, j1, ... and switches as its script says.
+/// Has the joints j0, j1, ... and switches as scripted.
 class DummyRobot : public hardware_interface::RobotHW {
  public:
   explicit DummyRobot(std::size_t joints = 4) : values_(joints, 0.0), commands_(joints, 0.0) {
@@ -162,7 +162,7 @@ class DummyRobot : public hardware_interface::RobotHW {
   std::vector<std::string> prepared_start_, prepared_stop_;
   std::atomic<int> prepares_{0}, switches_{0}, started_{-1}, stopped_{-1};
   mutable std::atomic<int> result_calls_{0};
-  std::vector<SwitchState> script_;  ///< answers in order; then after_script_ for ever
+  std::vector<SwitchState> script_;  ///< results in order; then after_script_ for ever
   std::atomic<SwitchState> after_script_{SwitchState::DONE};
 
  private:

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The loop's side neither allocates nor locks nor enters the kernel, whatever the other side does.
+// The loop's side neither allocates nor locks nor makes system calls, whatever other threads do.
 #include <rt_guard/rt_guard.h>
 #include <rt_guard/syscall_guard.h>
 #include <unistd.h>
@@ -54,13 +54,13 @@ class GuardTest : public dummies::ManagerTest {
 
 }  // namespace
 
-TEST_F(GuardTest, theGuardWatches) {
+TEST_F(GuardTest, GuardCountsAllocationsAndLocks) {
   ASSERT_TRUE(rt_guard::kActive);
   std::size_t allocations = 0;
   std::size_t locks = 0;
   {
     const rt_guard::Scope scope;
-    // Through a volatile pointer, or the compiler leaves both calls out.
+    // Volatile, so that the compiler does not remove both calls.
     void* volatile memory = std::malloc(1);
     std::free(memory);
     std::mutex mutex;
@@ -73,7 +73,7 @@ TEST_F(GuardTest, theGuardWatches) {
   EXPECT_EQ(1u, locks);
 }
 
-TEST_F(GuardTest, theSyscallGuardWatches) {
+TEST_F(GuardTest, GuardDetectsSystemCalls) {
   if (!rt_guard::SyscallScope::available()) {
     GTEST_SKIP() << "this kernel cannot tell system calls";
   }
@@ -87,7 +87,7 @@ TEST_F(GuardTest, theSyscallGuardWatches) {
   EXPECT_FALSE(scope.called()) << scope.number();
 }
 
-TEST_F(GuardTest, steadyState) {
+TEST_F(GuardTest, SteadyStateIsRealTimeSafe) {
   ASSERT_TRUE(doSwitch({"a", "c", "d"}, {}));
   for (int i = 0; i < 1000; ++i) {
     guardedStep();
@@ -95,7 +95,7 @@ TEST_F(GuardTest, steadyState) {
   guardedStep(true);
 }
 
-TEST_F(GuardTest, switchesWithWaitingRestartAndAbort) {
+TEST_F(GuardTest, SwitchesAreRealTimeSafe) {
   for (const bool asap : {false, true}) {
     robot_.script_.assign(robot_.result_calls_ + 20, RobotHW::SwitchState::ONGOING);
     guardedSwitch({"a", "c"}, {}, asap);
@@ -109,7 +109,7 @@ TEST_F(GuardTest, switchesWithWaitingRestartAndAbort) {
   }
 }
 
-TEST_F(GuardTest, whileControllersComeAndGo) {
+TEST_F(GuardTest, LoadingAndUnloadingKeepTheLoopRealTimeSafe) {
   ASSERT_TRUE(doSwitch({"c"}, {}));
   std::atomic<bool> done{false};
   const auto others = std::async(std::launch::async, [&] {
@@ -127,7 +127,7 @@ TEST_F(GuardTest, whileControllersComeAndGo) {
 
 using dummies::SupervisionTest;
 
-TEST_F(SupervisionTest, watchingAllocatesAndLocksNothing) {
+TEST_F(SupervisionTest, SupervisionNeitherAllocatesNorLocks) {
   own_.setParam("statistics_rate", 50.0);
   own_.setParam("max_update_time", 0.5);
   renewGuarded();
@@ -136,7 +136,7 @@ TEST_F(SupervisionTest, watchingAllocatesAndLocksNothing) {
   const ros::Duration period(0.001);
   for (int i = 0; i < 300; ++i) {
     dummies::FaultyController::inUpdate() =
-        i == 200 ? dummies::Mischief::kNan : dummies::Mischief::kNone;
+        i == 200 ? dummies::FaultKind::kNan : dummies::FaultKind::kNone;
     time_ += period;
     {
       const rt_guard::Scope scope;

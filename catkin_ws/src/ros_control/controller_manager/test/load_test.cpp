@@ -14,7 +14,7 @@ class LoadTest : public dummies::ManagerTest {};
 
 }  // namespace
 
-TEST_F(LoadTest, keepsControllersInTheOrderOfLoading) {
+TEST_F(LoadTest, KeepsControllersInTheOrderOfLoading) {
   load({"c", "a"});
   EXPECT_THAT(loaded(), ElementsAre("c", "a"));
   const auto specs = manager_->getControllers();
@@ -27,12 +27,12 @@ TEST_F(LoadTest, keepsControllersInTheOrderOfLoading) {
   EXPECT_EQ(nullptr, manager_->getControllerByName("unknown"));
 }
 
-TEST_F(LoadTest, asksALoaderOnceForEachLoad) {
+TEST_F(LoadTest, CallsALoaderOncePerLoad) {
   load({"a", "c"});
   EXPECT_EQ(2, loader_->listings_);
 }
 
-TEST_F(LoadTest, failuresSayWhyAndLeaveTheListAlone) {
+TEST_F(LoadTest, FailuresAreLoggedAndKeepTheList) {
   describe("refusing", "dummy/Refusing", {});
   describe("throwing", "dummy/Throwing", {});
   describe("broken", "dummy/Broken", {});
@@ -68,14 +68,14 @@ TEST_F(LoadTest, failuresSayWhyAndLeaveTheListAlone) {
   EXPECT_EQ(1, DummyController::living());
 }
 
-TEST_F(LoadTest, worksAgainAfterAFailureOfTheSameName) {
+TEST_F(LoadTest, LoadsANameAgainAfterAFailure) {
   describe("x", "dummy/Refusing", {});
   EXPECT_FALSE(manager_->loadController("x"));
   describe("x", "dummy/Good", {});
   EXPECT_TRUE(manager_->loadController("x"));
 }
 
-TEST_F(LoadTest, earlierLoadersAreAskedFirst) {
+TEST_F(LoadTest, EarlierLoadersAreAskedFirst) {
   const auto second = std::make_shared<dummies::DummyLoader>();
   manager_->registerControllerLoader(second);
   load({"a"});
@@ -83,7 +83,7 @@ TEST_F(LoadTest, earlierLoadersAreAskedFirst) {
   EXPECT_EQ(0, second->listings_);
 }
 
-TEST_F(LoadTest, declaredTypesNameTheirLoader) {
+TEST_F(LoadTest, DeclaredTypesNameTheirLoader) {
   int dummies_found = 0;
   for (const auto& declared : manager_->getDeclaredTypes()) {
     if (declared.base_class == "dummies::DummyController") {
@@ -95,7 +95,7 @@ TEST_F(LoadTest, declaredTypesNameTheirLoader) {
   EXPECT_EQ(5, dummies_found);
 }
 
-TEST_F(LoadTest, unloadsAndDestroys) {
+TEST_F(LoadTest, UnloadsAndDestroys) {
   load({"a", "c"});
   EXPECT_EQ(2, DummyController::living());
   step();
@@ -104,7 +104,7 @@ TEST_F(LoadTest, unloadsAndDestroys) {
   EXPECT_THAT(loaded(), ElementsAre("c"));
 }
 
-TEST_F(LoadTest, refusesToUnloadWhatRunsOrIsUnknown) {
+TEST_F(LoadTest, RefusesToUnloadRunningAndUnknownControllers) {
   load({"a"});
   ASSERT_TRUE(doSwitch({"a"}, {}));
   LogCatcher log;
@@ -120,7 +120,7 @@ TEST_F(LoadTest, refusesToUnloadWhatRunsOrIsUnknown) {
   EXPECT_EQ(0, DummyController::living()) << "no finished switch may keep it alive";
 }
 
-TEST_F(LoadTest, reloadNeedsForceWhileControllersAreLoaded) {
+TEST_F(LoadTest, ReloadOfLoadedControllersRequiresForce) {
   load({"a", "c"});
   LogCatcher log;
   EXPECT_FALSE(manager_->reloadControllerLibraries(false));
@@ -134,7 +134,7 @@ TEST_F(LoadTest, reloadNeedsForceWhileControllersAreLoaded) {
   EXPECT_EQ(2, loader_->reloads_);
 }
 
-TEST_F(LoadTest, forcedReloadStopsWhatRuns) {
+TEST_F(LoadTest, ForcedReloadStopsRunningControllers) {
   load({"a", "c"});
   ASSERT_TRUE(doSwitch({"a"}, {}));
   EXPECT_TRUE(stepUntil(std::async(std::launch::async,
@@ -143,7 +143,7 @@ TEST_F(LoadTest, forcedReloadStopsWhatRuns) {
   EXPECT_EQ(1, loader_->reloads_);
 }
 
-TEST_F(LoadTest, theManagersEndDestroysEverything) {
+TEST_F(LoadTest, DestructorDestroysAllControllers) {
   load({"a", "c"});
   manager_.reset();
   EXPECT_EQ(0, DummyController::living());

@@ -22,7 +22,7 @@ namespace dummies {
 constexpr int kStrict = 2;
 constexpr int kBestEffort = 1;
 
-/// Catches what is logged while it lives.
+/// Captures log messages during its lifetime.
 class LogCatcher : public ros::console::LogAppender {
  public:
   LogCatcher() { ros::console::register_appender(this); }
@@ -42,8 +42,8 @@ class LogCatcher : public ros::console::LogAppender {
   std::string all_;
 };
 
-/// A manager with dummies a, b (joint j0), c (j1) and d (j2) on the parameter server. Time passes
-/// only when a test steps it.
+/// A manager with dummies a, b (joint j0), c (j1) and d (j2) on the parameter server. Time advances
+/// only by the test's steps.
 class ManagerTest : public testing::Test {
  protected:
   typedef std::vector<std::string> Names;
@@ -85,7 +85,7 @@ class ManagerTest : public testing::Test {
     return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }
 
-  /// Steps until the switch is answered.
+  /// Steps until the switch has returned.
   bool stepUntil(std::future<bool> answer) {
     waitFor([&] {
       step();
@@ -111,7 +111,7 @@ class ManagerTest : public testing::Test {
     }
   }
 
-  /// Posts a switch and steps until the cycle that takes it up is over.
+  /// Posts a switch and steps until the cycle that starts it is over.
   /// @param[out] updates_before of the controller `watched`, before that cycle
   std::future<bool> beginSwitch(const Names& start, const Names& stop, int strictness = kStrict,
                                 bool asap = false, double timeout = 0.0,
@@ -129,7 +129,7 @@ class ManagerTest : public testing::Test {
     return answer;
   }
 
-  /// Posts a switch and waits, without stepping, until it is laid before the loop.
+  /// Posts a switch and waits, without stepping, until it is passed to the loop.
   std::future<bool> postAndWait(const Names& start, const Names& stop) {
     const int prepares = robot_.prepares_;
     std::future<bool> answer = postSwitch(start, stop);

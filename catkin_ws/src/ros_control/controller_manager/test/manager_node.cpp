@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// A controller manager with a dummy robot and a 1 kHz loop that can be halted, for tests of the
-// services and scripts. It spins with one thread on purpose: a waiting switch must not block it.
+// A controller manager with a dummy robot and a 1 kHz loop that can be halted, for tests of
+// services and scripts. It spins with one thread, so that the tests detect a switch that blocks it.
 #include <controller_manager/controller_manager.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>

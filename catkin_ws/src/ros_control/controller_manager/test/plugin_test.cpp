@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The default loader finds controllers in plugin libraries, those written for ROS 1 included.
+// The default loader finds controllers in plugin libraries, including those written for ROS 1.
 #include "manager_fixture.h"
 
 using testing::HasSubstr;
@@ -11,7 +11,7 @@ class PluginTest : public dummies::ManagerTest {};
 
 }  // namespace
 
-TEST_F(PluginTest, loadsRunsAndReloadsAPlugin) {
+TEST_F(PluginTest, LoadsRunsAndReloadsAPlugin) {
   nh_.setParam("plugged/type", "controller_manager_test/PluginController");
   ASSERT_TRUE(manager_->loadController("plugged"));
   ASSERT_TRUE(doSwitch({"plugged"}, {}));
@@ -22,7 +22,7 @@ TEST_F(PluginTest, loadsRunsAndReloadsAPlugin) {
   EXPECT_TRUE(manager_->loadController("plugged"));
 }
 
-TEST_F(PluginTest, isListed) {
+TEST_F(PluginTest, IsListed) {
   bool found = false;
   for (const auto& declared : manager_->getDeclaredTypes()) {
     found = found || (declared.type == "controller_manager_test/PluginController" &&
@@ -31,7 +31,7 @@ TEST_F(PluginTest, isListed) {
   EXPECT_TRUE(found);
 }
 
-TEST_F(PluginTest, aLibraryThatIsNotThereIsNamed) {
+TEST_F(PluginTest, NamesAMissingLibrary) {
   nh_.setParam("absent/type", "controller_manager_test/AbsentController");
   dummies::LogCatcher log;
   EXPECT_FALSE(manager_->loadController("absent"));

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What the loop calls, without a ROS master: test_realtime_sanitizer.py builds and runs it.
+// Functions of the loop, without a ROS master: built and run by test_realtime_sanitizer.py.
 #include <controller_manager/internal/controller_watch.h>
 #include <controller_manager/internal/loop_gate.h>
 #include <controller_manager/internal/switch_request.h>
@@ -40,7 +40,7 @@ class Robot : public hardware_interface::RobotHW {
   hardware_interface::EffortJointInterface efforts_;
 };
 
-/// Commands what its buffer holds, and takes the turn of a message that is read outside.
+/// Commands the value in its buffer, and locks a message that is read outside.
 class Forwarder : public controller_interface::ControllerBase {
  public:
   explicit Forwarder(const hardware_interface::JointHandle& joint) : joint_(joint) {
@@ -77,7 +77,7 @@ void cycle(controller_manager::internal::LoopGate& gate,
   }
 }
 
-/// That the sanitizer sees anything at all.
+/// Shows that the sanitizer works.
 void misbehave() NONBLOCKING {
   void* volatile memory = std::malloc(1);
   std::free(memory);

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of services and scripts share."""
+"""Helpers of the tests of services and scripts."""
 
 import signal
 import subprocess
@@ -52,7 +52,7 @@ def program(name):
 
 
 class Running:
-    """A script in a process of its own, ended with the test."""
+    """A script in its own process, ended with the test."""
 
     def __init__(self, name, *arguments):
         self.process = subprocess.Popen(

@@ -40,7 +40,7 @@ class ServicesTest(unittest.TestCase):
         bases = dict(zip(answer.types, answer.base_classes))
         self.assertEqual("dummies::DummyController", bases["dummy/Good"])
 
-    def test_life_of_a_controller(self):
+    def test_controller_is_loaded_started_stopped_and_unloaded(self):
         self.assertTrue(self.manager.load("a").ok)
         self.assertFalse(self.manager.load("a").ok)
         (controller,) = self.manager.list().controller
@@ -80,7 +80,7 @@ class ServicesTest(unittest.TestCase):
             target=lambda: answers.append(self.manager.switch(start_controllers=["a"], strictness=STRICT))
         )
         switch.start()
-        # Long enough for the switch to be waiting at the latest when this is over.
+        # Long enough that the switch waits afterwards.
         for _ in range(20):
             self.assertTrue(self.manager.load("c").ok)
             self.assertTrue(self.manager.unload("c").ok)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The spawner, from its arguments to its end."""
+"""The spawner, from its arguments to its exit."""
 
 import contextlib
 import os
@@ -23,7 +23,7 @@ from std_msgs.msg import Bool
 
 STRICT = 2
 
-# A controller manager that ends when it shall stop something, as one in the same launch file does.
+# A controller manager that exits when it must stop a controller, as one in the same launch file does.
 MORTAL_MANAGER = """
 import os
 import rospy
@@ -59,7 +59,7 @@ class SpawnerTest(unittest.TestCase):
         manager = manager or self.manager
         wait_until(lambda: manager.states() == states, f"never {states}: {manager.states()}")
 
-    def test_starts_and_takes_away(self):
+    def test_starts_and_unloads_controllers(self):
         with Running("spawner", "a", "c", "a") as spawner:
             self.expect({"a": "running", "c": "running"})
             status, output = spawner.interrupt()
@@ -82,7 +82,7 @@ class SpawnerTest(unittest.TestCase):
         self.assertNotIn("Stopped controllers", output)
         self.expect({})
 
-    def test_leaves_alone_what_others_stopped(self):
+    def test_ignores_controllers_stopped_by_others(self):
         with Running("spawner", "a", "c") as spawner:
             self.expect({"a": "running", "c": "running"})
             self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
@@ -127,7 +127,7 @@ class SpawnerTest(unittest.TestCase):
                 spawner.interrupt()
             self.expect({})
 
-    def test_hears_a_publisher_of_which_the_news_was_lost(self):
+    def test_finds_a_publisher_whose_announcement_was_lost(self):
         deaf = mock.patch.object(RegManager, "publisher_update")
         with deaf, mock.patch.object(spawner, "LONELY_TIME", 0.5):
             listener = spawner.Listener("overheard")
@@ -138,11 +138,11 @@ class SpawnerTest(unittest.TestCase):
         with contextlib.closing(listener):
             wait_until(listener.heard, "never heard")
 
-    def test_waits_for_a_topic_without_limit_and_says_so(self):
+    def test_waits_for_a_topic_without_limit_and_reports_it(self):
         publisher = rospy.Publisher("late", Bool, queue_size=1, latch=True)
         with Running("spawner", "--timeout", "0.5", "--wait-for", "late", "a") as running:
             wait_until(lambda: publisher.get_num_connections() > 0, "nobody listens")
-            time.sleep(1.0)  # twice its timeout, which is for the controller manager
+            time.sleep(1.0)  # twice its timeout for the controller manager
             self.assertTrue(running.is_running())
             publisher.publish(True)
             self.expect({"a": "running"})
@@ -153,13 +153,13 @@ class SpawnerTest(unittest.TestCase):
         publisher = rospy.Publisher("reported", Bool, queue_size=1, latch=True)
         reports = []
 
-        class Impatient:  # in place of Ending
+        class Impatient:  # replaces Ending
             def sleep(self, duration):
                 rospy.rostime.wallsleep(0.01)
 
         def take(text, *values):
             reports.append(text % values)
-            # The next thing to be told of; in the end what is waited for.
+            # Times of the reports, and then the awaited topic.
             publisher.publish("only said false" in reports[-1])
 
         impatient = mock.patch.multiple(spawner, FIRST_REPORT=0.0, REPORT_PERIOD=0.5)
@@ -177,7 +177,7 @@ class SpawnerTest(unittest.TestCase):
             output,
         )
 
-    def test_a_clock_that_has_not_begun_does_not_count(self):
+    def test_an_unstarted_clock_does_not_count_as_waiting_time(self):
         rospy.set_param("/use_sim_time", True)
         try:
             with Running("spawner", "--timeout", "0.5", "--namespace", "/nowhere", "a") as spawner:
@@ -233,7 +233,7 @@ class SpawnerTest(unittest.TestCase):
         self.assertEqual(1, status)
         self.assertIn("there is no file '/no/such/file.yaml'", output)
 
-    def test_can_be_ended_while_the_start_waits_for_the_loop(self):
+    def test_can_be_interrupted_while_the_start_waits_for_the_loop(self):
         self.manager.run_loop(False)
         with Running("spawner", "a") as spawner:
             self.expect({"a": "initialized"})
@@ -248,7 +248,7 @@ class SpawnerTest(unittest.TestCase):
         self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
         self.assertTrue(self.manager.unload("a").ok)
 
-    def test_rosnode_kill_takes_away_too(self):
+    def test_rosnode_kill_unloads_controllers_too(self):
         with Running("spawner", "a", "__name:=victim") as spawner:
             self.expect({"a": "running"})
             killed, _ = rosnode.kill_nodes(["/victim"])
@@ -272,7 +272,7 @@ class SpawnerTest(unittest.TestCase):
             self.assertEqual(2, status)
             self.assertIn("usage: spawner", output)
 
-    def test_a_manager_that_ends_at_the_same_time_is_no_trouble(self):
+    def test_a_manager_that_exits_at_the_same_time_causes_no_error(self):
         manager = subprocess.Popen([sys.executable, "-c", MORTAL_MANAGER])
         try:
             with Running("spawner", "--namespace", "/mortal", "a") as spawner:
@@ -286,7 +286,7 @@ class SpawnerTest(unittest.TestCase):
             manager.kill()
             manager.wait()
 
-    def test_ends_in_time_when_the_loop_stands_still(self):
+    def test_exits_in_time_if_the_loop_stands_still(self):
         with Running("spawner", "a") as spawner:
             self.expect({"a": "running"})
             self.manager.run_loop(False)

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What is answered, and what waits, while nobody calls update().
+// Requests without calls of update(): which are answered, and which wait.
 #include <controller_manager_msgs/SwitchController.h>
 #include <ros/service.h>
 
@@ -24,8 +24,8 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Tries to switch, load and unload from inside its update.
-class Meddler : public DummyController {
+/// Calls switch, load and unload from inside its update.
+class RecursiveCaller : public DummyController {
  public:
   void update(const ros::Time& /*time*/, const ros::Duration& /*period*/) override {
     if (manager_ != nullptr) {
@@ -42,17 +42,17 @@ class Meddler : public DummyController {
 
 class MeddlerLoader : public controller_manager::ControllerLoaderInterface {
  public:
-  MeddlerLoader() : ControllerLoaderInterface("Meddler") {}
+  MeddlerLoader() : ControllerLoaderInterface("RecursiveCaller") {}
   controller_interface::ControllerBaseSharedPtr createInstance(const std::string&) override {
-    return std::make_shared<Meddler>();
+    return std::make_shared<RecursiveCaller>();
   }
-  std::vector<std::string> getDeclaredClasses() override { return {"dummy/Meddler"}; }
+  std::vector<std::string> getDeclaredClasses() override { return {"dummy/RecursiveCaller"}; }
   void reload() override {}
 };
 
 }  // namespace
 
-TEST_F(StandStillTest, loadUnloadAndListAnswerAfterTheLoopStopped) {
+TEST_F(StandStillTest, LoadUnloadAndListWorkWithoutTheLoop) {
   ASSERT_TRUE(doSwitch({"a"}, {}));
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(manager_->loadController("c"));
@@ -62,7 +62,7 @@ TEST_F(StandStillTest, loadUnloadAndListAnswerAfterTheLoopStopped) {
   EXPECT_EQ(1, DummyController::living());
 }
 
-TEST_F(StandStillTest, aSwitchFailsAfterItsTimeout) {
+TEST_F(StandStillTest, SwitchFailsAfterItsTimeout) {
   LogCatcher log;
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_FALSE(manager_->switchController({"a"}, {}, kStrict, false, 0.2));
@@ -79,7 +79,7 @@ TEST_F(StandStillTest, aSwitchFailsAfterItsTimeout) {
   EXPECT_TRUE(doSwitch({"a"}, {}));
 }
 
-TEST_F(StandStillTest, othersAreAnsweredWhileASwitchWaits) {
+TEST_F(StandStillTest, OtherRequestsAreServedDuringASwitch) {
   auto answer = postAndWait({"a"}, {});
   EXPECT_TRUE(manager_->loadController("c"));
   EXPECT_THAT(loaded(), ElementsAre("a", "c"));
@@ -96,7 +96,7 @@ TEST_F(StandStillTest, othersAreAnsweredWhileASwitchWaits) {
   EXPECT_TRUE(controller("a").isRunning());
 }
 
-TEST_F(StandStillTest, aSwitchBegunIsAbortedWhenTheLoopComesBack) {
+TEST_F(StandStillTest, StartedSwitchIsAbortedWhenTheLoopReturns) {
   load({"c"});
   robot_.after_script_ = RobotHW::SwitchState::ONGOING;
   auto answer = beginSwitch({"a"}, {}, kStrict, false, 0.5);
@@ -112,7 +112,7 @@ TEST_F(StandStillTest, aSwitchBegunIsAbortedWhenTheLoopComesBack) {
   EXPECT_TRUE(controller("c").isRunning());
 }
 
-TEST_F(StandStillTest, theManagersEndFreesWhoWaits) {
+TEST_F(StandStillTest, ShutdownEndsWaitingCalls) {
   controller_manager_msgs::SwitchController service;
   service.request.start_controllers = {"a"};
   service.request.strictness = kStrict;
@@ -126,12 +126,12 @@ TEST_F(StandStillTest, theManagersEndFreesWhoWaits) {
   EXPECT_FALSE(answer.get());
 }
 
-TEST_F(StandStillTest, theLoopItselfIsRefused) {
+TEST_F(StandStillTest, CallsFromTheLoopAreRefused) {
   manager_->registerControllerLoader(std::make_shared<MeddlerLoader>());
-  describe("meddler", "dummy/Meddler", {});
+  describe("meddler", "dummy/RecursiveCaller", {});
   load({"meddler"});
   ASSERT_TRUE(doSwitch({"meddler"}, {}));
-  auto& meddler = dynamic_cast<Meddler&>(*manager_->getControllerByName("meddler"));
+  auto& meddler = dynamic_cast<RecursiveCaller&>(*manager_->getControllerByName("meddler"));
   meddler.manager_ = manager_.get();
   LogCatcher log;
   step();

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Four threads load, unload, switch, restart and list controllers while the loop runs at 1 kHz and
-// halts now and then. Built with ThreadSanitizer by tsan.sh; without it the counts are checked.
+// halts from time to time. tsan.sh builds it with ThreadSanitizer; otherwise only the counts are
+// checked.
 #include <controller_manager/controller_manager.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -27,8 +28,8 @@ int operations() {
   return asked == nullptr ? 10000 : std::stoi(asked);
 }
 
-/// One of four users, with a controller and a joint of its own, whose state only it changes: every
-/// answer about that is foretold. All fight for one more controller.
+/// One of four users, with its own controller and joint, whose state only it changes, so that every
+/// result is predictable. All of them also use one shared controller.
 class User {
  public:
   User(controller_manager::ControllerManager& manager, int number)
@@ -83,8 +84,8 @@ class User {
     expect(loaded_, loaded, "look at");
     expect(running_, running, "look whether there runs");
   }
-  void expect(bool foretold, bool answer, const char* action) {
-    if (foretold != answer) {
+  void expect(bool predicted, bool answer, const char* action) {
+    if (predicted != answer) {
       ++failures_;
       ADD_FAILURE() << "to " << action << " " << own_ << " gave " << answer;
     }
@@ -114,7 +115,7 @@ void runLoop(controller_manager::ControllerManager& manager, const std::atomic<b
 
 }  // namespace
 
-TEST(Stress, fourThreadsAgainstTheLoop) {
+TEST(Stress, FourThreadsBesideTheLoop) {
   ros::NodeHandle nh("stress");
   for (int i = 0; i < kThreads; ++i) {
     const std::string name = "own" + std::to_string(i);
@@ -165,8 +166,8 @@ TEST(Stress, fourThreadsAgainstTheLoop) {
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "controller_manager_stress");
-  // Thousands of refusals are expected; and the log's buffer is guarded by a mutex inside a library
-  // of Debian's, where ThreadSanitizer does not see it.
+  // Thousands of refusals are expected; and a mutex inside one of Debian's libraries guards the
+  // log's buffer, which ThreadSanitizer cannot see.
   if (ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal)) {
     ros::console::notifyLoggerLevelsChanged();
   }

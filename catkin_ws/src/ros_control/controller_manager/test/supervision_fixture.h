@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// A controller that misbehaves on demand, and a manager told to watch for that.
+// A controller that fails on demand, and a supervised manager.
 
 #include <limits>
 #include <stdexcept>
@@ -11,16 +11,16 @@
 
 namespace dummies {
 
-enum class Mischief { kNone, kThrow, kThrowNumber, kNan, kSlow };
+enum class FaultKind { kNone, kThrow, kThrowNumber, kNan, kSlow };
 
-/// Behaves until it is told not to.
+/// Works normally until a fault is set.
 class FaultyController : public DummyController {
  public:
-  static Mischief& inUpdate() {
-    static Mischief mischief{Mischief::kNone};
+  static FaultKind& inUpdate() {
+    static FaultKind mischief{FaultKind::kNone};
     return mischief;
   }
-  /// The name of the callback that throws, of those around the update.
+  /// Name of the callback that throws, other than update.
   static std::string& throwsIn() {
     static std::string callback;
     return callback;
@@ -51,15 +51,15 @@ class FaultyController : public DummyController {
   }
   void update(const ros::Time& /*time*/, const ros::Duration& /*period*/) override {
     ++updates_;
-    handle_.setCommand(inUpdate() == Mischief::kNan ? std::numeric_limits<double>::quiet_NaN()
-                                                    : 7.0);
-    if (inUpdate() == Mischief::kThrow) {
+    handle_.setCommand(inUpdate() == FaultKind::kNan ? std::numeric_limits<double>::quiet_NaN()
+                                                     : 7.0);
+    if (inUpdate() == FaultKind::kThrow) {
       throw std::runtime_error("the matrix is singular");
     }
-    if (inUpdate() == Mischief::kThrowNumber) {
+    if (inUpdate() == FaultKind::kThrowNumber) {
       throw 42;
     }
-    if (inUpdate() == Mischief::kSlow) {
+    if (inUpdate() == FaultKind::kSlow) {
       std::this_thread::sleep_for(std::chrono::milliseconds(3));
     }
   }
@@ -89,7 +89,7 @@ class FaultyLoader : public controller_manager::ControllerLoaderInterface {
 class SupervisionTest : public ManagerTest {
  protected:
   SupervisionTest() : own_(nh_, "controller_manager") {
-    FaultyController::inUpdate() = Mischief::kNone;
+    FaultyController::inUpdate() = FaultKind::kNone;
     FaultyController::throwsIn().clear();
     describe("faulty", "dummy/Faulty", {"j3"});
   }
@@ -101,7 +101,7 @@ class SupervisionTest : public ManagerTest {
     nh_.deleteParam("faulty/fallback_controllers");
   }
 
-  /// A manager that has read the parameters of the test.
+  /// Creates a manager that reads the test's parameters.
   void renew() {
     manager_.reset();
     manager_ = std::make_unique<controller_manager::ControllerManager>(&robot_, nh_);
@@ -115,7 +115,7 @@ class SupervisionTest : public ManagerTest {
     ASSERT_TRUE(doSwitch({"a", "faulty"}, {}));
   }
 
-  /// Steps until the switch is answered. @returns how many steps threw
+  /// Steps until the switch has returned. @returns number of steps that threw
   int stepThroughExceptions(const std::future<bool>& answer) {
     int thrown = 0;
     waitFor([&] {
@@ -134,16 +134,16 @@ class SupervisionTest : public ManagerTest {
     return efforts->getHandle(joint).getCommand();
   }
 
-  /// Steps until the robot has been told of the abort.
-  void stepUntilTold(int switches) {
+  /// Steps until the robot has been notified of the abort.
+  void stepUntilNotified(int switches) {
     waitFor([&] {
       step();
       return robot_.switches_ > switches;
     });
   }
 
-  /// One bad cycle: the controller is aborted in it, and the other one goes on.
-  void misbehave(Mischief mischief) {
+  /// One faulty cycle: the controller is aborted in it, and the other one continues.
+  void failOnce(FaultKind mischief) {
     step();
     const int updates = controller("a").updates_;
     const int switches = robot_.switches_;
@@ -152,7 +152,7 @@ class SupervisionTest : public ManagerTest {
     EXPECT_TRUE(controller("faulty").isAborted());
     EXPECT_EQ(1, controller("faulty").aborts_);
     EXPECT_EQ(updates + 1, controller("a").updates_);
-    stepUntilTold(switches);
+    stepUntilNotified(switches);
     EXPECT_EQ("faulty", robot_.prepared_stop_.back());
     EXPECT_EQ(1, robot_.stopped_);
     EXPECT_TRUE(controller("a").isRunning());

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What parameters turn on: faulty controllers are aborted alone, statistics, the default timeout.
+// Functions enabled by parameters: faulty controllers are aborted alone, statistics, the default
+// timeout.
 #include <controller_manager/internal/command_guard.h>
 #include <controller_manager/internal/time_statistics.h>
 #include <controller_manager_msgs/ControllersStatistics.h>
@@ -13,30 +14,30 @@
 
 #include "supervision_fixture.h"
 
+using dummies::FaultKind;
 using dummies::FaultyController;
 using dummies::kStrict;
 using dummies::LogCatcher;
-using dummies::Mischief;
 using dummies::SupervisionTest;
 
-TEST_F(SupervisionTest, withoutTheParameterExceptionsPassAsInTheOriginal) {
+TEST_F(SupervisionTest, ByDefaultExceptionsPropagateAsInTheOriginal) {
   renew();
   load({"faulty"});
   ASSERT_TRUE(doSwitch({"faulty"}, {}));
-  FaultyController::inUpdate() = Mischief::kThrow;
+  FaultyController::inUpdate() = FaultKind::kThrow;
   EXPECT_THROW(step(), std::runtime_error);
 }
 
-TEST_F(SupervisionTest, oneThatThrowsInEveryCycleHoldsUpNobodyElse) {
+TEST_F(SupervisionTest, ControllerThatAlwaysThrowsDoesNotBlockOthers) {
   for (const double statistics_rate : {0.0, 100.0}) {
     if (statistics_rate > 0.0) {
       own_.setParam("statistics_rate", statistics_rate);
     }
-    FaultyController::inUpdate() = Mischief::kNone;
+    FaultyController::inUpdate() = FaultKind::kNone;
     renew();
     load({"faulty", "a"});
     ASSERT_TRUE(doSwitch({"faulty", "a"}, {}));
-    FaultyController::inUpdate() = Mischief::kThrow;
+    FaultyController::inUpdate() = FaultKind::kThrow;
     const int updates = controller("a").updates_;
     EXPECT_THROW(step(), std::runtime_error);
     EXPECT_EQ(updates + 1, controller("a").updates_) << statistics_rate;
@@ -48,7 +49,7 @@ TEST_F(SupervisionTest, oneThatThrowsInEveryCycleHoldsUpNobodyElse) {
   }
 }
 
-TEST_F(SupervisionTest, withoutTheParameterAStartThatThrowsEndsTheSwitch) {
+TEST_F(SupervisionTest, ByDefaultAThrowingStartEndsTheSwitch) {
   renew();
   load({"a", "faulty", "c"});
   FaultyController::throwsIn() = "starting";
@@ -67,7 +68,7 @@ TEST_F(SupervisionTest, withoutTheParameterAStartThatThrowsEndsTheSwitch) {
   EXPECT_EQ(1, controller("a").starts_) << "the broken switch is over";
 }
 
-TEST_F(SupervisionTest, withoutTheParameterAStopThatThrowsEndsTheSwitch) {
+TEST_F(SupervisionTest, ByDefaultAThrowingStopEndsTheSwitch) {
   renew();
   load({"a", "faulty", "c"});
   ASSERT_TRUE(doSwitch({"a", "faulty"}, {}));
@@ -81,7 +82,7 @@ TEST_F(SupervisionTest, withoutTheParameterAStopThatThrowsEndsTheSwitch) {
   EXPECT_TRUE(doSwitch({"c"}, {}));
 }
 
-TEST_F(SupervisionTest, withoutTheParameterARestartThatThrowsLeavesTheControllerStopped) {
+TEST_F(SupervisionTest, ByDefaultAThrowingRestartLeavesTheControllerStopped) {
   renew();
   load({"faulty"});
   ASSERT_TRUE(doSwitch({"faulty"}, {}));
@@ -91,47 +92,47 @@ TEST_F(SupervisionTest, withoutTheParameterARestartThatThrowsLeavesTheController
   EXPECT_NO_THROW(step(true));
 }
 
-TEST_F(SupervisionTest, aControllerThatThrowsIsAbortedAlone) {
+TEST_F(SupervisionTest, ThrowingControllerIsAbortedAlone) {
   renewGuarded();
   LogCatcher log;
-  misbehave(Mischief::kThrow);
+  failOnce(FaultKind::kThrow);
   EXPECT_THAT(log.text(), testing::HasSubstr("Controller 'faulty' was aborted, because its update "
                                              "threw: the matrix is singular."));
   EXPECT_EQ(7.0, command("j3"));
 }
 
-TEST_F(SupervisionTest, whateverItThrows) {
+TEST_F(SupervisionTest, AnyExceptionTypeAbortsTheController) {
   renewGuarded();
   LogCatcher log;
-  misbehave(Mischief::kThrowNumber);
+  failOnce(FaultKind::kThrowNumber);
   EXPECT_THAT(log.text(), testing::HasSubstr("threw: an exception of unknown type"));
 }
 
-TEST_F(SupervisionTest, noNanReachesTheRobot) {
+TEST_F(SupervisionTest, NanCommandsDoNotReachTheRobot) {
   renewGuarded();
   LogCatcher log;
-  misbehave(Mischief::kNan);
+  failOnce(FaultKind::kNan);
   EXPECT_THAT(log.text(), testing::HasSubstr("it commanded joint 'j3' a value that is no number"));
   EXPECT_EQ(7.0, command("j3"));
 }
 
-TEST_F(SupervisionTest, aFaultInTheFirstUpdateLeavesWhatTheStartCommanded) {
+TEST_F(SupervisionTest, FaultInTheFirstUpdateKeepsTheCommandOfTheStart) {
   renewGuarded();
   step();
   ASSERT_EQ(7.0, command("j3")) << "of an earlier run";
-  for (const Mischief mischief : {Mischief::kNan, Mischief::kThrow}) {
-    FaultyController::inUpdate() = Mischief::kNone;
+  for (const FaultKind fault : {FaultKind::kNan, FaultKind::kThrow}) {
+    FaultyController::inUpdate() = FaultKind::kNone;
     ASSERT_TRUE(doSwitch({}, {"faulty"}, dummies::kBestEffort));
-    FaultyController::inUpdate() = mischief;
+    FaultyController::inUpdate() = fault;
     const int switches = robot_.switches_;
     ASSERT_TRUE(doSwitch({"faulty"}, {}));
-    stepUntilTold(switches + 1);
+    stepUntilNotified(switches + 1);
     EXPECT_TRUE(controller("faulty").isAborted());
     EXPECT_EQ(FaultyController::kFirstCommand, command("j3"));
   }
 }
 
-TEST_F(SupervisionTest, aRestartThatThrowsIsAbortedAlone) {
+TEST_F(SupervisionTest, ThrowingRestartIsAbortedAlone) {
   for (const char* const callback : {"stopping", "starting"}) {
     FaultyController::throwsIn().clear();
     renewGuarded();
@@ -144,13 +145,13 @@ TEST_F(SupervisionTest, aRestartThatThrowsIsAbortedAlone) {
     EXPECT_EQ(7.0, command("j3"));
     EXPECT_EQ(2, controller("a").starts_);
     EXPECT_TRUE(controller("a").isRunning());
-    stepUntilTold(switches);
+    stepUntilNotified(switches);
     EXPECT_EQ("faulty", robot_.prepared_stop_.back());
     EXPECT_THAT(log.text(), testing::HasSubstr("its restart threw: the target is unknown"));
   }
 }
 
-TEST_F(SupervisionTest, aRestartGoesThroughTheGuards) {
+TEST_F(SupervisionTest, RestartIsSupervised) {
   renewGuarded();
   step(true);
   for (const char* const name : {"a", "faulty"}) {
@@ -160,7 +161,7 @@ TEST_F(SupervisionTest, aRestartGoesThroughTheGuards) {
   }
 }
 
-TEST_F(SupervisionTest, aWaitThatThrowsIsAbortedAlone) {
+TEST_F(SupervisionTest, ThrowingWaitIsAbortedAlone) {
   own_.setParam("abort_faulty_controllers", true);
   for (const bool asap : {false, true}) {
     renew();
@@ -178,7 +179,7 @@ TEST_F(SupervisionTest, aWaitThatThrowsIsAbortedAlone) {
   }
 }
 
-TEST_F(SupervisionTest, anAbortThatThrowsIsHeldBack) {
+TEST_F(SupervisionTest, ThrowingAbortIsCaught) {
   own_.setParam("abort_faulty_controllers", true);
   robot_.after_script_ = hardware_interface::RobotHW::SwitchState::ERROR;
   FaultyController::throwsIn() = "aborting";
@@ -193,13 +194,13 @@ TEST_F(SupervisionTest, anAbortThatThrowsIsHeldBack) {
   }
 }
 
-TEST_F(SupervisionTest, theRobotIsToldWhenALongSwitchHasEnded) {
+TEST_F(SupervisionTest, RobotIsNotifiedAfterALongSwitch) {
   renewGuarded();
   load({"c"});
   robot_.after_script_ = hardware_interface::RobotHW::SwitchState::ONGOING;
   std::future<bool> answer = beginSwitch({"c"}, {});
   LogCatcher log;
-  FaultyController::inUpdate() = Mischief::kThrow;
+  FaultyController::inUpdate() = FaultKind::kThrow;
   waitFor([&] {
     step();
     return log.text().find("another switch is under way") != std::string::npos;
@@ -207,38 +208,38 @@ TEST_F(SupervisionTest, theRobotIsToldWhenALongSwitchHasEnded) {
   const int switches = robot_.switches_;
   robot_.after_script_ = hardware_interface::RobotHW::SwitchState::DONE;
   EXPECT_TRUE(stepUntil(std::move(answer)));
-  stepUntilTold(switches);
+  stepUntilNotified(switches);
   EXPECT_EQ("faulty", robot_.prepared_stop_.back());
 }
 
-TEST_F(SupervisionTest, aSlowControllerIsAborted) {
+TEST_F(SupervisionTest, SlowControllerIsAborted) {
   own_.setParam("max_update_time", 0.002);
   renewGuarded();
   LogCatcher log;
-  misbehave(Mischief::kSlow);
+  failOnce(FaultKind::kSlow);
   EXPECT_THAT(log.text(), testing::HasSubstr("max_update_time allows 2.000"));
 }
 
-TEST_F(SupervisionTest, anAbortedControllerCanBeStartedAgainAndFailAgain) {
+TEST_F(SupervisionTest, AbortedControllerCanRestartAndFailAgain) {
   renewGuarded();
   for (int i = 1; i <= 3; ++i) {
     const int switches = robot_.switches_;
-    FaultyController::inUpdate() = Mischief::kThrow;
+    FaultyController::inUpdate() = FaultKind::kThrow;
     step();
-    stepUntilTold(switches);
-    FaultyController::inUpdate() = Mischief::kNone;
+    stepUntilNotified(switches);
+    FaultyController::inUpdate() = FaultKind::kNone;
     ASSERT_TRUE(doSwitch({"faulty"}, {}));
     EXPECT_TRUE(controller("faulty").isRunning());
     EXPECT_EQ(i, controller("faulty").aborts_);
   }
 }
 
-TEST_F(SupervisionTest, theFallbackTakesOver) {
+TEST_F(SupervisionTest, FallbackTakesOver) {
   nh_.setParam("faulty/fallback_controllers", Names{"c", "absent"});
   renewGuarded();
   load({"c"});
   LogCatcher log;
-  misbehave(Mischief::kThrow);
+  failOnce(FaultKind::kThrow);
   EXPECT_EQ("c", robot_.prepared_start_.back());
   waitFor([&] {
     step();
@@ -248,18 +249,18 @@ TEST_F(SupervisionTest, theFallbackTakesOver) {
               testing::HasSubstr("The fallback 'absent' of controller 'faulty' is not loaded"));
 }
 
-TEST_F(SupervisionTest, aFallbackInConflictStaysOut) {
+TEST_F(SupervisionTest, ConflictingFallbackIsNotStarted) {
   nh_.setParam("faulty/fallback_controllers", Names{"b"});  // joint j0, which a has
   renewGuarded();
   load({"b"});
   LogCatcher log;
-  misbehave(Mischief::kThrow);
+  failOnce(FaultKind::kThrow);
   EXPECT_EQ("", robot_.prepared_start_.back());
   EXPECT_FALSE(controller("b").isRunning());
   EXPECT_THAT(log.text(), testing::HasSubstr("fallbacks of controller 'faulty' were not started"));
 }
 
-TEST_F(SupervisionTest, aStartThatThrowsIsTakenBack) {
+TEST_F(SupervisionTest, ThrowingStartIsAborted) {
   own_.setParam("abort_faulty_controllers", true);
   renew();
   load({"a", "faulty"});
@@ -273,7 +274,7 @@ TEST_F(SupervisionTest, aStartThatThrowsIsTakenBack) {
   EXPECT_THAT(log.text(), testing::HasSubstr("its starting threw: the target is unknown"));
 }
 
-TEST_F(SupervisionTest, badParametersAreRefusedWithASentence) {
+TEST_F(SupervisionTest, BadParametersAreRefusedWithASentence) {
   const auto expectRefused = [&](const std::string& name, auto value) {
     own_.setParam(name, value);
     try {
@@ -291,7 +292,7 @@ TEST_F(SupervisionTest, badParametersAreRefusedWithASentence) {
   expectRefused("default_switch_timeout", -0.5);
 }
 
-TEST_F(SupervisionTest, fallbacksMustBeNames) {
+TEST_F(SupervisionTest, FallbacksMustBeNames) {
   own_.setParam("abort_faulty_controllers", true);
   nh_.setParam("faulty/fallback_controllers", 3);
   renew();
@@ -301,7 +302,7 @@ TEST_F(SupervisionTest, fallbacksMustBeNames) {
   EXPECT_THAT(log.text(), testing::HasSubstr("is no list of controllers' names"));
 }
 
-TEST_F(SupervisionTest, theDefaultTimeoutEndsASwitchWithoutLoop) {
+TEST_F(SupervisionTest, DefaultTimeoutEndsASwitchWithoutTheLoop) {
   own_.setParam("default_switch_timeout", 0.1);
   renew();
   load({"a"});
@@ -312,7 +313,7 @@ TEST_F(SupervisionTest, theDefaultTimeoutEndsASwitchWithoutLoop) {
   EXPECT_LT(elapsed.count(), 5.0);
 }
 
-TEST_F(SupervisionTest, statisticsTellHowLongControllersTake) {
+TEST_F(SupervisionTest, StatisticsReportUpdateTimes) {
   own_.setParam("statistics_rate", 20.0);
   renew();
   load({"a", "faulty"});
@@ -329,7 +330,7 @@ TEST_F(SupervisionTest, statisticsTellHowLongControllersTake) {
                                                                            ++messages;
                                                                          });
   // Each update takes 3 ms of a period of 1 ms: all are overruns.
-  FaultyController::inUpdate() = Mischief::kSlow;
+  FaultyController::inUpdate() = FaultKind::kSlow;
   waitFor([&] {
     step();
     queue.callAvailable();
@@ -357,7 +358,7 @@ TEST_F(SupervisionTest, statisticsTellHowLongControllersTake) {
   EXPECT_GE(period.mean_time.toSec(), 0.003);
 }
 
-TEST(CommandGuard, watchesEveryNumberOfEveryInterfaceThatCommandsJoints) {
+TEST(CommandGuard, ChecksAllCommandsOfAllJointInterfaces) {
   namespace hw = hardware_interface;
   const double measured = 0.25;
   double numbers[5] = {};
@@ -415,7 +416,7 @@ TEST(CommandGuard, watchesEveryNumberOfEveryInterfaceThatCommandsJoints) {
   EXPECT_TRUE(gains.getClaims().empty());
 }
 
-TEST(TimeStatistics, agreeWithTheClosedForm) {
+TEST(TimeStatistics, AgreeWithTheClosedForm) {
   controller_manager::internal::TimeStatistics statistics;
   for (int i = 1; i <= 100; ++i) {
     statistics.add(1e-3 * i);

@@ -15,7 +15,7 @@ class SwitchTest : public dummies::ManagerTest {
  protected:
   void SetUp() override { load({"a", "b", "c", "d"}); }
 
-  /// The script of a robot that takes a while.
+  /// The script of a slow robot.
   static std::vector<RobotHW::SwitchState> ongoing(std::size_t answers) {
     return std::vector<RobotHW::SwitchState>(answers, RobotHW::SwitchState::ONGOING);
   }
@@ -23,7 +23,7 @@ class SwitchTest : public dummies::ManagerTest {
 
 }  // namespace
 
-TEST_F(SwitchTest, startsInOneCycleAndUpdatesFromTheNext) {
+TEST_F(SwitchTest, StartsInOneCycleAndUpdatesFromTheNext) {
   const auto answer = beginSwitch({"a"}, {});
   EXPECT_TRUE(controller("a").isRunning());
   EXPECT_EQ(1, controller("a").starts_);
@@ -32,7 +32,7 @@ TEST_F(SwitchTest, startsInOneCycleAndUpdatesFromTheNext) {
   EXPECT_EQ(1, controller("a").updates_);
 }
 
-TEST_F(SwitchTest, updatesOnceMoreInTheCycleThatStops) {
+TEST_F(SwitchTest, UpdatesOnceMoreInTheCycleThatStops) {
   ASSERT_TRUE(doSwitch({"a"}, {}));
   int before = 0;
   const auto answer = beginSwitch({}, {"a"}, kStrict, false, 0.0, &controller("a"), &before);
@@ -42,7 +42,7 @@ TEST_F(SwitchTest, updatesOnceMoreInTheCycleThatStops) {
   EXPECT_EQ(before + 1, controller("a").updates_);
 }
 
-TEST_F(SwitchTest, tellsTheRobotWhatStartsAndStops) {
+TEST_F(SwitchTest, PassesStartedAndStoppedControllersToTheRobot) {
   ASSERT_TRUE(doSwitch({"a"}, {}));
   ASSERT_TRUE(doSwitch({"b", "c"}, {"a"}));
   EXPECT_THAT(robot_.prepared_start_, ElementsAre("a", "b c"));
@@ -52,13 +52,13 @@ TEST_F(SwitchTest, tellsTheRobotWhatStartsAndStops) {
   EXPECT_EQ(1, robot_.stopped_);
 }
 
-TEST_F(SwitchTest, asksTheRobotAlsoWithNothingToDo) {
+TEST_F(SwitchTest, CallsTheRobotForAnEmptySwitchToo) {
   EXPECT_TRUE(doSwitch({}, {}));
   EXPECT_THAT(robot_.prepared_start_, ElementsAre(""));
   EXPECT_EQ(1, robot_.switches_);
 }
 
-TEST_F(SwitchTest, strictRefusesEveryDoubt) {
+TEST_F(SwitchTest, StrictRefusesAnyError) {
   ASSERT_TRUE(doSwitch({"a"}, {}));
   LogCatcher log;
   EXPECT_FALSE(doSwitch({"z"}, {}));
@@ -76,7 +76,7 @@ TEST_F(SwitchTest, strictRefusesEveryDoubt) {
   EXPECT_EQ(1, robot_.switches_);
 }
 
-TEST_F(SwitchTest, bestEffortDoesTheRest) {
+TEST_F(SwitchTest, BestEffortIgnoresErrors) {
   ASSERT_TRUE(doSwitch({"a"}, {}));
   EXPECT_TRUE(doSwitch({"z", "c", "a"}, {"y", "d"}, kBestEffort));
   EXPECT_TRUE(controller("c").isRunning());
@@ -85,21 +85,21 @@ TEST_F(SwitchTest, bestEffortDoesTheRest) {
   EXPECT_TRUE(controller("d").isInitialized());
 }
 
-TEST_F(SwitchTest, unknownStrictnessIsBestEffortWithAWarning) {
+TEST_F(SwitchTest, UnknownStrictnessIsBestEffortWithAWarning) {
   LogCatcher log;
   EXPECT_TRUE(doSwitch({"z", "c"}, {}, 0));
   EXPECT_TRUE(controller("c").isRunning());
   EXPECT_THAT(log.text(), HasSubstr("strictness"));
 }
 
-TEST_F(SwitchTest, aNameTwiceCountsOnce) {
+TEST_F(SwitchTest, DuplicateNamesCountOnce) {
   EXPECT_TRUE(doSwitch({"a", "a"}, {}));
   EXPECT_EQ(1, controller("a").starts_);
   EXPECT_TRUE(doSwitch({}, {"a", "a"}));
   EXPECT_EQ(1, controller("a").stops_);
 }
 
-TEST_F(SwitchTest, stopAndStartOfWhatRunsIsARestart) {
+TEST_F(SwitchTest, StopAndStartOfARunningControllerIsARestart) {
   for (const int strictness : {kStrict, kBestEffort}) {
     doSwitch({"a"}, {}, kBestEffort);
     const int starts = controller("a").starts_;
@@ -113,7 +113,7 @@ TEST_F(SwitchTest, stopAndStartOfWhatRunsIsARestart) {
   }
 }
 
-TEST_F(SwitchTest, refusesConflicts) {
+TEST_F(SwitchTest, RefusesConflicts) {
   LogCatcher log;
   EXPECT_FALSE(doSwitch({"a", "b"}, {}));
   EXPECT_FALSE(doSwitch({"a", "b"}, {}, kBestEffort));
@@ -124,7 +124,7 @@ TEST_F(SwitchTest, refusesConflicts) {
   EXPECT_THAT(log.text(), HasSubstr("Resource conflict on [j0].  Controllers = [a, b, ]"));
 }
 
-TEST_F(SwitchTest, refusesWhatTheRobotCannotDo) {
+TEST_F(SwitchTest, RefusesASwitchThatTheRobotRefuses) {
   robot_.feasible_ = false;
   LogCatcher log;
   EXPECT_FALSE(doSwitch({"a"}, {}));
@@ -133,7 +133,7 @@ TEST_F(SwitchTest, refusesWhatTheRobotCannotDo) {
   EXPECT_EQ(0, robot_.switches_);
 }
 
-TEST_F(SwitchTest, waitsForTheRobotAskingTwiceACycle) {
+TEST_F(SwitchTest, WaitsForTheRobotWithTwoCallsPerCycle) {
   robot_.script_ = ongoing(10);
   EXPECT_TRUE(doSwitch({"a"}, {}));
   EXPECT_EQ(11, robot_.result_calls_);
@@ -142,7 +142,7 @@ TEST_F(SwitchTest, waitsForTheRobotAskingTwiceACycle) {
   EXPECT_EQ(1, robot_.switches_);
 }
 
-TEST_F(SwitchTest, startsEachWhenTheRobotIsReadyForIt) {
+TEST_F(SwitchTest, StartsEachWhenTheRobotIsReadyForIt) {
   using State = RobotHW::SwitchState;
   // First cycle: a waits, c starts. Second: a waits. Third: a starts.
   robot_.script_ = {State::ONGOING, State::ONGOING, State::DONE,
@@ -159,7 +159,7 @@ TEST_F(SwitchTest, startsEachWhenTheRobotIsReadyForIt) {
   EXPECT_EQ(1, controller("c").starts_);
 }
 
-TEST_F(SwitchTest, twoAtOnceWithTheCallsOfTheOriginal) {
+TEST_F(SwitchTest, TwoControllersMakeTheCallsOfTheOriginal) {
   robot_.script_ = ongoing(10);
   EXPECT_TRUE(doSwitch({"a", "c"}, {}, kStrict, true));
   // Two controllers: two cycles of four calls, one cycle in which the first waits (two calls) and
@@ -169,7 +169,7 @@ TEST_F(SwitchTest, twoAtOnceWithTheCallsOfTheOriginal) {
   EXPECT_TRUE(controller("c").isRunning());
 }
 
-TEST_F(SwitchTest, aRestartAmongWaitingOnesHappensOnce) {
+TEST_F(SwitchTest, RestartsOnceWhileOthersWait) {
   ASSERT_TRUE(doSwitch({"a"}, {}));
   using State = RobotHW::SwitchState;
   robot_.result_calls_ = 0;
@@ -180,7 +180,7 @@ TEST_F(SwitchTest, aRestartAmongWaitingOnesHappensOnce) {
   EXPECT_EQ(2, controller("c").waits_);
 }
 
-TEST_F(SwitchTest, aRobotErrorAbortsAndAnswersTrue) {
+TEST_F(SwitchTest, RobotErrorAbortsAndReturnsTrue) {
   robot_.after_script_ = RobotHW::SwitchState::ERROR;
   LogCatcher log;
   EXPECT_TRUE(doSwitch({"a", "c"}, {}));
@@ -195,7 +195,7 @@ TEST_F(SwitchTest, aRobotErrorAbortsAndAnswersTrue) {
   EXPECT_TRUE(manager_->unloadController("c"));
 }
 
-TEST_F(SwitchTest, aRobotErrorAbortsOneOfSeveral) {
+TEST_F(SwitchTest, RobotErrorAbortsOneOfSeveral) {
   using State = RobotHW::SwitchState;
   robot_.script_ = {State::ERROR, State::ERROR, State::ONGOING, State::ONGOING};
   EXPECT_TRUE(doSwitch({"a", "c"}, {}, kStrict, true));
@@ -205,7 +205,7 @@ TEST_F(SwitchTest, aRobotErrorAbortsOneOfSeveral) {
   EXPECT_EQ(5, robot_.result_calls_);
 }
 
-TEST_F(SwitchTest, timesOutOnTheClockOfTheLoop) {
+TEST_F(SwitchTest, TimeoutUsesTheClockOfTheLoop) {
   for (const bool asap : {false, true}) {
     robot_.after_script_ = RobotHW::SwitchState::ONGOING;
     const int waits_before = controller("a").waits_;
@@ -222,7 +222,7 @@ TEST_F(SwitchTest, timesOutOnTheClockOfTheLoop) {
   EXPECT_EQ(2, controller("a").aborts_);
 }
 
-TEST_F(SwitchTest, aTimeoutIsReportedAndAnsweredWithTrue) {
+TEST_F(SwitchTest, TimeoutIsLoggedAndReturnsTrue) {
   robot_.after_script_ = RobotHW::SwitchState::ONGOING;
   LogCatcher log;
   EXPECT_TRUE(doSwitch({"a"}, {}, kStrict, false, 0.5));
@@ -230,7 +230,7 @@ TEST_F(SwitchTest, aTimeoutIsReportedAndAnsweredWithTrue) {
                                     "ready for it after 0.5 s"));
 }
 
-TEST_F(SwitchTest, resetRestartsWhatRuns) {
+TEST_F(SwitchTest, ResetRestartsRunningControllers) {
   ASSERT_TRUE(doSwitch({"a"}, {}));
   const int updates = controller("a").updates_;
   step(true);
@@ -241,7 +241,7 @@ TEST_F(SwitchTest, resetRestartsWhatRuns) {
   EXPECT_EQ(0, controller("c").starts_);
 }
 
-TEST_F(SwitchTest, updatesInTheOrderOfLoading) {
+TEST_F(SwitchTest, UpdatesInTheOrderOfLoading) {
   ASSERT_TRUE(doSwitch({"d", "c", "a"}, {}));
   step();
   step();

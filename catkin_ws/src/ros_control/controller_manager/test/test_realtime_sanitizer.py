@@ -1,10 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the loop calls, built by a compiler that knows real time (clang 20 and later).
+"""The loop's functions, built with the RealtimeSanitizer (clang 20 and later).
 
-Its sanitizer ends the program at the first allocation, lock or blocking system call below a
-function marked nonblocking, also inside libraries. Without such a compiler guard_test.cpp is what
-watches.
+It ends the program at the first allocation, lock or blocking system call below a function marked
+nonblocking, also inside libraries. Without such a compiler only guard_test.cpp checks this.
 """
 
 import pathlib

@@ -18,7 +18,7 @@ PATIENCE = 1.0  # [s]
 
 @pytest.fixture
 def unspawner(monkeypatch):
-    """The script as a module, with a rospy that only notes what is asked of it."""
+    """The script as a module, with a fake rospy that records calls."""
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
     loader = importlib.machinery.SourceFileLoader("unspawner", str(SCRIPT))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("unspawner", loader))

@@ -87,7 +87,7 @@ class ToolsTest(unittest.TestCase):
         run("controller_manager", "spawn", "a")
         with Running("unspawner", "a") as unspawner:
             wait_until(lambda: self.manager.states()["a"] == "stopped", "never stopped")
-            # The restart waits for the loop, so rospy's shutdown would overtake it if it could.
+            # The restart waits for the loop, so a shutdown that does not wait would come first.
             self.manager.run_loop(False)
             nodes = [name for name in rosnode.get_node_names() if name.startswith("/unspawner_")]
             kill = threading.Thread(target=rosnode.kill_nodes, args=(nodes,))
@@ -112,7 +112,7 @@ class ToolsTest(unittest.TestCase):
         self.check(0, ["Started ['b', 'c']", "Stopped ['a']"], "switch", "right", name=name)
         self.assertEqual({"a": "stopped", "b": "running", "c": "running"}, self.manager.states())
         self.check(0, ["There is no controller defined in group up"], "switch", "up", name=name)
-        # b cannot run beside a, which somebody else has started.
+        # b cannot run together with a, which another client has started.
         run("controller_manager", "stop", "b")
         run("controller_manager", "start", "a")
         self.check(0, ["Error when starting ['b']"], "spawn", "right", name=name)

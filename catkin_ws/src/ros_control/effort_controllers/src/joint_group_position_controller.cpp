@@ -17,7 +17,7 @@ bool JointGroupPositionController::init(hardware_interface::EffortJointInterface
     return false;
   }
   n_joints_ = static_cast<unsigned int>(joint_names_.size());
-  // All at once: a Pid that has opened dynamic reconfigure must not move.
+  // All at once: a Pid with dynamic reconfigure must not be moved.
   pid_controllers_.resize(joint_names_.size());
   for (const std::string& name : joint_names_) {
     if (!addJoint(name, hw, n)) {
@@ -45,7 +45,7 @@ bool JointGroupPositionController::addJoint(const std::string& name,
 }
 
 void JointGroupPositionController::starting(const ros::Time& /*time*/) {
-  // Written through the buffer's own copy: nothing is allocated, and older commands are dropped.
+  // Written through the real-time pointer: allocates nothing, and drops older commands.
   std::vector<double>& commands = *commands_buffer_.readFromRT();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     commands[i] = ranges_[i].clamped(joints_[i].getPosition());

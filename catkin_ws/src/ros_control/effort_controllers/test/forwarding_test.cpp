@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The controllers that pass commands on, of all three interfaces.
+// Controllers that forward commands, of all three interfaces.
 #include <rt_guard/rt_guard.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/Float64MultiArray.h>
@@ -36,7 +36,7 @@ class Forwarding : public three_joints::ControllerTest {
 
 }  // namespace
 
-TEST_F(Forwarding, aPositionStartsWhereTheJointIs) {
+TEST_F(Forwarding, PositionStartsAtTheMeasuredOne) {
   ASSERT_TRUE(load("position_controllers/JointPositionController", "wheel"));
   start();
   EXPECT_EQ(0.2, robot_.position_command_[kWheel]);
@@ -47,7 +47,7 @@ TEST_F(Forwarding, aPositionStartsWhereTheJointIs) {
   EXPECT_EQ(4.5, robot_.position_command_[kWheel]);
 }
 
-TEST_F(Forwarding, aCommandBeforeTheStartIsForgotten) {
+TEST_F(Forwarding, CommandsBeforeTheStartAreDropped) {
   ASSERT_TRUE(load("position_controllers/JointPositionController", "arm"));
   start();
   const ros::Publisher publisher = commander<std_msgs::Float64>();
@@ -59,7 +59,7 @@ TEST_F(Forwarding, aCommandBeforeTheStartIsForgotten) {
   EXPECT_EQ(-0.7, robot_.position_command_[kArm]);
 }
 
-TEST_F(Forwarding, aVelocityStartsAndEndsAtZero) {
+TEST_F(Forwarding, VelocityStartsAndEndsAtZero) {
   robot_.velocity_command_[kSlide] = 9.0;
   ASSERT_TRUE(load("velocity_controllers/JointVelocityController", "slide"));
   start();
@@ -73,7 +73,7 @@ TEST_F(Forwarding, aVelocityStartsAndEndsAtZero) {
   EXPECT_EQ(0.0, robot_.velocity_command_[kSlide]);
 }
 
-TEST_F(Forwarding, anEffortStartsAndEndsAtZeroAndRefusesWhatIsNotFinite) {
+TEST_F(Forwarding, EffortStartsAndEndsAtZeroAndRefusesNonFiniteCommands) {
   ASSERT_TRUE(load("effort_controllers/JointEffortController", "arm"));
   robot_.effort_command_[kArm] = 9.0;
   start();
@@ -91,7 +91,7 @@ TEST_F(Forwarding, anEffortStartsAndEndsAtZeroAndRefusesWhatIsNotFinite) {
   EXPECT_EQ(0.0, robot_.effort_command_[kArm]);
 }
 
-TEST_F(Forwarding, aGroupOfPositionsKeepsItsOrder) {
+TEST_F(Forwarding, GroupOfPositionsKeepsItsOrder) {
   ASSERT_TRUE(load("position_controllers/JointGroupPositionController",
                    three_joints::Names{"slide", "arm"}));
   start();
@@ -104,7 +104,7 @@ TEST_F(Forwarding, aGroupOfPositionsKeepsItsOrder) {
   EXPECT_EQ(0.0, robot_.position_command_[kWheel]);
 }
 
-TEST_F(Forwarding, aGroupRefusesWrongSizesAndWhatIsNotFinite) {
+TEST_F(Forwarding, GroupRefusesWrongSizesAndNonFiniteCommands) {
   ASSERT_TRUE(load("velocity_controllers/JointGroupVelocityController",
                    three_joints::Names{"arm", "wheel"}));
   start();
@@ -125,7 +125,7 @@ TEST_F(Forwarding, aGroupRefusesWrongSizesAndWhatIsNotFinite) {
   EXPECT_EQ(0.0, robot_.velocity_command_[kWheel]);
 }
 
-TEST_F(Forwarding, aGroupOfEffortsStartsAtZero) {
+TEST_F(Forwarding, GroupOfEffortsStartsAtZero) {
   robot_.effort_command_ = {{1.0, 2.0, 3.0}};
   ASSERT_TRUE(load("effort_controllers/JointGroupEffortController",
                    three_joints::Names{"arm", "wheel", "slide"}));
@@ -137,21 +137,21 @@ TEST_F(Forwarding, aGroupOfEffortsStartsAtZero) {
   EXPECT_EQ(2.0, robot_.effort_command_[kWheel]);
 }
 
-TEST_F(Forwarding, withoutAJointTheParameterIsNamed) {
+TEST_F(Forwarding, NamesTheMissingJointParameter) {
   nh_.setParam("c/type", "effort_controllers/JointEffortController");
   LogCatcher log;
   EXPECT_FALSE(manager_.loadController("c"));
   EXPECT_THAT(log.text(),
-              HasSubstr("No joint given (namespace: /withoutAJointTheParameterIsNamed/c)"));
+              HasSubstr("No joint given (namespace: /NamesTheMissingJointParameter/c)"));
 }
 
-TEST_F(Forwarding, anUnknownJointIsNamed) {
+TEST_F(Forwarding, NamesAnUnknownJoint) {
   LogCatcher log;
   EXPECT_FALSE(load("velocity_controllers/JointVelocityController", "leg"));
   EXPECT_THAT(log.text(), HasSubstr("leg"));
 }
 
-TEST_F(Forwarding, aGroupWithoutJointsOrWithOneTwiceIsRefused) {
+TEST_F(Forwarding, RefusesEmptyAndDuplicateJointLists) {
   LogCatcher log;
   nh_.setParam("c/type", "position_controllers/JointGroupPositionController");
   EXPECT_FALSE(manager_.loadController("c"));
@@ -161,7 +161,7 @@ TEST_F(Forwarding, aGroupWithoutJointsOrWithOneTwiceIsRefused) {
   EXPECT_THAT(log.text(), HasSubstr("stands twice"));
 }
 
-TEST_F(Forwarding, everyKindClaimsItsJoint) {
+TEST_F(Forwarding, EveryControllerClaimsItsJoint) {
   ASSERT_TRUE(load("effort_controllers/JointEffortController", "arm"));
   nh_.setParam("other/type", "effort_controllers/JointGroupEffortController");
   nh_.setParam("other/joints", three_joints::Names{"wheel", "arm"});
@@ -171,8 +171,8 @@ TEST_F(Forwarding, everyKindClaimsItsJoint) {
   EXPECT_TRUE(doSwitch({"other"}, {"c"}));
 }
 
-// Start, run and stop of every plugin of the three packages, in the loop's own thread.
-TEST_F(Forwarding, noControllerAllocatesOrLocksInTheLoop) {
+// Start, run and stop of every plugin of the three packages, in the loop's thread.
+TEST_F(Forwarding, NoControllerAllocatesOrLocksInTheLoop) {
   int count = 0;
   for (const std::string type :
        {"position_controllers/JointPositionController",

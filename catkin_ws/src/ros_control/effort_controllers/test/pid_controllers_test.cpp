@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The controllers that hold positions and velocities by a PID.
+// Controllers that hold positions and velocities by a PID.
 #include <control_msgs/JointControllerState.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/Float64MultiArray.h>
@@ -39,7 +39,7 @@ class PidControllers : public three_joints::ControllerTest {
 
 }  // namespace
 
-TEST_F(PidControllers, aPositionIsHeldByAnEffort) {
+TEST_F(PidControllers, HoldsAPositionByAnEffort) {
   setGains("c/pid", 10.0, 0.0, 2.0);
   ASSERT_TRUE(load("effort_controllers/JointPositionController", "arm"));
   robot_.effort_command_[kArm] = 5.0;
@@ -48,7 +48,7 @@ TEST_F(PidControllers, aPositionIsHeldByAnEffort) {
   const ros::Publisher publisher = commander<std_msgs::Float64>();
   publisher.publish(one(0.5));
   ASSERT_TRUE(stepsUntil([&] { return robot_.effort_command_[kArm] != 0.0; }));
-  // The first step's derivative is that of the jump of the target: 0.2 rad in 1 ms.
+  // The first step's derivative is that of the target's jump: 0.2 rad in 1 ms.
   EXPECT_NEAR(10.0 * 0.2 + 2.0 * 0.2 / 0.001, robot_.effort_command_[kArm], 1e-6);
   step();
   EXPECT_NEAR(10.0 * 0.2, robot_.effort_command_[kArm], 1e-9);
@@ -62,7 +62,7 @@ TEST_F(PidControllers, aPositionIsHeldByAnEffort) {
   EXPECT_EQ(0.0, robot_.effort_command_[kArm]);
 }
 
-TEST_F(PidControllers, theTargetStaysWithinTheLimits) {
+TEST_F(PidControllers, LimitsTheTarget) {
   setGains("c/pid", 1.0);
   ASSERT_TRUE(load("effort_controllers/JointPositionController", "arm"));
   start();
@@ -75,7 +75,7 @@ TEST_F(PidControllers, theTargetStaysWithinTheLimits) {
   EXPECT_NEAR(-1.0 - 0.3, robot_.effort_command_[kArm], 1e-12);
 }
 
-TEST_F(PidControllers, aTargetMayMove) {
+TEST_F(PidControllers, FollowsAMovingTarget) {
   setGains("c/pid", 10.0, 0.0, 2.0);
   ASSERT_TRUE(load("effort_controllers/JointPositionController", "arm"));
   start();
@@ -85,7 +85,7 @@ TEST_F(PidControllers, aTargetMayMove) {
   EXPECT_NEAR(10.0 * 0.1 + 2.0 * 0.4, robot_.effort_command_[kArm], 1e-9);
 }
 
-TEST_F(PidControllers, aWheelTakesTheShortWayAndASlideTheStraightOne) {
+TEST_F(PidControllers, WheelTakesTheShortestTurnAndSlideTheDifference) {
   setGains("c/pid", 1.0);
   ASSERT_TRUE(load("velocity_controllers/JointPositionController", "wheel"));
   start();
@@ -98,7 +98,7 @@ TEST_F(PidControllers, aWheelTakesTheShortWayAndASlideTheStraightOne) {
   EXPECT_EQ(0.0, robot_.velocity_command_[kWheel]);
 }
 
-TEST_F(PidControllers, aVelocityIsHeldByAnEffort) {
+TEST_F(PidControllers, HoldsAVelocityByAnEffort) {
   setGains("c/pid", 3.0);
   ASSERT_TRUE(load("effort_controllers/JointVelocityController", "slide"));
   start();
@@ -117,7 +117,7 @@ TEST_F(PidControllers, aVelocityIsHeldByAnEffort) {
   EXPECT_EQ(0.0, robot_.effort_command_[kSlide]);
 }
 
-TEST_F(PidControllers, aGroupHoldsEachJointItsOwnWay) {
+TEST_F(PidControllers, GroupHoldsEachJointByItsType) {
   setGains("c/arm/pid", 1.0);
   setGains("c/wheel/pid", 2.0);
   setGains("c/slide/pid", 4.0);
@@ -145,7 +145,7 @@ TEST_F(PidControllers, aGroupHoldsEachJointItsOwnWay) {
   EXPECT_THAT(robot_.effort_command_, testing::Each(0.0));
 }
 
-TEST_F(PidControllers, gainsAreReadAndSet) {
+TEST_F(PidControllers, GainsAreReadAndSet) {
   setGains("c/pid", 1.0, 2.0, 3.0);
   nh_.setParam("c/pid/i_clamp", 4.0);
   ASSERT_TRUE(load("effort_controllers/JointVelocityController", "arm"));
@@ -164,7 +164,7 @@ TEST_F(PidControllers, gainsAreReadAndSet) {
   EXPECT_TRUE(antiwindup);
 }
 
-TEST_F(PidControllers, theStateIsPublishedEveryTenthStep) {
+TEST_F(PidControllers, PublishesTheStateEveryTenthStep) {
   setGains("c/pid", 2.0);
   ASSERT_TRUE(load("effort_controllers/JointPositionController", "arm"));
   std::mutex mutex;
@@ -191,17 +191,17 @@ TEST_F(PidControllers, theStateIsPublishedEveryTenthStep) {
   EXPECT_NEAR(0.4, state.command, 1e-12);
   EXPECT_EQ(2.0, state.p);
   EXPECT_NEAR(0.001, state.time_step, 1e-12);
-  // A state may be dropped, none may come in between.
+  // A state may be dropped, but no extra one published.
   const double apart = (states[4].header.stamp - states[3].header.stamp).toSec() / 0.01;
   EXPECT_NEAR(std::round(apart), apart, 1e-6);
   EXPECT_GE(apart, 0.5);
 }
 
-TEST_F(PidControllers, whatIsMissingIsSaid) {
+TEST_F(PidControllers, ReportsMissingParameters) {
   LogCatcher log;
   EXPECT_FALSE(load("effort_controllers/JointPositionController", "arm"));
   EXPECT_THAT(log.text(), HasSubstr("No p gain specified for pid.  Namespace: "
-                                    "/whatIsMissingIsSaid/c/pid"));
+                                    "/ReportsMissingParameters/c/pid"));
   ros::param::set("robot_description", R"(<robot name="armless"><link name="base"/></robot>)");
   setGains("c/pid", 1.0);
   EXPECT_FALSE(load("effort_controllers/JointPositionController", "arm"));

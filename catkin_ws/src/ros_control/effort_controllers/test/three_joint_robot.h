@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// A robot with an arm that turns (limits -1 to 2 rad), a wheel without limits and a slide (limits
-// -0.5 to 0.5 m), a controller manager for it, and time that passes when a test says so.
+// A robot with a revolute arm (limits -1 to 2 rad), a continuous wheel and a slide (limits -0.5 to
+// 0.5 m), its controller manager, and time that the test advances.
 
 #include <controller_manager/controller_manager.h>
 #include <gmock/gmock.h>
@@ -56,7 +56,7 @@ class Robot : public hardware_interface::RobotHW {
   hardware_interface::EffortJointInterface efforts_;
 };
 
-/// Catches what is logged while it lives.
+/// Captures log messages during its lifetime.
 class LogCatcher : public ros::console::LogAppender {
  public:
   LogCatcher() { ros::console::register_appender(this); }
@@ -76,12 +76,12 @@ class LogCatcher : public ros::console::LogAppender {
   std::string text_;
 };
 
-/// Each test has a namespace of its own, named after it.
+/// Each test has its own namespace, named after it.
 class ControllerTest : public testing::Test {
  protected:
   ControllerTest()
       : nh_(testing::UnitTest::GetInstance()->current_test_info()->name()), manager_(&robot_, nh_) {
-    nh_.deleteParam("c");  // where a master outlives a run
+    nh_.deleteParam("c");  // for a master that outlives a run
     ros::param::set("robot_description", R"(
       <robot name="three_joints">
         <link name="base"/><link name="a"/><link name="b"/><link name="c"/>
@@ -156,7 +156,7 @@ class ControllerTest : public testing::Test {
     });
   }
 
-  /// A publisher to the controller's topic `command` that is connected.
+  /// A connected publisher to the controller's topic `command`.
   template <class Message>
   ros::Publisher commander() {
     const ros::Publisher publisher = nh_.advertise<Message>("c/command", 1);

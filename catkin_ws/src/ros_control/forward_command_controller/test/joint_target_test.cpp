@@ -22,7 +22,7 @@ JointRange revolute(double lower, double upper) {
   return range;
 }
 
-/// The second answer: of all turns that end within the limits, the shortest.
+/// Independent result: the shortest of all turns that end within the limits.
 double shortestBySearch(double from, double to, double lower, double upper) {
   double best = std::numeric_limits<double>::infinity();
   for (int turns = -20; turns <= 20; ++turns) {
@@ -46,7 +46,7 @@ urdf::Joint joint(int type, double lower, double upper) {
 
 }  // namespace
 
-TEST(JointRange, TheWayAgreesWithASearchOverAllTurns) {
+TEST(JointRange, PathMatchesASearchOverAllTurns) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> limit(0.1, 12.0);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -61,20 +61,20 @@ TEST(JointRange, TheWayAgreesWithASearchOverAllTurns) {
   }
 }
 
-TEST(JointRange, AJointOutsideItsLimitsGoesStraightBack) {
-  // The short way round would lead from 3.01 further out and over the stop.
+TEST(JointRange, JointOutsideItsLimitsMovesStraightBack) {
+  // The shortest turn would lead from 3.01 further out and over the stop.
   EXPECT_NEAR(-6.0, revolute(-3.0, 3.0).way(3.01, -2.99), 1e-12);
   EXPECT_NEAR(6.0, revolute(-3.0, 3.0).way(-3.01, 2.99), 1e-12);
 }
 
-TEST(JointRange, AContinuousJointTakesTheShortWay) {
+TEST(JointRange, ContinuousJointTakesTheShortestTurn) {
   const JointRange range(joint(urdf::Joint::CONTINUOUS, 0.0, 0.0));
   EXPECT_NEAR(0.2, range.way(3.1, 3.3 - 2.0 * M_PI), 1e-12);
   EXPECT_NEAR(-0.5, range.way(10.0 * M_PI, -0.5), 1e-12);
   EXPECT_EQ(50.0, range.clamped(50.0));
 }
 
-TEST(JointRange, ASlidingJointTakesTheDifferenceAndIsLimited) {
+TEST(JointRange, PrismaticJointTakesTheDifferenceAndIsLimited) {
   const JointRange range(joint(urdf::Joint::PRISMATIC, -10.0, 8.0));
   EXPECT_EQ(17.0, range.way(-9.0, 8.0));
   EXPECT_EQ(8.0, range.clamped(9.0));

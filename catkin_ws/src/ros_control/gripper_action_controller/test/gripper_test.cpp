@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The controllers, loaded as plugins by a controller manager, on a gripper of the process and its
-// simulated time.
+// The controllers, loaded as plugins by a controller manager, on a simulated gripper with simulated
+// time.
 #include <actionlib/client/action_client.h>
 #include <control_msgs/GripperCommandAction.h>
 #include <controller_manager/controller_manager.h>
@@ -123,8 +123,8 @@ class GripperTest : public testing::TestWithParam<const char*> {
     until([&] { return handle.getCommState() == actionlib::CommState::ACTIVE; }, "acceptance", 0);
   }
 
-  /// @param cycles between two looks; 0 where the goal ends by a message that is on its way, which
-  /// the finger must not outrun
+  /// @param cycles between two checks; 0 if the goal ends by a message in transit, which the finger
+  /// must not overtake
   control_msgs::GripperCommandResult end(Client::GoalHandle& handle, int cycles = 1) {
     until([&] { return handle.getCommState() == actionlib::CommState::DONE; }, "the goal's end",
           cycles);
@@ -167,7 +167,7 @@ TEST_P(GripperTest, StallsAtAnObstacleAndKeepsPressing) {
   EXPECT_TRUE(result.stalled);
   EXPECT_FALSE(result.reached_goal);
   EXPECT_NEAR(0.02, result.position, 1e-9);
-  // It took the way there at least and then the time-out.
+  // It took at least the motion time and then the timeout.
   EXPECT_GT((time_ - begin).toSec(), 0.2);
   steps(100);
   if (by_effort_) {
@@ -203,7 +203,7 @@ TEST_P(GripperTest, AnotherGoalPreempts) {
   EXPECT_EQ(Terminal::SUCCEEDED, how(second));
 }
 
-TEST_P(GripperTest, RefusesGoalsItCannotFollow) {
+TEST_P(GripperTest, RefusesImpossibleGoals) {
   start();
   for (const auto& [position, effort] :
        std::vector<std::pair<double, double>>{{std::numeric_limits<double>::quiet_NaN(), 1.0},
@@ -216,7 +216,7 @@ TEST_P(GripperTest, RefusesGoalsItCannotFollow) {
   EXPECT_DOUBLE_EQ(0.04, gripper_.position_);
 }
 
-TEST_P(GripperTest, StoppingCancelsAndRefusesAndAStartFollowsAtOnce) {
+TEST_P(GripperTest, StoppingCancelsAndRefusesUntilTheNextStart) {
   start();
   gripper_.obstacle_ = 0.02;
   Client::GoalHandle handle = send(0.0);
@@ -245,7 +245,7 @@ TEST_P(GripperTest, NeitherAllocatesNorLocks) {
   EXPECT_EQ(0u, scope.locks());
 }
 
-TEST_P(GripperTest, RefusesParametersThatDoNotFit) {
+TEST_P(GripperTest, RefusesInvalidParameters) {
   nh_.setParam("gripper/stall_timeout", -1.0);
   EXPECT_FALSE(manager_.loadController("gripper"));
   nh_.setParam("gripper/stall_timeout", 1.0);

@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 namespace {
 
-/// The text of the exception that `action` throws; a marker if it throws nothing of that kind.
+/// The text of the exception that `action` throws; a marker if it throws none of that type.
 template <class Exception, class Action>
 std::string textOf(Action action) {
   try {
@@ -32,7 +32,7 @@ class HandlesTest : public testing::Test {
 
 }  // namespace
 
-TEST_F(HandlesTest, stateHandleReadsWhatTheRobotWrites) {
+TEST_F(HandlesTest, StateHandleReadsWhatTheRobotWrites) {
   EXPECT_EQ("joint", state_.getName());
   EXPECT_EQ(1.0, state_.getPosition());
   EXPECT_EQ(2.0, state_.getVelocity());
@@ -45,7 +45,7 @@ TEST_F(HandlesTest, stateHandleReadsWhatTheRobotWrites) {
   EXPECT_EQ(&eff_, state_.getEffortPtr());
 }
 
-TEST_F(HandlesTest, optionalSensorsAreKnownByTheConstructor) {
+TEST_F(HandlesTest, ConstructorDefinesOptionalSensors) {
   const JointStateHandle both("j", &pos_, &vel_, &eff_, &abs_, &torque_);
   EXPECT_TRUE(both.hasAbsolutePosition());
   EXPECT_TRUE(both.hasTorqueSensor());
@@ -64,7 +64,7 @@ TEST_F(HandlesTest, optionalSensorsAreKnownByTheConstructor) {
   EXPECT_EQ(5.0, torque.getTorqueSensor());
 }
 
-TEST_F(HandlesTest, missingSensorsThrow) {
+TEST_F(HandlesTest, MissingSensorsThrow) {
   EXPECT_EQ("Joint state handle does not contain absolute encoder position information",
             textOf<std::runtime_error>([&] { state_.getAbsolutePosition(); }));
   EXPECT_EQ("Joint state handle does not contain absolute position sensor information",
@@ -75,7 +75,7 @@ TEST_F(HandlesTest, missingSensorsThrow) {
             textOf<std::runtime_error>([&] { state_.getTorqueSensorPtr(); }));
 }
 
-TEST_F(HandlesTest, nullPointersAreRefusedByName) {
+TEST_F(HandlesTest, NullPointersAreRefusedByName) {
   using E = HardwareInterfaceException;
   const double* const none = nullptr;
   EXPECT_EQ("Cannot create handle 'j'. Position data pointer is null.",
@@ -94,7 +94,7 @@ TEST_F(HandlesTest, nullPointersAreRefusedByName) {
             textOf<E>([&] { JointHandle(state_, nullptr); }));
 }
 
-TEST_F(HandlesTest, commandHandleWritesWhatTheRobotReads) {
+TEST_F(HandlesTest, CommandHandleWritesWhatTheRobotReads) {
   JointHandle handle(state_, &cmd_);
   EXPECT_EQ(6.0, handle.getCommand());
   handle.setCommand(8.0);
@@ -103,7 +103,7 @@ TEST_F(HandlesTest, commandHandleWritesWhatTheRobotReads) {
   EXPECT_EQ("joint", handle.getName());
 }
 
-TEST_F(HandlesTest, accessInTheLoopNeitherAllocatesNorLocks) {
+TEST_F(HandlesTest, AccessInTheLoopNeitherAllocatesNorLocks) {
   JointHandle handle(state_, &cmd_);
   rt_guard::Scope scope;
   for (int i = 0; i < 1000; ++i) {
@@ -113,7 +113,7 @@ TEST_F(HandlesTest, accessInTheLoopNeitherAllocatesNorLocks) {
   EXPECT_EQ(0u, scope.locks());
 }
 
-TEST(HandlesDeathTest, handlesMadeByDefaultMustNotBeUsed) {
+TEST(HandlesDeathTest, DefaultConstructedHandlesMustNotBeUsed) {
   EXPECT_DEATH(JointStateHandle().getPosition(), ".*");
   EXPECT_DEATH(JointStateHandle().getVelocity(), ".*");
   EXPECT_DEATH(JointStateHandle().getEffort(), ".*");
@@ -121,7 +121,7 @@ TEST(HandlesDeathTest, handlesMadeByDefaultMustNotBeUsed) {
   EXPECT_DEATH(JointHandle().setCommand(1.0), ".*");
 }
 
-TEST_F(HandlesTest, onlyCommandInterfacesClaim) {
+TEST_F(HandlesTest, OnlyCommandInterfacesClaim) {
   JointStateInterface states;
   states.registerHandle(state_);
   states.getHandle("joint");
@@ -136,7 +136,7 @@ TEST_F(HandlesTest, onlyCommandInterfacesClaim) {
   EXPECT_THAT(efforts.getClaims(), IsEmpty());
 }
 
-TEST_F(HandlesTest, aFailedLookUpSaysSoAndClaimsNothing) {
+TEST_F(HandlesTest, FailedLookUpThrowsAndClaimsNothing) {
   PositionJointInterface positions;
   positions.registerHandle(JointHandle(state_, &cmd_));
   EXPECT_EQ("Could not find resource 'elbow' in 'hardware_interface::PositionJointInterface'.",
@@ -144,7 +144,7 @@ TEST_F(HandlesTest, aFailedLookUpSaysSoAndClaimsNothing) {
   EXPECT_THAT(positions.getClaims(), IsEmpty());
 }
 
-TEST_F(HandlesTest, aHandleOfTheSameNameReplaces) {
+TEST_F(HandlesTest, HandleOfTheSameNameReplaces) {
   VelocityJointInterface velocities;
   double other = 9.0;
   velocities.registerHandle(JointHandle(state_, &cmd_));
@@ -153,7 +153,7 @@ TEST_F(HandlesTest, aHandleOfTheSameNameReplaces) {
   EXPECT_EQ(9.0, velocities.getHandle("joint").getCommand());
 }
 
-TEST_F(HandlesTest, namesAreSorted) {
+TEST_F(HandlesTest, NamesAreSorted) {
   JointStateInterface states;
   for (const char* name : {"c", "a", "b"}) {
     states.registerHandle(JointStateHandle(name, &pos_, &vel_, &eff_));
@@ -161,7 +161,7 @@ TEST_F(HandlesTest, namesAreSorted) {
   EXPECT_THAT(states.getNames(), ElementsAre("a", "b", "c"));
 }
 
-TEST(DemangleTest, namesAreThoseOfTheSource) {
+TEST(DemangleTest, NamesMatchTheSource) {
   EXPECT_EQ("hardware_interface::EffortJointInterface",
             internal::demangledTypeName<EffortJointInterface>());
   const EffortJointInterface efforts;

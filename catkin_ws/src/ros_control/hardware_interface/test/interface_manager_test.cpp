@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 namespace {
 
-/// A handle that is nothing but its name and where it came from.
+/// A handle with only a name and an origin.
 struct Tag {
   Tag() = default;
   Tag(std::string tag_name, int tag_origin) : name(std::move(tag_name)), origin(tag_origin) {}
@@ -45,7 +45,7 @@ const std::string kPlain = internal::demangledTypeName<Plain>();
 
 }  // namespace
 
-TEST(InterfaceManager, knowsOnlyWhatWasRegistered) {
+TEST(InterfaceManager, FindsOnlyRegisteredInterfaces) {
   InterfaceManager manager;
   Plain plain;
   manager.registerInterface(&plain);
@@ -56,7 +56,7 @@ TEST(InterfaceManager, knowsOnlyWhatWasRegistered) {
   EXPECT_THAT(manager.getInterfaceResources("unheard::Of"), IsEmpty());
 }
 
-TEST(InterfaceManager, aSecondInterfaceOfATypeReplacesTheFirst) {
+TEST(InterfaceManager, SecondInterfaceOfATypeReplacesTheFirst) {
   InterfaceManager manager;
   Plain first, second;
   manager.registerInterface(&first);
@@ -64,7 +64,7 @@ TEST(InterfaceManager, aSecondInterfaceOfATypeReplacesTheFirst) {
   EXPECT_EQ(&second, manager.get<Plain>());
 }
 
-TEST(InterfaceManager, resourcesAreThoseOfTheMomentOfRegistration) {
+TEST(InterfaceManager, ListsResourcesAsOfRegistration) {
   InterfaceManager manager;
   const auto registered = tags("b", "a", 1);
   manager.registerInterface(registered.get());
@@ -74,7 +74,7 @@ TEST(InterfaceManager, resourcesAreThoseOfTheMomentOfRegistration) {
   EXPECT_THAT(manager.getInterfaceResources(kTags), ElementsAre("a", "b", "later"));
 }
 
-TEST(InterfaceManager, findsInterfacesOfChildrenAndGrandchildren) {
+TEST(InterfaceManager, FindsInterfacesOfChildrenAndGrandchildren) {
   InterfaceManager manager, child, grandchild;
   Plain plain;
   grandchild.registerInterface(&plain);
@@ -84,7 +84,7 @@ TEST(InterfaceManager, findsInterfacesOfChildrenAndGrandchildren) {
   EXPECT_THAT(manager.getNames(), ElementsAre(kPlain));
 }
 
-TEST(InterfaceManager, combinesInterfacesOfSeveralManagers) {
+TEST(InterfaceManager, CombinesInterfacesOfSeveralManagers) {
   InterfaceManager manager, left, right;
   const auto left_tags = tags("left_1", "shared", 1);
   const auto right_tags = tags("right_1", "shared", 2);
@@ -109,7 +109,7 @@ TEST(InterfaceManager, combinesInterfacesOfSeveralManagers) {
               ElementsAre("left_1", "shared", "right_1", "shared"));
 }
 
-TEST(InterfaceManager, combinesAnewWhenTheirNumberChanges) {
+TEST(InterfaceManager, CombinesAgainWhenTheirNumberChanges) {
   InterfaceManager manager, child;
   const auto own = tags("a", "b", 1);
   const auto second = tags("c", "d", 2);
@@ -130,7 +130,7 @@ TEST(InterfaceManager, combinesAnewWhenTheirNumberChanges) {
   EXPECT_THAT(before->getNames(), ElementsAre("a", "b", "c", "d")) << "old pointers stay valid";
 }
 
-TEST(InterfaceManager, ownsTheCombinedInterfaces) {
+TEST(InterfaceManager, OwnsTheCombinedInterfaces) {
   const auto first = tags("a", "b", 1);
   const auto second = tags("c", "d", 2);
   {
@@ -144,7 +144,7 @@ TEST(InterfaceManager, ownsTheCombinedInterfaces) {
   EXPECT_EQ(2, living_interfaces);
 }
 
-TEST(InterfaceManager, cannotCombineWhatIsNoResourceManager) {
+TEST(InterfaceManager, CombinesOnlyResourceManagers) {
   InterfaceManager manager, child;
   Plain first, second;
   manager.registerInterface(&first);

@@ -45,7 +45,7 @@ using MoreHandlesDeathTest = MoreHandles;
 
 }  // namespace
 
-TEST_F(MoreHandles, positionWithVelocity) {
+TEST_F(MoreHandles, PositionWithVelocity) {
   PosVelJointHandle handle(joint_, &a_, &b_);
   handle.setCommand(1.5, 2.5);
   EXPECT_EQ(1.5, a_);
@@ -67,7 +67,7 @@ TEST_F(MoreHandles, positionWithVelocity) {
   EXPECT_THAT(interface.getClaims(), ElementsAre("j"));
 }
 
-TEST_F(MoreHandles, positionWithVelocityAndAcceleration) {
+TEST_F(MoreHandles, PositionWithVelocityAndAcceleration) {
   PosVelAccJointHandle handle(joint_, &a_, &b_, &c_);
   handle.setCommand(1.5, 2.5, 3.5);
   EXPECT_EQ(1.5, a_);
@@ -84,7 +84,7 @@ TEST_F(MoreHandles, positionWithVelocityAndAcceleration) {
   EXPECT_THAT(interface.getClaims(), ElementsAre("j"));
 }
 
-TEST_F(MoreHandles, positionWithVelocityEffortAndGains) {
+TEST_F(MoreHandles, PositionWithVelocityEffortAndGains) {
   typedef PositionVelocityTorqueGainsJointHandle Handle;
   Handle handle(joint_, &a_, &b_, &c_, &d_, &e_);
   handle.setCommand(1.5, 2.5, 3.5, 4.5, 5.5);
@@ -109,7 +109,7 @@ TEST_F(MoreHandles, positionWithVelocityEffortAndGains) {
   EXPECT_THAT(interface.getClaims(), ElementsAre("j"));
 }
 
-TEST_F(MoreHandles, modes) {
+TEST_F(MoreHandles, Modes) {
   JointCommandModes mode = JointCommandModes::NOMODE;
   JointModeHandle handle("j", &mode);
   EXPECT_EQ("j", handle.getName());
@@ -130,7 +130,7 @@ TEST_F(MoreHandles, modes) {
   EXPECT_THAT(interface.getClaims(), IsEmpty());
 }
 
-TEST_F(MoreHandles, statesOfActuators) {
+TEST_F(MoreHandles, StatesOfActuators) {
   EXPECT_EQ("m", motor_.getName());
   EXPECT_EQ(1.0, motor_.getPosition());
   EXPECT_EQ(2.0, motor_.getVelocity());
@@ -150,7 +150,7 @@ TEST_F(MoreHandles, statesOfActuators) {
   EXPECT_EQ(&torque_, torque.getTorqueSensorPtr());
 }
 
-TEST_F(MoreHandles, sensorsThatActuatorsLack) {
+TEST_F(MoreHandles, MissingActuatorSensorsThrow) {
   for (const auto& action : {+[](const ActuatorStateHandle& h) { h.getAbsolutePosition(); },
                              +[](const ActuatorStateHandle& h) { h.getAbsolutePositionPtr(); }}) {
     EXPECT_EQ("Actuator does not support absolute encoders",
@@ -163,7 +163,7 @@ TEST_F(MoreHandles, sensorsThatActuatorsLack) {
   }
 }
 
-TEST_F(MoreHandles, nullPointersOfActuatorsAreRefusedByName) {
+TEST_F(MoreHandles, NullPointersOfActuatorsAreRefusedByName) {
   const double* const none = nullptr;
   const std::string lead = "Cannot create handle 'm'. ";
   EXPECT_EQ(lead + "Position data pointer is null.",
@@ -182,7 +182,7 @@ TEST_F(MoreHandles, nullPointersOfActuatorsAreRefusedByName) {
             refusal([&] { ActuatorHandle(motor_, nullptr); }));
 }
 
-TEST_F(MoreHandles, commandsOfActuatorsClaimNothing) {
+TEST_F(MoreHandles, CommandsOfActuatorsClaimNothing) {
   ActuatorHandle handle(motor_, &a_);
   handle.setCommand(7.0);
   EXPECT_EQ(7.0, a_);
@@ -196,7 +196,7 @@ TEST_F(MoreHandles, commandsOfActuatorsClaimNothing) {
             refusal([&] { efforts.getHandle("x"); }));
 }
 
-TEST_F(MoreHandles, forceTorqueSensor) {
+TEST_F(MoreHandles, ForceTorqueSensor) {
   const double force[3] = {1.0, 2.0, 3.0}, torque[3] = {4.0, 5.0, 6.0};
   ForceTorqueSensorInterface interface;
   interface.registerHandle(ForceTorqueSensorHandle("wrist", "panda_K", force, torque));
@@ -209,7 +209,7 @@ TEST_F(MoreHandles, forceTorqueSensor) {
   EXPECT_EQ(nullptr, ForceTorqueSensorHandle("f", "f", force, nullptr).getTorque());
 }
 
-TEST_F(MoreHandles, imu) {
+TEST_F(MoreHandles, Imu) {
   double values[6] = {};
   ImuSensorHandle::Data data;
   EXPECT_EQ(nullptr, data.orientation);
@@ -239,7 +239,7 @@ TEST_F(MoreHandles, imu) {
   EXPECT_EQ(nullptr, ImuSensorHandle().getOrientation());
 }
 
-TEST_F(MoreHandlesDeathTest, handlesMadeByDefaultMustNotBeUsed) {
+TEST_F(MoreHandlesDeathTest, DefaultConstructedHandlesMustNotBeUsed) {
   EXPECT_DEATH(PosVelJointHandle().setCommandPosition(1.0), ".*");
   EXPECT_DEATH(PosVelJointHandle().getCommandVelocity(), ".*");
   EXPECT_DEATH(PosVelAccJointHandle().setCommandAcceleration(1.0), ".*");

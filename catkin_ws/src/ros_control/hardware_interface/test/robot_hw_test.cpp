@@ -31,22 +31,22 @@ bool conflict(const std::list<ControllerInfo>& controllers) {
 
 }  // namespace
 
-TEST(RobotHW, controllersOfDifferentResourcesGetAlong) {
+TEST(RobotHW, ControllersOfDifferentResourcesDoNotConflict) {
   EXPECT_FALSE(conflict({}));
   EXPECT_FALSE(conflict({controller("a", {})}));
   EXPECT_FALSE(conflict({controller("a", {"j1", "j2"}), controller("b", {"j3"}, {"j4"})}));
 }
 
-TEST(RobotHW, aResourceBelongsToOneControllerOnly) {
+TEST(RobotHW, ResourceBelongsToOneControllerOnly) {
   EXPECT_TRUE(conflict({controller("a", {"j1", "j2"}), controller("b", {"j2"})}));
 }
 
-TEST(RobotHW, theInterfaceMakesNoDifference) {
+TEST(RobotHW, ConflictsAreIndependentOfTheInterface) {
   EXPECT_TRUE(conflict({controller("a", {"j1"}), controller("b", {}, {"j1"})}));
   EXPECT_TRUE(conflict({controller("itself", {"j1"}, {"j1"})}));
 }
 
-TEST(RobotHW, answersByDefault) {
+TEST(RobotHW, HasDefaultImplementations) {
   RobotHW robot;
   const std::list<ControllerInfo> none;
   EXPECT_TRUE(robot.prepareSwitch(none, none));

@@ -1,10 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Clients find every header of ros_control that the original has, each complete in itself, and in them
-every class and signature.
+"""Every header of the original's ros_control exists and compiles alone, with every class and signature.
 
-Each header is compiled in a file of its own, which includes it twice; each file in `signatures/` uses what
-the package of its name offers.
+Each header is compiled in its own file, which includes it twice; each file in `signatures/` uses the classes
+of the package with the same name.
 """
 
 import hashlib
@@ -61,7 +60,7 @@ INVENTORY = {
         "joint_limits_rosparam",
         "joint_limits_urdf",
     ],
-    # The others are what these begin with.
+    # The others are prefixes of these.
     "joint_trajectory_controller": [
         "hold_trajectory_builder",
         "init_joint_trajectory",
@@ -102,7 +101,7 @@ INVENTORY = {
 HEADERS = [f"{package}/{name}.h" for package, names in INVENTORY.items() for name in names]
 SIGNATURES = sorted(path.name for path in (HERE / "signatures").glob("*.cpp"))
 
-# Headers with nothing of ROS in them, neither here nor in the original.
+# Headers without ROS, neither here nor in the original.
 PLAIN = [
     "control_toolbox/dither.h",
     "control_toolbox/filters.h",
@@ -120,10 +119,10 @@ PLAIN = [
     "transmission_interface/transmission_info.h",
     "transmission_interface/transmission_interface_exception.h",
 ]
-# All others bring the placeholders of boost::bind, for whom they are in the global namespace.
+# All others put the placeholders of boost::bind into the global namespace.
 BOUND = "int number = boost::bind<int>(std::minus<int>(), _2, _1)(1, 2);\n"
 
-# Debian keeps the headers of these in folders of their own.
+# Debian puts the headers of these into separate folders.
 DEBIAN = [
     "ament_index_cpp",
     "angles",
@@ -144,7 +143,7 @@ def include_folders() -> list[Path]:
 
 
 def complaints(source: str, folder: Path) -> str:
-    """What the compiler says of a text; nothing if it is content. Where there is ccache, only once."""
+    """The compiler's errors about a text; empty if it compiles. Cached if there is ccache."""
     name = hashlib.sha256(source.encode()).hexdigest()[:16]
     (folder / f"{name}.cpp").write_text(source)
     command = ["ccache"] if shutil.which("ccache") else []
@@ -156,7 +155,7 @@ def complaints(source: str, folder: Path) -> str:
 
 @pytest.fixture(scope="module")
 def verdicts(tmp_path_factory) -> dict[str, str]:
-    """Complaints of all headers and signatures. All at once: the compiler is the slow part."""
+    """Errors of all headers and signatures. In parallel, because the compiler is slow."""
     sources = {name: f"#include <{name}>\n" * 2 + BOUND * (name not in PLAIN) for name in HEADERS}
     sources |= {name: (HERE / "signatures" / name).read_text() for name in SIGNATURES}
     folder = tmp_path_factory.mktemp("headers")
@@ -166,18 +165,18 @@ def verdicts(tmp_path_factory) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("header", HEADERS)
-def test_header_is_complete_in_itself(header, verdicts):
+def test_header_compiles_alone(header, verdicts):
     package = header.split("/", maxsplit=1)[0]
     assert (ROS_CONTROL / package / "include" / header).is_file(), f"{header} is missing"
     assert verdicts[header] == ""
 
 
 @pytest.mark.parametrize("package", sorted(INVENTORY))
-def test_every_class_and_signature_is_there(package, verdicts):
+def test_every_class_and_signature_exists(package, verdicts):
     assert verdicts[f"{package}.cpp"] == ""
 
 
-def test_the_compiler_would_complain(tmp_path):
+def test_missing_headers_and_wrong_types_are_detected(tmp_path):
     assert "no_such_header" in complaints("#include <hardware_interface/no_such_header.h>\n", tmp_path)
     wrong = '#include "signature.h"\nEXPECT_TYPE(int, 1.0);\n'
     assert "static assertion failed" in complaints(wrong, tmp_path)

@@ -24,7 +24,7 @@ constexpr double kDt = 0.001;
 constexpr double kTight = 1e-12;
 const ros::Duration kPeriod(kDt);
 
-/// The middle one of three: what limiting means, without min and max.
+/// The median of three: the meaning of saturation, without min and max.
 double middle(double a, double b, double c) {
   std::array<double, 3> sorted{a, b, c};
   std::sort(sorted.begin(), sorted.end());
@@ -46,7 +46,7 @@ class Limits : public testing::Test {
     soft_.k_velocity = 10.0;
   }
 
-  /// What a handle makes of a command.
+  /// A command limited by a handle.
   template <class Handle>
   double limited(Handle& handle, double command) {
     cmd_ = command;
@@ -58,7 +58,7 @@ class Limits : public testing::Test {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  /// Bounds of velocity at a position, as the specification's table has them.
+  /// Bounds of the velocity at a position, from the specification's table.
   double lowestVelocity(double q) const {
     return middle(-soft_.k_position * (q - soft_.min_position), -limits_.max_velocity,
                   limits_.max_velocity);
@@ -75,7 +75,7 @@ class Limits : public testing::Test {
   std::mt19937 random_{1};
 };
 
-// gtest runs suites of such names first.
+// gtest runs suites with such names first.
 using LimitsDeathTest = Limits;
 
 template <class Action>
@@ -90,7 +90,7 @@ std::string refusal(Action action) {
 
 }  // namespace
 
-TEST(Saturate, isTheMiddleOfThree) {
+TEST(Saturate, IsTheMedianOfThree) {
   EXPECT_EQ(2.0, internal::saturate(2.0, 1.0, 3.0));
   EXPECT_EQ(1.0, internal::saturate(0.0, 1.0, 3.0));
   EXPECT_EQ(3.0, internal::saturate(kInf, 1.0, 3.0));
@@ -100,7 +100,7 @@ TEST(Saturate, isTheMiddleOfThree) {
 
 // ---- position, saturation ----
 
-TEST_F(Limits, positionSaturationWithoutLimitsChangesNothing) {
+TEST_F(Limits, PositionSaturationWithoutLimitsHasNoEffect) {
   PositionJointSaturationHandle handle(joint_, JointLimits());
   EXPECT_EQ("joint", handle.getName());
   for (const double command : {0.0, -1e300, 1e300, 5.0}) {
@@ -108,7 +108,7 @@ TEST_F(Limits, positionSaturationWithoutLimitsChangesNothing) {
   }
 }
 
-TEST_F(Limits, positionSaturationWithoutVelocityLimitsClipsToTheRange) {
+TEST_F(Limits, PositionSaturationWithoutVelocityLimitsClipsToTheRange) {
   limits_.has_velocity_limits = false;
   PositionJointSaturationHandle handle(joint_, limits_);
   EXPECT_EQ(-1.0, limited(handle, -1.5));
@@ -116,7 +116,7 @@ TEST_F(Limits, positionSaturationWithoutVelocityLimitsClipsToTheRange) {
   EXPECT_EQ(1.5, limited(handle, 1.5));
 }
 
-TEST_F(Limits, positionSaturationFollowsAStepAtTheGreatestVelocity) {
+TEST_F(Limits, PositionSaturationFollowsAStepAtTheGreatestVelocity) {
   pos_ = 0.25;
   PositionJointSaturationHandle handle(joint_, limits_);
   for (int k = 1; k <= 1000; ++k) {
@@ -129,7 +129,7 @@ TEST_F(Limits, positionSaturationFollowsAStepAtTheGreatestVelocity) {
   }
 }
 
-TEST_F(Limits, positionHandlesBeginAtTheMeasuredPositionAndAgainAfterReset) {
+TEST_F(Limits, PositionHandlesStartAtTheMeasuredPositionAlsoAfterReset) {
   PositionJointSaturationHandle hard(joint_, limits_);
   pos_ = 0.5;
   EXPECT_NEAR(0.503, limited(hard, 1.0), kTight);
@@ -149,7 +149,7 @@ TEST_F(Limits, positionHandlesBeginAtTheMeasuredPositionAndAgainAfterReset) {
 
 // ---- position, soft limits ----
 
-TEST_F(Limits, positionSoftLimitsApproachTheLimitExponentially) {
+TEST_F(Limits, PositionSoftLimitsApproachTheLimitExponentially) {
   pos_ = 1.7 - 0.1;  // 20/s * 0.1 rad = 2 rad/s, below the velocity limit
   PositionJointSoftLimitsHandle handle(joint_, limits_, soft_);
   for (int k = 1; k <= 500; ++k) {
@@ -158,7 +158,7 @@ TEST_F(Limits, positionSoftLimitsApproachTheLimitExponentially) {
   }
 }
 
-TEST_F(Limits, positionSoftLimitsMatchTheTable) {
+TEST_F(Limits, PositionSoftLimitsMatchTheTable) {
   for (int i = 0; i < 5000; ++i) {
     pos_ = uniform(-1.5, 2.5);
     const double command = uniform(-3.0, 4.0);
@@ -170,7 +170,7 @@ TEST_F(Limits, positionSoftLimitsMatchTheTable) {
   }
 }
 
-TEST_F(Limits, positionSoftLimitsBeyondTheHardOnesDoNotWidenThem) {
+TEST_F(Limits, PositionSoftLimitsBeyondTheHardOnesDoNotWidenThem) {
   soft_.min_position = -9.0;
   soft_.max_position = 9.0;
   PositionJointSoftLimitsHandle handle(joint_, limits_, soft_);
@@ -181,13 +181,13 @@ TEST_F(Limits, positionSoftLimitsBeyondTheHardOnesDoNotWidenThem) {
   EXPECT_EQ(-1.0, limited(handle, -10.0));
 }
 
-TEST_F(Limits, positionSoftLimitsPullBackFromBeyondTheSoftLimit) {
+TEST_F(Limits, PositionSoftLimitsPullBackFromBeyondTheSoftLimit) {
   pos_ = 1.8;  // 20/s * 0.1 rad = 2 rad/s back
   PositionJointSoftLimitsHandle handle(joint_, limits_, soft_);
   EXPECT_NEAR(1.8 - 2.0 * kDt, limited(handle, 1.8), kTight);
 }
 
-TEST_F(Limits, positionSoftLimitsWithoutPositionLimitsOnlyLimitTheVelocity) {
+TEST_F(Limits, PositionSoftLimitsWithoutPositionLimitsOnlyLimitTheVelocity) {
   limits_.has_position_limits = false;
   pos_ = 5.0;
   PositionJointSoftLimitsHandle handle(joint_, limits_, soft_);
@@ -197,7 +197,7 @@ TEST_F(Limits, positionSoftLimitsWithoutPositionLimitsOnlyLimitTheVelocity) {
 
 // ---- effort ----
 
-TEST_F(Limits, effortSaturationMatchesTheTable) {
+TEST_F(Limits, EffortSaturationMatchesTheTable) {
   EffortJointSaturationHandle handle(joint_, limits_);
   for (int i = 0; i < 5000; ++i) {
     pos_ = uniform(-1.5, 2.5);
@@ -215,7 +215,7 @@ TEST_F(Limits, effortSaturationMatchesTheTable) {
   EXPECT_EQ(40.0, limited(endless, 50.0));
 }
 
-TEST_F(Limits, effortSoftLimitsMatchTheTable) {
+TEST_F(Limits, EffortSoftLimitsMatchTheTable) {
   EffortJointSoftLimitsHandle handle(joint_, limits_, soft_);
   for (int i = 0; i < 5000; ++i) {
     pos_ = uniform(-1.5, 2.5);
@@ -227,7 +227,7 @@ TEST_F(Limits, effortSoftLimitsMatchTheTable) {
   }
 }
 
-TEST_F(Limits, effortSoftLimitsAtHandPickedPoints) {
+TEST_F(Limits, EffortSoftLimitsAtHandPickedPoints) {
   EffortJointSoftLimitsHandle handle(joint_, limits_, soft_);
   EXPECT_EQ(30.0, limited(handle, 50.0)) << "at rest in the middle: 10 * 3 rad/s";
   vel_ = 3.0;
@@ -244,16 +244,16 @@ TEST_F(Limits, effortSoftLimitsAtHandPickedPoints) {
 
 // ---- velocity ----
 
-TEST_F(Limits, velocitySaturationClips) {
+TEST_F(Limits, VelocitySaturationClips) {
   VelocityJointSaturationHandle handle(joint_, limits_);
   EXPECT_EQ(3.0, limited(handle, 5.0));
   EXPECT_EQ(-3.0, limited(handle, -5.0));
   EXPECT_EQ(1.0, limited(handle, 1.0));
 }
 
-TEST_F(Limits, velocitySaturationRampsAtTheGreatestAcceleration) {
+TEST_F(Limits, VelocitySaturationRampsAtTheGreatestAcceleration) {
   limits_.has_acceleration_limits = true;
-  vel_ = 2.0;  // not looked at
+  vel_ = 2.0;  // has no effect
   VelocityJointSaturationHandle handle(joint_, limits_);
   for (int k = 1; k <= 100; ++k) {
     ASSERT_NEAR(std::min(k * 50.0 * kDt, 3.0), limited(handle, 5.0), kTight) << k;
@@ -263,7 +263,7 @@ TEST_F(Limits, velocitySaturationRampsAtTheGreatestAcceleration) {
   }
 }
 
-TEST_F(Limits, velocitySoftLimitsMatchTheTable) {
+TEST_F(Limits, VelocitySoftLimitsMatchTheTable) {
   for (int i = 0; i < 5000; ++i) {
     limits_.has_acceleration_limits = i % 2 == 0;
     VelocityJointSoftLimitsHandle handle(joint_, limits_, soft_);
@@ -281,7 +281,7 @@ TEST_F(Limits, velocitySoftLimitsMatchTheTable) {
   }
 }
 
-TEST_F(Limits, velocitySoftLimitsStopAMotionAtTheSoftLimit) {
+TEST_F(Limits, VelocitySoftLimitsStopAMotionAtTheSoftLimit) {
   VelocityJointSoftLimitsHandle handle(joint_, limits_, soft_);
   pos_ = 1.6;
   for (int k = 1; k <= 500; ++k) {
@@ -290,14 +290,14 @@ TEST_F(Limits, velocitySoftLimitsStopAMotionAtTheSoftLimit) {
   }
 }
 
-TEST_F(Limits, velocitySoftLimitsNeedNoLimitsAtAll) {
+TEST_F(Limits, VelocitySoftLimitsNeedNoLimitsAtAll) {
   VelocityJointSoftLimitsHandle handle(joint_, JointLimits(), soft_);
   EXPECT_EQ(1e6, limited(handle, 1e6));
 }
 
 // ---- all ----
 
-TEST_F(Limits, aCommandThatIsNoNumberPassesAndIsNotRemembered) {
+TEST_F(Limits, NanCommandPassesAndIsNotStored) {
   limits_.has_acceleration_limits = true;
   PositionJointSaturationHandle position(joint_, limits_);
   PositionJointSoftLimitsHandle position_soft(joint_, limits_, soft_);
@@ -314,7 +314,7 @@ TEST_F(Limits, aCommandThatIsNoNumberPassesAndIsNotRemembered) {
   EXPECT_NEAR(0.1 - 0.05, limited(velocity, -kInf), kTight);
 }
 
-TEST_F(Limits, missingLimitsAreRefusedByName) {
+TEST_F(Limits, MissingLimitsAreRefusedByName) {
   const std::string lead = "Cannot enforce limits for joint 'joint'. It has no ";
   const std::string no_velocity = lead + "velocity limits specification.";
   JointLimits only_effort;
@@ -332,7 +332,7 @@ TEST_F(Limits, missingLimitsAreRefusedByName) {
             refusal([&] { EffortJointSoftLimitsHandle(joint_, only_velocity, soft_); }));
 }
 
-TEST_F(LimitsDeathTest, aPeriodOfZeroIsAMistakeWhereItIsDividedOut) {
+TEST_F(LimitsDeathTest, ZeroPeriodAsserts) {
   limits_.has_acceleration_limits = true;
   PositionJointSoftLimitsHandle position(joint_, limits_, soft_);
   VelocityJointSaturationHandle velocity(joint_, limits_);
@@ -340,13 +340,13 @@ TEST_F(LimitsDeathTest, aPeriodOfZeroIsAMistakeWhereItIsDividedOut) {
   EXPECT_DEATH(velocity.enforceLimits(ros::Duration(0.0)), ".*");
 }
 
-TEST_F(Limits, handlesMadeByDefaultHaveNoName) {
+TEST_F(Limits, DefaultConstructedHandlesHaveNoName) {
   EXPECT_EQ("", PositionJointSoftLimitsHandle().getName());
   EXPECT_EQ("", EffortJointSoftLimitsHandle().getName());
   EXPECT_EQ("", VelocityJointSaturationHandle().getName());
 }
 
-TEST_F(Limits, anInterfaceLimitsAllItsJointsWithoutAllocating) {
+TEST_F(Limits, InterfaceLimitsAllJointsWithoutAllocating) {
   double other_cmd = 0.0;
   const JointHandle other(JointStateHandle("other", &pos_, &vel_, &eff_), &other_cmd);
   PositionJointSoftLimitsInterface positions;

@@ -11,7 +11,7 @@ using namespace joint_limits_interface;
 
 namespace {
 
-/// Limits that no reader would produce: whatever is left of them has not been touched.
+/// Limits that no reader produces: unchanged values are detected.
 JointLimits marked() {
   JointLimits limits;
   limits.min_position = limits.max_position = limits.max_velocity = 77.0;
@@ -43,7 +43,7 @@ urdf::JointConstSharedPtr joint(decltype(urdf::Joint::type) type, bool with_limi
 
 class ParamLimits : public testing::Test {
  protected:
-  // Here and not in main: death tests fork, and ROS starts threads.
+  // Not in main: death tests fork, and ROS starts threads.
   static void SetUpTestSuite() { static const ros::NodeHandle keeps_ros_alive; }
 
   ~ParamLimits() override { nh_.deleteParam("joint_limits"); }
@@ -58,7 +58,7 @@ class ParamLimits : public testing::Test {
 
 }  // namespace
 
-TEST(UrdfLimits, areRefusedWhereThereAreNone) {
+TEST(UrdfLimits, MissingLimitsReturnFalse) {
   JointLimits limits = marked();
   EXPECT_FALSE(getJointLimits(urdf::JointConstSharedPtr(), limits));
   EXPECT_FALSE(getJointLimits(joint(urdf::Joint::REVOLUTE, false), limits));
@@ -69,7 +69,7 @@ TEST(UrdfLimits, areRefusedWhereThereAreNone) {
   EXPECT_FALSE(getSoftJointLimits(joint(urdf::Joint::REVOLUTE), soft));
 }
 
-TEST(UrdfLimits, ofJointsWithEnds) {
+TEST(UrdfLimits, ReadsJointsWithStops) {
   for (const auto type : {urdf::Joint::REVOLUTE, urdf::Joint::PRISMATIC}) {
     JointLimits limits = marked();
     ASSERT_TRUE(getJointLimits(joint(type), limits));
@@ -87,7 +87,7 @@ TEST(UrdfLimits, ofJointsWithEnds) {
   }
 }
 
-TEST(UrdfLimits, ofJointsWithoutEnds) {
+TEST(UrdfLimits, ReadsContinuousJoints) {
   JointLimits limits = marked();
   limits.has_position_limits = true;
   ASSERT_TRUE(getJointLimits(joint(urdf::Joint::CONTINUOUS), limits));
@@ -97,7 +97,7 @@ TEST(UrdfLimits, ofJointsWithoutEnds) {
   EXPECT_TRUE(limits.has_velocity_limits);
 }
 
-TEST(UrdfLimits, ofTheSafetyController) {
+TEST(UrdfLimits, ReadsTheSafetyController) {
   SoftJointLimits soft;
   ASSERT_TRUE(getSoftJointLimits(joint(urdf::Joint::REVOLUTE, true, true), soft));
   EXPECT_EQ(-0.5, soft.min_position);
@@ -106,8 +106,8 @@ TEST(UrdfLimits, ofTheSafetyController) {
   EXPECT_EQ(6.0, soft.k_velocity);
 }
 
-// The numbers of the Panda's first joint, as a whole description states them.
-TEST(UrdfLimits, ofARobotDescription) {
+// The values of the Panda's first joint, from a complete description.
+TEST(UrdfLimits, ReadsARobotDescription) {
   urdf::Model model;
   ASSERT_TRUE(model.initString(R"(
       <robot name="panda"><link name="a"/><link name="b"/>
@@ -133,7 +133,7 @@ TEST(UrdfLimits, ofARobotDescription) {
   EXPECT_FALSE(getJointLimits(model.getJoint("panda_joint9"), limits));
 }
 
-TEST_F(ParamLimits, areRefusedWhereThereAreNone) {
+TEST_F(ParamLimits, MissingLimitsReturnFalse) {
   JointLimits limits = marked();
   SoftJointLimits soft;
   EXPECT_FALSE(getJointLimits("j", nh_, limits));
@@ -143,7 +143,7 @@ TEST_F(ParamLimits, areRefusedWhereThereAreNone) {
   EXPECT_EQ(77.0, limits.max_velocity);
 }
 
-TEST_F(ParamLimits, ofEveryKind) {
+TEST_F(ParamLimits, ReadsAllKinds) {
   for (const char* kind : {"position", "velocity", "acceleration", "jerk", "effort"}) {
     set("has_" + std::string(kind) + "_limits", true);
   }
@@ -167,7 +167,7 @@ TEST_F(ParamLimits, ofEveryKind) {
   EXPECT_FALSE(limits.angle_wraparound);
 }
 
-TEST_F(ParamLimits, overrideAUrdfInPart) {
+TEST_F(ParamLimits, OverrideAUrdfInPart) {
   set("has_velocity_limits", true);
   set("max_velocity", 1.0);
   set("has_effort_limits", false);
@@ -181,7 +181,7 @@ TEST_F(ParamLimits, overrideAUrdfInPart) {
   EXPECT_EQ(-1.0, limits.min_position);
 }
 
-TEST_F(ParamLimits, withoutAFlagOrAllValuesChangeNothing) {
+TEST_F(ParamLimits, IncompleteLimitsHaveNoEffect) {
   set("max_velocity", 1.0);  // no flag
   set("has_position_limits", true);
   set("min_position", -1.0);  // no max_position
@@ -200,7 +200,7 @@ TEST_F(ParamLimits, withoutAFlagOrAllValuesChangeNothing) {
   EXPECT_FALSE(limits.has_effort_limits);
 }
 
-TEST_F(ParamLimits, onlyJointsSaidToHaveNoEndsWrapAround) {
+TEST_F(ParamLimits, OnlyJointsWithoutPositionLimitsWrapAround) {
   JointLimits limits;
   set("angle_wraparound", true);
   ASSERT_TRUE(getJointLimits("j", nh_, limits));
@@ -210,7 +210,7 @@ TEST_F(ParamLimits, onlyJointsSaidToHaveNoEndsWrapAround) {
   EXPECT_TRUE(limits.angle_wraparound);
 }
 
-TEST_F(ParamLimits, softOnesNeedAllValues) {
+TEST_F(ParamLimits, SoftLimitsNeedAllValues) {
   SoftJointLimits soft;
   set("has_soft_limits", true);
   set("k_position", 1.0);

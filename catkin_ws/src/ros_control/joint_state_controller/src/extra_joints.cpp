@@ -14,8 +14,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// A number of the entry, 0 if it has none of that name.
-/// @return false, after logging, if it is there but no number.
+/// A number of the entry, 0 if missing. @return false, after logging, if it is not a number.
 bool readNumber(XmlRpcValue& entry, const char* key, const std::string& joint, double& number) {
   number = 0.0;
   if (!entry.hasMember(key)) {

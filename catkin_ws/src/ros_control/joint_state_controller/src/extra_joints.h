@@ -7,8 +7,8 @@
 
 namespace joint_state_controller {
 
-/// Appends the joints of the parameter `extra_joints` to the message. A wrong entry is skipped with
-/// an error in the log. Not real-time safe.
+/// Appends the joints of the parameter `extra_joints` to the message. An invalid entry is skipped
+/// with an error in the log. Not real-time safe.
 void addExtraJoints(const ros::NodeHandle& node, sensor_msgs::JointState& message);
 
 }  // namespace joint_state_controller

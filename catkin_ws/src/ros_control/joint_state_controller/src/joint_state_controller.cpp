@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kQueueSize = 4;  // as in the original
 
-/// Times are sums of periods that are no round binary numbers [s].
+/// Tolerance for sums of periods that are not exact in binary [s].
 constexpr double kRounding = 1e-6;
 
 }  // namespace

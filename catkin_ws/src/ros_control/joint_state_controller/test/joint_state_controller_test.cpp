@@ -38,7 +38,7 @@ class Robot : public hardware_interface::RobotHW {
   hardware_interface::JointStateInterface states_;
 };
 
-/// Catches what is logged while it lives.
+/// Captures log messages during its lifetime.
 class LogCatcher : public ros::console::LogAppender {
  public:
   LogCatcher() { ros::console::register_appender(this); }
@@ -58,12 +58,12 @@ class LogCatcher : public ros::console::LogAppender {
   std::string text_;
 };
 
-/// A controller "c" in a namespace named after the test; its messages are collected.
+/// A controller "c" in a namespace named after the test; collects its messages.
 class JointStateControllerTest : public testing::Test {
  protected:
   JointStateControllerTest()
       : nh_(testing::UnitTest::GetInstance()->current_test_info()->name()), manager_(&robot_, nh_) {
-    nh_.deleteParam("c");  // where a master outlives a run
+    nh_.deleteParam("c");  // for a master that outlives a run
     nh_.setParam("c/type", "joint_state_controller/JointStateController");
   }
 
@@ -95,9 +95,9 @@ class JointStateControllerTest : public testing::Test {
     return messages_;
   }
 
-  /// One cycle. @return whether it published: then the message has arrived. Waits long for what
-  /// must come, again and again in the same cycle: it does not publish while the publisher's thread
-  /// still has the message before. Waits shortly to see that nothing comes.
+  /// One cycle. @return whether it published: then the message has arrived. An expected message is
+  /// awaited long, with repeated updates of the same cycle, because the controller does not publish
+  /// while the publisher's thread still has the previous message. For no message it waits shortly.
   bool publishesAt(double time, bool expected = true) {
     const std::size_t before = messages().size();
     const int wait_ms = expected ? 10000 : 10;
@@ -122,7 +122,7 @@ class JointStateControllerTest : public testing::Test {
 
 }  // namespace
 
-TEST_F(JointStateControllerTest, publishesAllJointsInTheFirstCycle) {
+TEST_F(JointStateControllerTest, PublishesAllJointsInTheFirstCycle) {
   nh_.setParam("c/publish_rate", 100);
   load();
   controller_->startRequest(ros::Time(10.0));
@@ -135,7 +135,7 @@ TEST_F(JointStateControllerTest, publishesAllJointsInTheFirstCycle) {
   EXPECT_THAT(message.effort, ElementsAre(8.0, 7.0, 9.0));
 }
 
-TEST_F(JointStateControllerTest, publishesTheJointsAskedForInTheirOrderAndTheExtraOnes) {
+TEST_F(JointStateControllerTest, PublishesRequestedJointsInOrderAndExtraJoints) {
   nh_.setParam("c/publish_rate", 50.0);
   nh_.setParam("c/joints", std::vector<std::string>{"c", "b"});
   XmlRpc::XmlRpcValue extra;
@@ -143,7 +143,7 @@ TEST_F(JointStateControllerTest, publishesTheJointsAskedForInTheirOrderAndTheExt
   extra[0]["position"] = 0.5;
   extra[0]["effort"] = 2;
   extra[1]["position"] = 1.0;  // no name
-  extra[2]["name"] = "b";      // is there already
+  extra[2]["name"] = "b";      // already exists
   extra[3]["name"] = "wrong";
   extra[3]["velocity"] = "fast";
   nh_.setParam("c/extra_joints", extra);
@@ -162,31 +162,31 @@ TEST_F(JointStateControllerTest, publishesTheJointsAskedForInTheirOrderAndTheExt
   EXPECT_THAT(message.effort, ElementsAre(9.0, 7.0, 2.0));
 }
 
-TEST_F(JointStateControllerTest, keepsTheBeatOfItsRate) {
+TEST_F(JointStateControllerTest, KeepsItsRate) {
   nh_.setParam("c/publish_rate", 250.0);
   load();
   controller_->startRequest(ros::Time(10.0));
-  // Every 4 ms after the start; the first as soon as there is a cycle.
+  // Every 4 ms after the start; the first one in the first cycle.
   for (int i = 1; i <= 40; ++i) {
     const bool is_due = i == 1 || i % 4 == 0;
     EXPECT_EQ(is_due, publishesAt(10.0 + 0.001 * i, is_due)) << i;
   }
 }
 
-TEST_F(JointStateControllerTest, catchesUpWithoutABurstAndFollowsTimeBack) {
+TEST_F(JointStateControllerTest, SkipsMissedMessagesAndFollowsTimeBack) {
   nh_.setParam("c/publish_rate", 100.0);
   load();
   controller_->startRequest(ros::Time(10.0));
   EXPECT_TRUE(publishesAt(10.001));
-  EXPECT_TRUE(publishesAt(15.0));  // five seconds were lost
+  EXPECT_TRUE(publishesAt(15.0));  // five seconds were skipped
   EXPECT_TRUE(isSilentAt(15.001));
   EXPECT_TRUE(isSilentAt(15.009));
   EXPECT_TRUE(publishesAt(15.010));
-  EXPECT_TRUE(publishesAt(2.0));  // the simulation began anew
+  EXPECT_TRUE(publishesAt(2.0));  // the simulation was reset
   EXPECT_TRUE(isSilentAt(2.001));
 }
 
-TEST_F(JointStateControllerTest, publishesNothingAtARateOfZero) {
+TEST_F(JointStateControllerTest, ZeroRatePublishesNothing) {
   nh_.setParam("c/publish_rate", 0.0);
   load();
   controller_->startRequest(ros::Time(10.0));
@@ -194,21 +194,22 @@ TEST_F(JointStateControllerTest, publishesNothingAtARateOfZero) {
   EXPECT_TRUE(isSilentAt(1000.0));
 }
 
-TEST_F(JointStateControllerTest, saysWhatIsMissing) {
+TEST_F(JointStateControllerTest, ReportsMissingParameters) {
   LogCatcher log;
   EXPECT_FALSE(manager_.loadController("c"));
   EXPECT_THAT(log.text(), HasSubstr("Parameter 'publish_rate' not set"));
   nh_.setParam("c/publish_rate", 10.0);
   nh_.setParam("c/joints", 7);
   EXPECT_FALSE(manager_.loadController("c"));
-  EXPECT_THAT(log.text(), HasSubstr("The parameter 'joints' (namespace: /saysWhatIsMissing/c) is "
-                                    "no list of joint names"));
+  EXPECT_THAT(log.text(),
+              HasSubstr("The parameter 'joints' (namespace: /ReportsMissingParameters/c) is "
+                        "no list of joint names"));
   nh_.setParam("c/joints", std::vector<std::string>{"leg"});
   EXPECT_FALSE(manager_.loadController("c"));
   EXPECT_THAT(log.text(), HasSubstr("leg"));
 }
 
-TEST_F(JointStateControllerTest, updatesWithoutAllocationOrLock) {
+TEST_F(JointStateControllerTest, UpdatesWithoutAllocationOrLock) {
   nh_.setParam("c/publish_rate", 1000.0);
   load();
   rt_guard::Scope scope;

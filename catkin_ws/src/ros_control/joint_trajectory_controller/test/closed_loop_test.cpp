@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The controllers, loaded as plugins by a controller manager, on a robot of the process and its
-// simulated time.
+// The controllers, loaded as plugins by a controller manager, on a simulated robot with simulated
+// time.
 #include <actionlib/client/action_client.h>
 #include <control_msgs/FollowJointTrajectoryAction.h>
 #include <control_msgs/JointTrajectoryControllerState.h>
@@ -35,7 +35,7 @@ typedef actionlib::TerminalState Terminal;
 constexpr double kPeriod = 0.001;
 const std::vector<std::string> kNames{"j0", "j1", "j2"};
 
-/// A manager with one controller of each interface; time passes only when a test steps it.
+/// A manager with one controller of each interface; time advances only by the test's steps.
 class ClosedLoop : public testing::Test {
  protected:
   ClosedLoop() : nh_("closed_loop"), manager_(&robot_, nh_) {
@@ -86,7 +86,7 @@ class ClosedLoop : public testing::Test {
     }
   }
 
-  /// Steps until something happens, while the callbacks get their share of the processor.
+  /// Steps until a condition holds, while callbacks get processor time.
   template <class Condition>
   void until(Condition condition, const std::string& what) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -97,7 +97,7 @@ class ClosedLoop : public testing::Test {
     }
   }
 
-  /// Steps not at all until something happens in the callbacks.
+  /// Waits without steps until a condition holds in the callbacks.
   template <class Condition>
   void standStillUntil(Condition condition, const std::string& what) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -135,7 +135,7 @@ class ClosedLoop : public testing::Test {
                     "the goal to be accepted");
   }
 
-  /// Waits for the end of a goal by a message that is on its way, which the robot must not outrun.
+  /// Waits for the end of a goal by a message in transit, which the robot must not overtake.
   Result endByMessage(Client::GoalHandle& handle) {
     standStillUntil([&] { return handle.getCommState() == actionlib::CommState::DONE; },
                     "the goal's end");
@@ -192,7 +192,7 @@ TEST_P(EveryInterface, NeitherAllocatesNorLocks) {
   untilActive(handle);
   rt_guard::Scope scope;
   steps(900);
-  robot_.frozen_ = true;  // a violated tolerance belongs to it
+  robot_.frozen_ = true;  // includes a violated tolerance
   steps(1500);
   EXPECT_EQ(0u, scope.allocations());
   EXPECT_EQ(0u, scope.locks());
@@ -211,7 +211,7 @@ TEST_F(ClosedLoop, HoldsAfterAPathToleranceIsViolated) {
   const Result result = end(handle);
   EXPECT_EQ(Result::PATH_TOLERANCE_VIOLATED, result.error_code);
   EXPECT_EQ(Terminal::ABORTED, handle.getTerminalState().state_);
-  // The joint with the longest way is the first to lag too far behind.
+  // The joint with the longest path is the first to lag too far behind.
   EXPECT_EQ(0u, result.error_string.find("j2 path error -0.05")) << result.error_string;
 
   const closed_loop::TestRobot::Values stopped = robot_.position_;
@@ -247,7 +247,7 @@ TEST_F(ClosedLoop, WaitsForTheGoalToleranceAndThenFails) {
   EXPECT_GE((time_ - before).toSec(), 0.999);
 }
 
-TEST_F(ClosedLoop, FailsAtOnceWhenTheGoalGrantsNoTime) {
+TEST_F(ClosedLoop, FailsAtOnceWithoutGoalTime) {
   nh_.setParam(name_ + "/constraints/goal_time", 0.0);
   start();
   Goal goal = goalTo(target_);
@@ -363,7 +363,7 @@ TEST_F(ClosedLoop, MalformedGoalsAreRejectedAndMoveNothing) {
   EXPECT_EQ(before, robot_.position_);
 }
 
-TEST_F(ClosedLoop, AGoalWithoutPointsIsToHold) {
+TEST_F(ClosedLoop, GoalWithoutPointsHolds) {
   start();
   Goal goal;
   goal.trajectory.joint_names = kNames;
@@ -385,13 +385,13 @@ TEST_F(ClosedLoop, StoppingCancelsAndRefuses) {
             expectRejected(goalTo(target_), Result::INVALID_GOAL).error_string);
 }
 
-// A goal given as soon as the switch is answered must not drown in the hold of the start.
-TEST_F(ClosedLoop, AResetEndsTheGoalAndTakesTheNext) {
+// A goal sent right after the switch must not be replaced by the hold of the start.
+TEST_F(ClosedLoop, ResetEndsTheGoalAndAcceptsTheNext) {
   start();
   Client::GoalHandle handle = send(goalTo(target_));
   untilActive(handle);
   steps(300);
-  // As after a reflex: the loop starts its controllers anew within one cycle.
+  // As after a reflex: the loop restarts its controllers within one cycle.
   time_ += ros::Duration(kPeriod);
   manager_.update(time_, ros::Duration(kPeriod), true);
   robot_.move(kPeriod);
@@ -417,9 +417,9 @@ TEST_F(ClosedLoop, AGoalRightAfterASwitchIsFollowed) {
   }
 }
 
-// Goals come faster than they are finished, while the loop runs: each ends, none is lost, and no
-// joint jumps.
-TEST_F(ClosedLoop, ManyGoalsInARow) {
+// Goals arrive faster than they finish, while the loop runs: each ends, none is lost, and no joint
+// jumps.
+TEST_F(ClosedLoop, ManyGoalsInSequence) {
   start();
   std::vector<Client::GoalHandle> handles;
   robot_.largest_step_ = 0.0;
@@ -457,7 +457,7 @@ TEST_F(ClosedLoop, PartialGoalsMoveTheirJoints) {
 
 TEST_F(ClosedLoop, OnlyContinuousJointsWrapAround) {
   start();
-  // One turn further on: the continuous joint is there already, the others have to travel.
+  // One turn further: the continuous joint is already there, the others have to move.
   const std::vector<double> target{robot_.position_[0] + 2 * M_PI, robot_.position_[1] + 2 * M_PI,
                                    robot_.position_[2] + 2 * M_PI};
   const double before = robot_.position_[2];
@@ -469,7 +469,7 @@ TEST_F(ClosedLoop, OnlyContinuousJointsWrapAround) {
   EXPECT_NEAR(before, robot_.position_[2], 0.001);
 }
 
-TEST_F(ClosedLoop, TellsItsState) {
+TEST_F(ClosedLoop, PublishesItsState) {
   std::atomic<int> states{0};
   control_msgs::JointTrajectoryControllerState last;
   const auto count = [&](const control_msgs::JointTrajectoryControllerState::ConstPtr& state) {
@@ -497,14 +497,14 @@ TEST_F(ClosedLoop, TellsItsState) {
   state.request.time = begin + ros::Duration(0.5);
   ASSERT_TRUE(query.call(state));
   EXPECT_EQ(kNames, state.response.name);
-  // Half way on a cosine.
+  // Half of a cosine.
   EXPECT_NEAR(0.35, state.response.position.at(0), 0.002);
   EXPECT_NEAR(0.5 * M_PI / 2, state.response.velocity.at(0), 0.005);
   state.request.time = ros::Time(1.0);
   EXPECT_FALSE(query.call(state));
 }
 
-TEST_F(ClosedLoop, RefusesParametersThatDoNotFit) {
+TEST_F(ClosedLoop, RefusesInvalidParameters) {
   const auto refused = [&](const std::string& parameter, const XmlRpc::XmlRpcValue& value,
                            const std::string& interface = "position") {
     describe(interface);

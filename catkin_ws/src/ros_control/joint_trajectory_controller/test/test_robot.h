@@ -31,8 +31,8 @@ inline std::string urdf() {
   return text + "</robot>";
 }
 
-/// Joints of inertia 1 [kg m^2] that obey the interface whose controller runs, as exactly as it
-/// permits; `frozen_` ones do not move.
+/// Joints of inertia 1 [kg m^2] that follow the interface of the running controller as exactly as
+/// possible; `frozen_` ones do not move.
 class TestRobot : public hardware_interface::RobotHW {
  public:
   TestRobot() {

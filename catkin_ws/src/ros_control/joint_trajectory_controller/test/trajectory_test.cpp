@@ -41,7 +41,7 @@ class SplineTest : public testing::Test {
 };
 
 // A polynomial of the segment's degree is determined by its boundary values: sampling it and
-// interpolating between the samples has to give it back.
+// interpolating between the samples must reproduce it.
 TEST_F(SplineTest, ReproducesPolynomials) {
   for (int degree : {1, 3, 5}) {
     for (int run = 0; run < 200; ++run) {
@@ -105,7 +105,7 @@ TEST_F(SplineTest, DerivativesAgreeWithFiniteDifferences) {
   }
 }
 
-TEST_F(SplineTest, MixedKnowledgeTakesTheLesserDegree) {
+TEST_F(SplineTest, MixedBoundaryValuesUseTheLowerDegree) {
   Spline::State state;
   Spline(0.0, stateOf({0.0}, {5.0}), 2.0, stateOf({1.0})).sample(1.0, state);
   EXPECT_DOUBLE_EQ(0.5, state.position[0]);
@@ -127,7 +127,7 @@ TEST_F(SplineTest, RestsOutsideItsTime) {
   EXPECT_EQ(0.0, state.velocity[0]);
 }
 
-TEST_F(SplineTest, OfNoLengthIsItsStart) {
+TEST_F(SplineTest, ZeroLengthGivesTheStartState) {
   const Spline segment(1.0, stateOf({1.0}, {3.0}, {4.0}), 1.0, stateOf({7.0}, {0.0}, {0.0}));
   Spline::State state;
   segment.sample(1.0, state);
@@ -136,7 +136,7 @@ TEST_F(SplineTest, OfNoLengthIsItsStart) {
   EXPECT_EQ(4.0, state.acceleration[0]);
 }
 
-TEST_F(SplineTest, RefusesWhatDoesNotFit) {
+TEST_F(SplineTest, RefusesInvalidArguments) {
   const auto refused = [](double begin, Spline::State from, double end, Spline::State to) {
     try {
       Spline segment(begin, from, end, to);
@@ -211,7 +211,7 @@ TEST_F(SpliceTest, LeadsFromTheCurrentTrajectoryThroughAllPoints) {
   }
 }
 
-// Whatever comes, position and velocity do not jump where two trajectories are spliced.
+// Position and velocity never jump where two trajectories are spliced.
 TEST_F(SpliceTest, IsContinuousForAnyStart) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> draw(-1.0, 1.0);
@@ -260,7 +260,7 @@ TEST_F(SpliceTest, KeepsTheCurrentTrajectoryUntilTheMessageStarts) {
   EXPECT_NEAR(0.0, at(result[0], 6.0).position[0], 1e-12);
 }
 
-TEST_F(SpliceTest, LeavesTimeForAFirstPointAtTheStart) {
+TEST_F(SpliceTest, LeavesEarlyForAFirstPointAtTheStart) {
   msg_.header.stamp = ros::Time(101.0);
   msg_.points = {pointOf(0.0, {10, 1}), pointOf(1.0, {20, 2})};
   const Trajectory result = convert();
@@ -269,7 +269,7 @@ TEST_F(SpliceTest, LeavesTimeForAFirstPointAtTheStart) {
   EXPECT_NEAR(1.0, at(result[0], 5.0).position[0], 1e-12);
 }
 
-// A planner that continues the present motion begins its message with a state on it.
+// A planner that continues the present motion starts its message with a state on it.
 TEST_F(SpliceTest, KeepsTheCurrentTrajectoryUntilAFirstPointThatLiesOnIt) {
   options_.angle_wraparound = &wraps_;
   current_ = convert();
@@ -298,14 +298,14 @@ TEST_F(SpliceTest, KeepsTheCurrentTrajectoryUntilAFirstPointThatLiesOnIt) {
                 at(result[joint], 5.5 + step).velocity[0], 1e-4);
     EXPECT_NEAR(0.0, at(result[joint], 6.5).position[0], 1e-12);
   }
-  // Another joint, or another velocity, has to be gone to: by that joint alone.
+  // For another position or velocity that joint alone must move there.
   for (const Trajectory& detour : {begin(0.5, 0.0), begin(0.0, 0.5)}) {
     EXPECT_GT(std::abs(at(current_[0], 5.2).position[0] - at(detour[0], 5.2).position[0]), 1e-3);
     EXPECT_NEAR(at(current_[1], 5.2).position[0], at(detour[1], 5.2).position[0], 1e-12);
   }
 }
 
-TEST_F(SpliceTest, DropsPointsOfThePast) {
+TEST_F(SpliceTest, DropsPastPoints) {
   msg_.header.stamp = ros::Time(98.5);
   const Trajectory result = convert();
   ASSERT_FALSE(result.empty());
@@ -327,7 +327,7 @@ TEST_F(SpliceTest, NeedsTwoPointsWithoutACurrentTrajectory) {
     EXPECT_EQ(5.0, joint[0].startTime());
     EXPECT_EQ(6.0, joint[0].endTime());
   }
-  // One point is left, first because the other is past, then because there is no other.
+  // One point remains, first because the other is past, then because there is no other.
   msg_.header.stamp = ros::Time(98.5);
   EXPECT_TRUE(convert().empty());
   EXPECT_NE(std::string::npos, error_.find("makes no trajectory without a current one")) << error_;
@@ -336,7 +336,7 @@ TEST_F(SpliceTest, NeedsTwoPointsWithoutACurrentTrajectory) {
   EXPECT_TRUE(convert().empty());
 }
 
-TEST_F(SpliceTest, PartialMessagesLeaveOtherJointsAlone) {
+TEST_F(SpliceTest, PartialMessagesDoNotAffectOtherJoints) {
   current_ = convert();
   msg_.joint_names = {"b"};
   msg_.points = {pointOf(1.0, {7}, {0})};
@@ -350,7 +350,7 @@ TEST_F(SpliceTest, PartialMessagesLeaveOtherJointsAlone) {
   EXPECT_NEAR(7.0, at(result[1], 5.0).position[0], 1e-12);
 }
 
-TEST_F(SpliceTest, ContinuousJointsTakeTheShorterWay) {
+TEST_F(SpliceTest, ContinuousJointsTakeTheShorterTurn) {
   options_.angle_wraparound = &wraps_;
   msg_.points = {pointOf(1.0, {10, 0.5 + 2 * M_PI + 0.1}, {0, 0})};
   const Trajectory result = convert();
@@ -404,7 +404,7 @@ TEST_F(SpliceTest, RefusesBadMessagesWithASentence) {
 
 TEST_F(SpliceTest, ThrowsOnPointsOfTheWrongSize) {
   const trajectory_msgs::JointTrajectory good = msg_;
-  // All points equally short: sizes agree with each other but not with the joints.
+  // All points are too short in the same way: sizes match each other but not the joints.
   for (trajectory_msgs::JointTrajectoryPoint& point : msg_.points) {
     point.positions = {1.0};
     point.velocities.clear();
@@ -439,7 +439,7 @@ TEST(Messages, PointsAreFoundByTime) {
   EXPECT_EQ(msg.points.begin() + 1, jtc::findPoint(msg, ros::Time(99.0)));
 }
 
-TEST(SegmentOfPoints, TakesOverWhatTheySay) {
+TEST(SegmentOfPoints, CopiesAllQuantities) {
   const Segment::State state(pointOf(1.5, {1, 2, 3}, {4, 5, 6}), {0.5, 0, -1});
   EXPECT_EQ((std::vector<double>{1.5, 2, 2}), state.position);
   EXPECT_EQ((std::vector<double>{4, 5, 6}), state.velocity);
@@ -457,7 +457,7 @@ TEST(SegmentOfPoints, TakesOverWhatTheySay) {
   EXPECT_EQ(nullptr, segment.getGoalHandle());
 }
 
-/// Two joints that tests move.
+/// Two joints moved by tests.
 struct Joints {
   Joints() {
     for (std::size_t i = 0; i < 2; ++i) {
@@ -476,7 +476,7 @@ struct Joints {
 typedef jtc::HoldTrajectoryBuilder<Spline, hardware_interface::PositionJointInterface> HoldBuilder;
 typedef jtc::StopTrajectoryBuilder<Spline> StopBuilder;
 
-TEST(Builders, HoldWhereTheJointsAre) {
+TEST(Builders, HoldAtTheJointPositions) {
   Joints joints;
   HoldBuilder hold(joints.handles);
   Trajectory trajectory;
@@ -514,7 +514,7 @@ TEST(Builders, StopWithinTheTimeGiven) {
   EXPECT_NEAR(1.5, sampled.position[0], 1e-12);
 }
 
-TEST(Builders, PassTheGoalOnUntilReset) {
+TEST(Builders, AttachTheGoalUntilReset) {
   Segment::State state(2);
   Joints joints;
   HoldBuilder hold(joints.handles);

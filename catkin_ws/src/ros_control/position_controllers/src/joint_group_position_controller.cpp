@@ -6,7 +6,7 @@
 
 template <>
 void position_controllers::JointGroupPositionController::starting(const ros::Time& /*time*/) {
-  // Written through the buffer's own copy: nothing is allocated, and older commands are dropped.
+  // Written through the real-time pointer: allocates nothing, and drops older commands.
   std::vector<double>& commands = *commands_buffer_.readFromRT();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     commands[i] = joints_[i].getPosition();

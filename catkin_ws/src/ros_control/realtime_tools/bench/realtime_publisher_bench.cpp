@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// RealtimePublisher at 1 kHz on ten topics: nanoseconds of the real-time side a topic, beside an
-// empty virtual call, and what the whole process costs in CPU time. Needs a ROS master.
+// RealtimePublisher at 1 kHz on ten topics: nanoseconds of the real-time side per topic, compared
+// with an empty virtual call, and the CPU time of the whole process. Needs a ROS master.
 #include <benchmark/benchmark.h>
 #include <realtime_tools/realtime_publisher.h>
 #include <ros/ros.h>
@@ -43,7 +43,7 @@ void virtualCalls(benchmark::State& state) {
   }
 }
 
-/// Two seconds of a 1 kHz loop; the time measured is that of the publishing calls of one tick.
+/// Two seconds of a 1 kHz loop; the measured time is that of the publishing calls of one tick.
 /// Counters: cpu_percent of all threads of the process, and the share of messages accepted.
 void publishTick(benchmark::State& state) {
   typedef realtime_tools::RealtimePublisher<std_msgs::Float64> Publisher;
@@ -76,7 +76,7 @@ void publishTick(benchmark::State& state) {
   state.counters["accepted_percent"] = 100.0 * accepted / asked;
 }
 
-/// The loop alone, without publishing: what a thread costs that wakes up a thousand times a second.
+/// The loop alone, without publishing: cost of a thread that wakes up a thousand times a second.
 void bareLoop(benchmark::State& state) {
   const double cpu_begin = seconds(CLOCK_PROCESS_CPUTIME_ID);
   const double begin = seconds(CLOCK_MONOTONIC);

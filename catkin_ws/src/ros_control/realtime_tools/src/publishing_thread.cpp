@@ -10,16 +10,16 @@ namespace detail {
 namespace {
 
 // Twice in a cycle of the fastest loops, so that a message is taken before the next one is due,
-// wherever in the cycle the looks fall.
+// whatever the phase of the checks.
 constexpr std::chrono::microseconds kFirstWait{500};
 constexpr std::chrono::microseconds kLongestWait{5000};
 
-constexpr int kMostQuietLooks = 20;  // the longest wait is reached
+constexpr int kMaxIdleChecks = 20;  // the longest wait is reached
 
 }  // namespace
 
 PublishingThread& PublishingThread::instance() {
-  // Never destroyed: publishers with static storage may outlive everything else.
+  // Never destroyed: publishers with static storage may outlive all other objects.
   static PublishingThread* const thread = new PublishingThread();
   return *thread;
 }
@@ -53,15 +53,15 @@ void PublishingThread::remove(Sender* sender) {
 
 void PublishingThread::run() {
   std::unique_lock<std::mutex> lock(mutex_);
-  int quiet_looks = 0;
+  int idle_checks = 0;
   while (!senders_.empty()) {
     bool sent = false;
     for (Sender* const sender : senders_) {
       sent = sender->sendHandedOver() || sent;
     }
-    quiet_looks = sent ? 0 : std::min(quiet_looks + 1, kMostQuietLooks);
-    // The longer nothing came, the longer the next message may wait.
-    const auto wait = std::min(kFirstWait * (1 + quiet_looks / 2), kLongestWait);
+    idle_checks = sent ? 0 : std::min(idle_checks + 1, kMaxIdleChecks);
+    // The longer the pause, the longer the next message may wait.
+    const auto wait = std::min(kFirstWait * (1 + idle_checks / 2), kLongestWait);
     changed_.wait_for(lock, wait);
   }
 }

@@ -8,8 +8,8 @@ namespace realtime_tools {
 
 namespace {
 
-/// Both as in the original: how often the thread looks at the clock, and the share of the newest
-/// comparison in the difference of the clocks.
+/// Both as in the original: the thread's sampling rate, and the weight of the newest sample in the
+/// difference of the clocks.
 constexpr std::chrono::nanoseconds kPeriod(1000000000 / 750);
 constexpr double kNewShare = 0.0001;
 
@@ -35,7 +35,7 @@ ros::Time RealtimeClock::getSystemTime(const ros::Time& realtime_time) {
   }
   last_realtime_time_ = now;
 
-  // ros::Time's own sum throws where the result is no time.
+  // ros::Time's own sum throws if the result is no valid time.
   const double offset_ns = offset_ * 1e9;
   const std::int64_t sum =
       static_cast<std::int64_t>(realtime_time.toNSec()) + static_cast<std::int64_t>(offset_ns);
@@ -49,8 +49,8 @@ ros::Time RealtimeClock::getSystemTime(const ros::Time& realtime_time) {
 }
 
 void RealtimeClock::follow(double realtime_time, double system_time) {
-  // The note was made at an unknown moment since the last call: in the mean, in the middle. In the
-  // very first call nobody can tell.
+  // The sample was taken at an unknown moment since the last call: on average, in the middle. For
+  // the first call this is unknown.
   const double since_last = last_realtime_time_ > 0.0 ? realtime_time - last_realtime_time_ : 0.0;
   const double difference = system_time + 0.5 * since_last - realtime_time;
   offset_ = initialized_ ? (1.0 - kNewShare) * offset_ + kNewShare * difference : difference;

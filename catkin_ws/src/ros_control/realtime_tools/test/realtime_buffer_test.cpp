@@ -53,7 +53,7 @@ TEST(RealtimeBuffer, PointerStaysValidWhileOthersWrite) {
   EXPECT_EQ(14, *buffer.readFromRT());
 }
 
-TEST(RealtimeBuffer, WhatIsWrittenThroughThePointerStaysUntilTheNextWrite) {
+TEST(RealtimeBuffer, ChangesThroughThePointerPersistUntilTheNextWrite) {
   RealtimeBuffer<std::vector<double>> buffer(std::vector<double>{1.0, 2.0});
   buffer.writeFromNonRT({3.0, 4.0});
   buffer.readFromRT()->assign(2, 0.0);
@@ -99,7 +99,7 @@ TEST(RealtimeBuffer, RealTimeSideNeitherAllocatesNorLocks) {
   }
 }
 
-// Two writers against one reader: each value is whole, and each writer's values come in order.
+// Two writers and one reader: each value is consistent, and each writer's values arrive in order.
 TEST(RealtimeBuffer, ValuesAreWholeAndInOrderUnderConcurrentWrites) {
   constexpr int kWrites = 50000;
   using Value = std::vector<int>;  // {writer, count, count, ...}

@@ -14,15 +14,15 @@ using realtime_tools::RealtimeClock;
 
 namespace {
 
-/// The thread looks at the clock every 1.33 ms. One long sleep may be one stall of the machine,
-/// after which both threads wake at once; many short ones leave it its turns.
+/// The thread samples the clock every 1.33 ms. One long sleep may be a pause of the machine, after
+/// which both threads wake at once; many short ones give it processor time.
 void letTheThreadLook() {
   for (int nap = 0; nap < 50; ++nap) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
 }
 
-/// The system's time is what the test says.
+/// The test sets the system's time.
 class RealtimeClockTest : public testing::Test {
  protected:
   RealtimeClockTest() {
@@ -41,13 +41,13 @@ TEST_F(RealtimeClockTest, AddsTheDifferenceOfTheClocks) {
 }
 
 TEST_F(RealtimeClockTest, FirstNoteCountsFromTheMiddleOfTheCycle) {
-  ros::Time::setNow(ros::Time(0.0));  // as before the first /clock: no note yet
+  ros::Time::setNow(ros::Time(0.0));  // as before the first /clock: no sample yet
   RealtimeClock clock;
   letTheThreadLook();
   EXPECT_EQ(100.0, clock.getSystemTime(ros::Time(100.0)).toSec());
   ros::Time::setNow(ros::Time(2000.0));
   letTheThreadLook();
-  // 2000 was noted between 100.0 and 100.2, so 100.1 is 2000 and 100.2 is 2000.1.
+  // 2000 was sampled between 100.0 and 100.2, so 100.1 is 2000 and 100.2 is 2000.1.
   EXPECT_NEAR(2000.1, clock.getSystemTime(ros::Time(100.2)).toSec(), 1e-6);
 }
 
@@ -77,7 +77,7 @@ TEST_F(RealtimeClockTest, WithoutAFreshNoteTheDifferenceStays) {
   }
 }
 
-TEST_F(RealtimeClockTest, NeverMakesATimeBeforeTheEpoch) {
+TEST_F(RealtimeClockTest, NeverReturnsATimeBeforeTheEpoch) {
   ros::Time::setNow(ros::Time(1.0));
   RealtimeClock clock;
   letTheThreadLook();
@@ -85,7 +85,7 @@ TEST_F(RealtimeClockTest, NeverMakesATimeBeforeTheEpoch) {
   EXPECT_EQ(50.0, clock.getSystemTime(ros::Time(50.0)).toSec());
 }
 
-TEST_F(RealtimeClockTest, AsksWithoutAllocationOrLock) {
+TEST_F(RealtimeClockTest, ReadsWithoutAllocationOrLock) {
   RealtimeClock clock;
   letTheThreadLook();
   rt_guard::Scope scope;

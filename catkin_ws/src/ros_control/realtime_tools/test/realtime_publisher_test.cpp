@@ -26,7 +26,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-/// Asks until `condition` holds, at most 10 s, and never again once it did.
+/// Polls until `condition` holds, at most 10 s, and not again afterwards.
 /// @return whether it holds.
 template <class Condition>
 bool eventually(Condition condition) {
@@ -52,7 +52,7 @@ std::set<std::string> threads() {
   return ids;
 }
 
-/// How often a thread of this process has gone to sleep or was preempted since it started.
+/// Number of context switches of a thread of this process since it started.
 long contextSwitches(const std::string& thread) {
   std::ifstream status("/proc/self/task/" + thread + "/status");
   std::string line;
@@ -96,7 +96,7 @@ void send(RealtimePublisher<std_msgs::UInt32>& publisher, std::uint32_t number) 
 
 }  // namespace
 
-TEST(RealtimePublisher, CannotBeLockedBeforeInitAndAtOnceAfter) {
+TEST(RealtimePublisher, CanBeLockedOnlyAfterInit) {
   ros::NodeHandle node;
   RealtimePublisher<std_msgs::UInt32> publisher;
   EXPECT_FALSE(publisher.trylock());
@@ -127,7 +127,7 @@ TEST(RealtimePublisher, PublishesTheFirstMessageToALateSubscriberWhenLatched) {
   EXPECT_EQ(7u, collector.received()[0]);
 }
 
-TEST(RealtimePublisher, WorksWithLockGuardAndPublishesOnlyWhenTold) {
+TEST(RealtimePublisher, WorksWithLockGuardAndPublishesOnRequest) {
   ros::NodeHandle node;
   RealtimePublisher<std_msgs::UInt32> publisher(node, "guarded", 10);
   Collector collector("guarded");
@@ -173,7 +173,7 @@ TEST(RealtimePublisher, DestructionEndsTheThreadAndTheTopic) {
   EXPECT_TRUE(eventually([&] { return before.size() == threads().size(); }));
 }
 
-TEST(RealtimePublisher, AllShareOneThreadThatHardlyLooksWhileNothingIsPublished) {
+TEST(RealtimePublisher, AllShareOneThreadThatRarelyWakesWhenIdle) {
   ros::NodeHandle node;
   const std::set<std::string> before = threads();
   RealtimePublisher<std_msgs::UInt32> publisher(node, "idle", 1);
@@ -188,7 +188,7 @@ TEST(RealtimePublisher, AllShareOneThreadThatHardlyLooksWhileNothingIsPublished)
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   const long asleep = contextSwitches(own[0]);
   std::this_thread::sleep_for(std::chrono::seconds(2));
-  // Every 5 ms; a thread for each publisher, as in the original, would look 8000 times.
+  // Every 5 ms; one thread per publisher, as in the original, would wake 8000 times.
   EXPECT_LE(contextSwitches(own[0]) - asleep, 500);
 }
 
@@ -214,11 +214,11 @@ TEST(RealtimePublisher, RealTimeSideNeitherAllocatesNorLocksNorEntersTheKernel) 
 }
 
 // Three thousand messages, a new one at most every millisecond, each offered until it is taken: all
-// arrive, in order. How many are taken at the first offer is the machine's affair as much as the
-// publisher's (`./franka bench` measures it); that it takes them at all in a bounded time is not.
-TEST(RealtimePublisher, CarriesAThousandMessagesASecond) {
+// arrive, in order. How many are taken at the first offer depends on the machine too (`./franka
+// bench` measures it); the bounded time does not.
+TEST(RealtimePublisher, PublishesAThousandMessagesPerSecond) {
   constexpr std::uint32_t kMessages = 3000;
-  constexpr auto kLongest = std::chrono::seconds(60);  // 20 times what it takes
+  constexpr auto kLongest = std::chrono::seconds(60);  // 20 times the expected time
   ros::NodeHandle node;
   RealtimePublisher<std_msgs::UInt32> publisher(node, "fast", 5000);
   Collector collector("fast");

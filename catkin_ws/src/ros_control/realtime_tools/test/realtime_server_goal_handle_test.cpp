@@ -33,7 +33,7 @@ bool eventually(Condition condition) {
   return true;
 }
 
-/// A server that takes every goal, and a client that has sent one.
+/// A server that accepts every goal, and a client that has sent one.
 class RealtimeServerGoalHandleTest : public testing::Test {
  protected:
   RealtimeServerGoalHandleTest()
@@ -62,7 +62,7 @@ class RealtimeServerGoalHandleTest : public testing::Test {
     }));
   }
 
-  /// The goal's end as the client sees it.
+  /// The goal's end as received by the client.
   std::string endSeen() {
     handle_->runNonRealtime(ros::TimerEvent());
     EXPECT_TRUE(eventually([this] {
@@ -84,7 +84,7 @@ class RealtimeServerGoalHandleTest : public testing::Test {
 
 }  // namespace
 
-TEST_F(RealtimeServerGoalHandleTest, AGoalIsValidAndNoGoalIsNot) {
+TEST_F(RealtimeServerGoalHandleTest, IsValidOnlyWithAGoal) {
   EXPECT_TRUE(handle_->valid());
   Handle::GoalHandle none;
   Handle empty(none);
@@ -117,7 +117,7 @@ TEST_F(RealtimeServerGoalHandleTest, TheFirstRequestWinsAndItsResultArrives) {
   EXPECT_EQ(7, goal_.getResult()->result);
 }
 
-TEST_F(RealtimeServerGoalHandleTest, CancelsOnlyWhatIsPreempting) {
+TEST_F(RealtimeServerGoalHandleTest, CancelsOnlyWhilePreempting) {
   handle_->setCanceled();
   handle_->runNonRealtime(ros::TimerEvent());
   EXPECT_EQ(actionlib_msgs::GoalStatus::ACTIVE, status());
@@ -134,7 +134,7 @@ TEST_F(RealtimeServerGoalHandleTest, SucceedsAlsoWhilePreempting) {
 }
 
 TEST_F(RealtimeServerGoalHandleTest, SendsFeedbackWhileActiveAndWithTheEnd) {
-  handle_->runNonRealtime(ros::TimerEvent());  // nothing handed over yet
+  handle_->runNonRealtime(ros::TimerEvent());  // no feedback set yet
   handle_->preallocated_feedback_->feedback = 3;
   handle_->setFeedback(handle_->preallocated_feedback_);
   handle_->runNonRealtime(ros::TimerEvent());
@@ -146,7 +146,7 @@ TEST_F(RealtimeServerGoalHandleTest, SendsFeedbackWhileActiveAndWithTheEnd) {
   EXPECT_FALSE(handle_->gh_.getGoalStatus().status == actionlib_msgs::GoalStatus::ACTIVE);
 }
 
-TEST_F(RealtimeServerGoalHandleTest, RequestsAllocateAndLockNothing) {
+TEST_F(RealtimeServerGoalHandleTest, RequestsNeitherAllocateNorLock) {
   {
     rt_guard::Scope scope;
     for (int i = 0; i < 1000; ++i) {

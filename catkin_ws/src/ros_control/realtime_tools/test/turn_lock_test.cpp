@@ -13,7 +13,7 @@ using realtime_tools::detail::TurnLock;
 
 namespace {
 
-/// Asks until `condition` holds, at most 10 s, and never again once it did.
+/// Polls until `condition` holds, at most 10 s, and not again afterwards.
 /// @return whether it holds.
 template <class Condition>
 bool eventually(Condition condition) {
@@ -55,7 +55,7 @@ TEST(TurnLock, RealTimeSideWaitsForItsTurnOthersOnlyForTheLock) {
   EXPECT_TRUE(turn.tryLock());
 }
 
-TEST(TurnLock, NobodyTakesTheTurnAfterTheStop) {
+TEST(TurnLock, NoTurnIsTakenAfterStop) {
   TurnLock turn;
   turn.open();
   EXPECT_FALSE(turn.tryTakeTurn());
@@ -68,7 +68,7 @@ TEST(TurnLock, NobodyTakesTheTurnAfterTheStop) {
   EXPECT_TRUE(turn.tryLock());
 }
 
-TEST(TurnLock, UnlockLetsAThreadInThatWaitsForTheLock) {
+TEST(TurnLock, UnlockWakesAWaitingThread) {
   TurnLock turn;
   turn.open();
   turn.lock();
@@ -84,13 +84,13 @@ TEST(TurnLock, UnlockLetsAThreadInThatWaitsForTheLock) {
   other.join();
 }
 
-// A real-time side, a publishing thread and a bystander on one lock: nobody is in it together,
-// nothing handed over is lost or taken twice, and all of them come to an end.
+// A real-time side, a publishing thread and a third thread on one lock: it is exclusive, no message
+// is lost or taken twice, and all threads finish.
 TEST(TurnLock, HandsEveryTurnOverOnceUnderContention) {
   constexpr int kTurns = 20000;
   TurnLock turn;
   turn.open();
-  int message = 0;  // unsynchronised on purpose: the lock alone protects it
+  int message = 0;  // not atomic: only the lock protects it
   int inside = 0;
   int collisions = 0;
   int taken = 0;

@@ -29,8 +29,8 @@ JointStateHandle makeHandle(const std::string& name, const RawJointData& raw) {
   return JointStateHandle(name, &raw.position, &raw.velocity, &raw.effort);
 }
 
-// Transmissions take pointers that can be written through, for either direction. Handles and the
-// map of raw data lend theirs as const, which here guards the shape and not the values.
+// Transmissions use writable pointers in either direction. Handles and the map of raw data are
+// const for their structure, not for their values.
 double* writable(const double* value) { return const_cast<double*>(value); }
 
 }  // namespace

@@ -10,8 +10,7 @@ namespace internal {
 
 namespace {
 
-/// Which of the two places a role stands for: 0 or 1.
-/// @returns false, with a sentence, for other roles, and for a place that is taken.
+/// Index of a role: 0 or 1. @returns false, with a sentence, for other roles, and for a duplicate.
 bool placeOf(const std::string& role, const std::string& base, const std::string& owner,
              const std::string& transmission, bool (&taken)[2], std::size_t& place) {
   if (role != base + "1" && role != base + "2") {
@@ -29,7 +28,8 @@ bool placeOf(const std::string& role, const std::string& base, const std::string
   return true;
 }
 
-/// Whether a joint's encoder sits behind the transmission: by the element, unless it says "false".
+/// Whether a joint's encoder is behind the transmission: by the element, unless it contains
+/// "false".
 bool ignoresAbsoluteEncoder(const TiXmlElement& joint) {
   const TiXmlElement* element = joint.FirstChildElement("ignoreTransmissionAbsoluteEncoder");
   if (element == nullptr) {

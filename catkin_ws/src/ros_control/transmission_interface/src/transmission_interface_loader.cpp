@@ -28,8 +28,8 @@ std::string roleOf(const ActuatorInfo& actuator) {
   return text == nullptr ? std::string() : std::string(text);
 }
 
-/// Brings parts with the roles <base>1, <base>2, ... into that order, because it is the order in
-/// which transmissions take their values. Parts with other roles stay as they are.
+/// Sorts parts with the roles <base>1, <base>2, ... in that order, in which transmissions use their
+/// values. Parts with other roles are unchanged.
 template <class Part>
 void sortByRole(const std::string& base, std::vector<Part>& parts) {
   std::vector<Part> sorted(parts.size());
@@ -187,7 +187,7 @@ bool TransmissionInterfaceLoader::carryOut(const Plan& plan) {
   bool torque = plan.transmission->hasActuatorToJointTorqueSensor();
   if (auto* states = robot_hw_ptr_->get<ActuatorStateInterface>()) {
     for (const ActuatorInfo& actuator : plan.info.actuators_) {
-      // A provider of somebody else may do without states.
+      // A third-party provider may not need states.
       const ActuatorStateHandle handle = internal::hasResource(actuator.name_, *states)
                                              ? states->getHandle(actuator.name_)
                                              : ActuatorStateHandle();

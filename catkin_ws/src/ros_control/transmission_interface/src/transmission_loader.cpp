@@ -22,7 +22,7 @@ bool hasSize(const char* what, std::size_t size, unsigned int expected,
   return false;
 }
 
-/// Where an element of the description is, for messages.
+/// Location of an element in the description, for messages.
 struct Place {
   const char* kind;  // "Joint" or "Actuator"
   const std::string& name;
@@ -49,7 +49,7 @@ std::string textOf(const TiXmlElement& element) {
   return text == nullptr ? std::string() : std::string(text);
 }
 
-// Whatever the user's locale, a URDF writes numbers with a point.
+// Independent of the locale: a URDF uses a decimal point.
 bool readNumber(const std::string& text, double& number) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());

@@ -12,7 +12,7 @@ namespace transmission_interface {
 
 namespace {
 
-/// Makes a transmission; what its constructor refuses becomes a sentence.
+/// Creates a transmission; an exception of its constructor is logged.
 template <class T, class... Args>
 TransmissionSharedPtr make(const TransmissionInfo& info, const Args&... args) {
   try {

@@ -43,8 +43,8 @@ std::vector<std::string> hardwareInterfaces(TiXmlElement& owner, const std::stri
 
 enum class NameStatus { kGood, kEmpty, kMissing };
 
-/// Joints and actuators follow the same rule: no name spoils the transmission, an empty name spoils
-/// the element alone.
+/// Same rule for joints and actuators: a missing name invalidates the transmission, an empty name
+/// only the element.
 NameStatus readName(const TiXmlElement& element, const char* kind, std::string& name) {
   if (element.Attribute("name") == nullptr) {
     ROS_ERROR("No name attribute for an element <%s> of a transmission: give it one.", kind);
@@ -65,7 +65,7 @@ bool TransmissionParser::parse(const std::string& urdf_string,
   TiXmlDocument document;
   document.Parse(urdf_string.c_str());
   TiXmlElement* root = document.RootElement();
-  // A text with nothing but a comment parses well and still has no root.
+  // A text with only a comment is valid and has no root.
   if (document.Error() || root == nullptr) {
     ROS_ERROR("Can't parse transmissions. Invalid robot description.");
     return false;

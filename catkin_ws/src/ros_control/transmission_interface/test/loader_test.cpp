@@ -109,7 +109,7 @@ class Loading : public testing::Test {
  protected:
   bool load(const std::string& content) { return loader_.load(robot(content)); }
 
-  /// That nothing is loaded, and nothing half of it is left.
+  /// Expects that nothing is loaded, not even in part.
   void expectRefusal(const std::string& content) {
     EXPECT_FALSE(load(content)) << content;
     EXPECT_THAT(transmissions_.getNames(), IsEmpty()) << content;
@@ -131,7 +131,7 @@ class Loading : public testing::Test {
 
 }  // namespace
 
-TEST(Loader, needsARobotAndItsTransmissions) {
+TEST(Loader, RequiresARobotAndItsTransmissions) {
   Motors motors;
   RobotTransmissions transmissions;
   try {
@@ -148,7 +148,7 @@ TEST(Loader, needsARobotAndItsTransmissions) {
   }
 }
 
-TEST_F(Loading, aSimpleTransmissionWorksFromMotorToController) {
+TEST_F(Loading, ASimpleTransmissionWorksFromMotorToController) {
   ASSERT_TRUE(load(simple()));
   const auto* made = loaded<SimpleTransmission>();
   ASSERT_NE(nullptr, made);
@@ -182,7 +182,7 @@ TEST_F(Loading, aSimpleTransmissionWorksFromMotorToController) {
   EXPECT_EQ(nullptr, transmissions_.get<ActuatorToJointEffortInterface>());
 }
 
-TEST_F(Loading, theRobotKnowsTheResourcesItGot) {
+TEST_F(Loading, RegistersResourcesWithTheRobot) {
   ASSERT_TRUE(load(simple() + pair("DifferentialTransmission", kJoints, kActuators)));
   EXPECT_THAT(motors_.getInterfaceResources("hardware_interface::EffortJointInterface"),
               ElementsAre("j1", "ja", "jb"));
@@ -190,7 +190,7 @@ TEST_F(Loading, theRobotKnowsTheResourcesItGot) {
               ElementsAre("j1", "ja", "jb"));
 }
 
-TEST_F(Loading, everyKindOfCommandReachesItsMotor) {
+TEST_F(Loading, EveryKindOfCommandReachesItsMotor) {
   ASSERT_TRUE(load(simple({"hardware_interface/PositionJointInterface",
                            "hardware_interface/VelocityJointInterface", kEffort,
                            "hardware_interface/JointStateInterface"})));
@@ -206,13 +206,13 @@ TEST_F(Loading, everyKindOfCommandReachesItsMotor) {
   EXPECT_THAT(transmissions_.get<ActuatorToJointStateInterface>()->getNames(), ElementsAre("gear"));
 }
 
-TEST_F(Loading, statesAloneNeedNoCommands) {
+TEST_F(Loading, StatesAloneNeedNoCommands) {
   ASSERT_TRUE(load(simple({"hardware_interface/JointStateInterface"})));
   EXPECT_NE(nullptr, motors_.get<JointStateInterface>());
   EXPECT_EQ(nullptr, motors_.get<EffortJointInterface>());
 }
 
-TEST_F(Loading, biDirectionalInterfacesMapBackAsWell) {
+TEST_F(Loading, BidirectionalInterfacesMapBackToo) {
   ASSERT_TRUE(load(simple({"hardware_interface/BiDirectionalPositionJointInterface",
                            "hardware_interface/BiDirectionalVelocityJointInterface",
                            "hardware_interface/BiDirectionalEffortJointInterface"})));
@@ -235,7 +235,7 @@ TEST_F(Loading, biDirectionalInterfacesMapBackAsWell) {
   EXPECT_DOUBLE_EQ(30.0, motors_.get<EffortJointInterface>()->getHandle("j1").getCommand());
 }
 
-TEST_F(Loading, aDifferentialIsReadByItsRoles) {
+TEST_F(Loading, DifferentialUsesItsRoles) {
   ASSERT_TRUE(load(pair("DifferentialTransmission", kJoints, kActuators)));
   const auto* made = loaded<DifferentialTransmission>();
   ASSERT_NE(nullptr, made);
@@ -244,8 +244,8 @@ TEST_F(Loading, aDifferentialIsReadByItsRoles) {
   EXPECT_THAT(made->getJointOffset(), ElementsAre(1.0, 0.0));
 }
 
-// A description in another order is the same robot: values must follow the roles as well.
-TEST_F(Loading, theOrderOfTheDescriptionMakesNoDifference) {
+// The order of the description must not matter: values follow the roles.
+TEST_F(Loading, OrderOfTheDescriptionHasNoEffect) {
   const std::string turned_joints =
       joint("jb", role("joint2") + reduction("4")) +
       joint("ja", role("joint1") + reduction("2") + "<offset>1</offset>");
@@ -274,14 +274,14 @@ TEST_F(Loading, theOrderOfTheDescriptionMakesNoDifference) {
   }
 }
 
-TEST_F(Loading, jointsAreReducedByOneUnlessTheySaySo) {
+TEST_F(Loading, JointReductionDefaultsToOne) {
   ASSERT_TRUE(load(pair("FourBarLinkageTransmission",
                         joint("ja", role("joint1")) + joint("jb", role("joint2")), kActuators)));
   EXPECT_THAT(loaded<FourBarLinkageTransmission>()->getJointReduction(), ElementsAre(1.0, 1.0));
   EXPECT_THAT(loaded<FourBarLinkageTransmission>()->getJointOffset(), ElementsAre(0.0, 0.0));
 }
 
-TEST_F(Loading, aSensorThatOneMotorLacksIsNoneOfTheJoint) {
+TEST_F(Loading, JointHasASensorOnlyIfAllMotorsDo) {
   ASSERT_TRUE(load(pair("DifferentialTransmission", kJoints,
                         actuator("m1", role("actuator1") + reduction("1")) +
                             actuator("m2", role("actuator2") + reduction("1")))));
@@ -289,7 +289,7 @@ TEST_F(Loading, aSensorThatOneMotorLacksIsNoneOfTheJoint) {
   EXPECT_FALSE(motors_.get<JointStateInterface>()->getHandle("ja").hasTorqueSensor());
 }
 
-TEST_F(Loading, absoluteEncodersBehindADifferentialNeedBothJointsToSaySo) {
+TEST_F(Loading, IgnoredAbsoluteEncodersNeedBothJoints) {
   const std::string ignore = "<ignoreTransmissionAbsoluteEncoder/>";
   const auto absolute = [&](const std::string& first, const std::string& second) {
     Motors motors;
@@ -311,7 +311,7 @@ TEST_F(Loading, absoluteEncodersBehindADifferentialNeedBothJointsToSaySo) {
   EXPECT_DOUBLE_EQ((5.0 / 10.0 - 7.0 / 20.0) / 2.0, absolute("", ""));
 }
 
-TEST_F(Loading, addsToInterfacesTheRobotHas) {
+TEST_F(Loading, AddsToInterfacesTheRobotHas) {
   double value = 0.0;
   JointStateInterface own;
   own.registerHandle(hardware_interface::JointStateHandle("own", &value, &value, &value));
@@ -321,12 +321,12 @@ TEST_F(Loading, addsToInterfacesTheRobotHas) {
   EXPECT_THAT(own.getNames(), ElementsAre("j1", "own"));
 }
 
-TEST_F(Loading, unknownInterfacesAreLeftOut) {
+TEST_F(Loading, UnknownInterfacesAreIgnored) {
   ASSERT_TRUE(load(simple({"franka_hw/FrankaStateInterface", kEffort})));
   EXPECT_NE(nullptr, motors_.get<EffortJointInterface>());
 }
 
-TEST_F(Loading, jointsMayListTheirInterfacesInAnyOrder) {
+TEST_F(Loading, JointsMayListTheirInterfacesInAnyOrder) {
   const std::string position = "hardware_interface/PositionJointInterface";
   ASSERT_TRUE(load(pair("DifferentialTransmission",
                         joint("ja", role("joint1"), {kEffort, position}) +
@@ -335,7 +335,7 @@ TEST_F(Loading, jointsMayListTheirInterfacesInAnyOrder) {
   EXPECT_THAT(motors_.get<PositionJointInterface>()->getNames(), ElementsAre("ja", "jb"));
 }
 
-TEST_F(Loading, refusesBadGears) {
+TEST_F(Loading, RefusesInvalidReductions) {
   expectRefusal(simple({kEffort}, ""));
   expectRefusal(simple({kEffort}, "<mechanicalReduction/>"));
   expectRefusal(simple({kEffort}, reduction("ten")));
@@ -347,7 +347,7 @@ TEST_F(Loading, refusesBadGears) {
   expectRefusal(simple({kEffort}, reduction("10"), "<offset/>"));
 }
 
-TEST_F(Loading, refusesWrongNumbersOfParts) {
+TEST_F(Loading, RefusesWrongNumbersOfParts) {
   const std::string two = joint("ja") + joint("jb");
   const std::string one_motor = actuator("m1", reduction("1"));
   expectRefusal(transmission("t", "transmission_interface/SimpleTransmission", two + one_motor));
@@ -361,7 +361,7 @@ TEST_F(Loading, refusesWrongNumbersOfParts) {
   EXPECT_FALSE(loader_.load(empty));
 }
 
-TEST_F(Loading, refusesBadRoles) {
+TEST_F(Loading, RefusesBadRoles) {
   for (const char* type : {"DifferentialTransmission", "FourBarLinkageTransmission"}) {
     const std::string second = joint("jb", role("joint2"));
     expectRefusal(pair(type, joint("ja") + second, kActuators));
@@ -378,7 +378,7 @@ TEST_F(Loading, refusesBadRoles) {
   }
 }
 
-TEST_F(Loading, refusesWhatTheRobotOrThePluginsDoNotHave) {
+TEST_F(Loading, RefusesUnknownActuatorsAndTypes) {
   expectRefusal(transmission("t", "transmission_interface/SimpleTransmission",
                              joint("j") + actuator("m9", reduction("1"))));
   expectRefusal(transmission("t", "transmission_interface/Rope",
@@ -396,14 +396,14 @@ TEST_F(Loading, refusesWhatTheRobotOrThePluginsDoNotHave) {
   EXPECT_THAT(bare.getNames(), IsEmpty());
 }
 
-TEST_F(Loading, oneBadTransmissionStopsAll) {
+TEST_F(Loading, OneInvalidTransmissionRefusesAll) {
   expectRefusal(simple() + pair("DifferentialTransmission", kJoints, actuator("m1", "")));
   expectRefusal(simple() + pair("DifferentialTransmission", kJoints,
                                 actuator("m1", role("actuator1") + reduction("1")) +
                                     actuator("m9", role("actuator2") + reduction("1"))));
 }
 
-TEST_F(Loading, aSecondTransmissionOfANameReplacesTheFirst) {
+TEST_F(Loading, SecondTransmissionOfANameReplacesTheFirst) {
   ASSERT_TRUE(load(simple() + simple({kEffort}, reduction("20"))));
   EXPECT_EQ(2u, loader_.getData()->transmission_data.size());
   auto* efforts = transmissions_.get<JointToActuatorEffortInterface>();
@@ -419,14 +419,14 @@ TEST_F(Loading, aSecondTransmissionOfANameReplacesTheFirst) {
   EXPECT_EQ(2.0, effort());
 }
 
-TEST_F(Loading, keepsATransmissionOnceForEveryInterface) {
+TEST_F(Loading, KeepsATransmissionOnceForEveryInterface) {
   ASSERT_TRUE(load(simple({"hardware_interface/PositionJointInterface", kEffort})));
   const auto& data = loader_.getData()->transmission_data;
   ASSERT_EQ(2u, data.size());
   EXPECT_EQ(data[0], data[1]);
 }
 
-TEST_F(Loading, refusesDescriptionsWithoutTransmissions) {
+TEST_F(Loading, RefusesDescriptionsWithoutTransmissions) {
   EXPECT_FALSE(loader_.load(std::string("no xml")));
   expectRefusal("");
 }

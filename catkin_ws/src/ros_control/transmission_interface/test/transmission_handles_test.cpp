@@ -53,7 +53,7 @@ class Handles : public testing::Test {
 
 }  // namespace
 
-TEST_F(Handles, stateOfActuatorsReachesJoints) {
+TEST_F(Handles, StateOfActuatorsReachesJoints) {
   ActuatorToJointStateHandle handle("gear", &gear_, actuators(), joints());
   EXPECT_EQ("gear", handle.getName());
   handle.propagate();
@@ -64,7 +64,7 @@ TEST_F(Handles, stateOfActuatorsReachesJoints) {
   EXPECT_DOUBLE_EQ(50.0, joint_.torque);
 }
 
-TEST_F(Handles, sensorsThatOneSideLacksAreLeftAlone) {
+TEST_F(Handles, SensorsMissingOnOneSideAreIgnored) {
   ActuatorData without = actuators();
   without.absolute_position.clear();
   without.torque_sensor.clear();
@@ -74,7 +74,7 @@ TEST_F(Handles, sensorsThatOneSideLacksAreLeftAlone) {
   EXPECT_EQ(5.0, joint_.torque);
 }
 
-TEST_F(Handles, sensorsThatTheTransmissionLacksAreLeftAlone) {
+TEST_F(Handles, SensorsThatTheTransmissionCannotMapAreIgnored) {
   Side a2, j2;
   FourBarLinkageTransmission four_bar({1.0, 1.0}, {1.0, 1.0});
   ActuatorData a;
@@ -92,14 +92,14 @@ TEST_F(Handles, sensorsThatTheTransmissionLacksAreLeftAlone) {
   EXPECT_EQ(4.0, j2.absolute);
 }
 
-TEST_F(Handles, stateOfJointsReachesActuators) {
+TEST_F(Handles, StateOfJointsReachesActuators) {
   JointToActuatorStateHandle("gear", &gear_, actuators(), joints()).propagate();
   EXPECT_DOUBLE_EQ(5.0, actuator_.position);
   EXPECT_DOUBLE_EQ(20.0, actuator_.velocity);
   EXPECT_DOUBLE_EQ(0.3, actuator_.effort);
 }
 
-TEST_F(Handles, eachCommandTravelsAlone) {
+TEST_F(Handles, EachCommandIsMappedAlone) {
   ActuatorToJointPositionHandle("gear", &gear_, actuators(), joints()).propagate();
   EXPECT_DOUBLE_EQ(0.6, joint_.position);
   EXPECT_EQ(2.0, joint_.velocity);
@@ -121,7 +121,7 @@ TEST_F(Handles, eachCommandTravelsAlone) {
   EXPECT_DOUBLE_EQ(0.3, actuator_.effort);
 }
 
-TEST_F(Handles, whatDoesNotFitIsRefusedByName) {
+TEST_F(Handles, InvalidDataAreRefusedByName) {
   typedef ActuatorToJointPositionHandle Handle;
   const ActuatorData a = actuators();
   const JointData j = joints();
@@ -156,7 +156,7 @@ TEST_F(Handles, whatDoesNotFitIsRefusedByName) {
               HasSubstr("it maps velocities, but"));
 }
 
-TEST_F(Handles, anInterfacePropagatesAllItsHandles) {
+TEST_F(Handles, AnInterfacePropagatesAllItsHandles) {
   Side actuator2, joint2;
   RobotTransmissions transmissions;
   ActuatorToJointStateInterface states;
@@ -175,7 +175,7 @@ TEST_F(Handles, anInterfacePropagatesAllItsHandles) {
       refusal([&] { states.getHandle("three"); }));
 }
 
-TEST_F(Handles, propagationNeitherAllocatesNorLocks) {
+TEST_F(Handles, PropagationNeitherAllocatesNorLocks) {
   Side actuator2, joint2;
   DifferentialTransmission differential({1.0, 2.0}, {3.0, 4.0});
   ActuatorData a;

@@ -27,7 +27,7 @@ std::string transmission(const std::string& content) {
   return "<transmission name='t'><type>a/T</type>" + content + "</transmission>";
 }
 
-/// What is parsed from a robot with this content; the text itself must be accepted.
+/// Transmissions of a robot with this content; the text itself must be accepted.
 std::vector<TransmissionInfo> parsed(const std::string& content) {
   std::vector<TransmissionInfo> infos;
   EXPECT_TRUE(TransmissionParser::parse(robot(content), infos)) << content;
@@ -36,7 +36,7 @@ std::vector<TransmissionInfo> parsed(const std::string& content) {
 
 }  // namespace
 
-TEST(TransmissionParser, refusesWhatIsNoXml) {
+TEST(TransmissionParser, RefusesTextThatIsNotXml) {
   std::vector<TransmissionInfo> infos;
   EXPECT_FALSE(TransmissionParser::parse("invalid urdf", infos));
   EXPECT_FALSE(TransmissionParser::parse("", infos));
@@ -44,17 +44,17 @@ TEST(TransmissionParser, refusesWhatIsNoXml) {
   EXPECT_THAT(infos, IsEmpty());
 }
 
-TEST(TransmissionParser, refusesADocumentWithoutAnyElement) {
+TEST(TransmissionParser, RefusesADocumentWithoutAnyElement) {
   std::vector<TransmissionInfo> infos;
   EXPECT_FALSE(TransmissionParser::parse("<!-- only a comment -->", infos));
   EXPECT_THAT(infos, IsEmpty());
 }
 
-TEST(TransmissionParser, acceptsARobotWithoutTransmissions) {
+TEST(TransmissionParser, AcceptsARobotWithoutTransmissions) {
   EXPECT_THAT(parsed("<link name='base'/>"), IsEmpty());
 }
 
-TEST(TransmissionParser, readsEveryField) {
+TEST(TransmissionParser, ReadsEveryField) {
   const auto infos = parsed(
       "<transmission name='arm'><type>franka_hw/FrankaStateInterface</type>"
       "<joint name='j1'><role>root</role><hardwareInterface>a/A</hardwareInterface>"
@@ -82,7 +82,7 @@ TEST(TransmissionParser, readsEveryField) {
   EXPECT_THAT(infos[0].actuators_[1].hardware_interfaces_, IsEmpty());
 }
 
-TEST(TransmissionParser, theSerialisedElementIsXmlAgain) {
+TEST(TransmissionParser, SerialisedElementsAreXml) {
   const auto infos = parsed(
       transmission("<joint name='j&amp;1'><hardwareInterface>a/A</hardwareInterface></joint>" +
                    std::string(kGoodActuator)));
@@ -94,7 +94,7 @@ TEST(TransmissionParser, theSerialisedElementIsXmlAgain) {
   EXPECT_STREQ("j&1", again.RootElement()->Attribute("name"));
 }
 
-TEST(TransmissionParser, appendsToWhatIsThere) {
+TEST(TransmissionParser, AppendsToExistingTransmissions) {
   std::vector<TransmissionInfo> infos(1);
   infos[0].name_ = "before";
   ASSERT_TRUE(TransmissionParser::parse(
@@ -104,7 +104,7 @@ TEST(TransmissionParser, appendsToWhatIsThere) {
   EXPECT_EQ("t", infos[1].name_);
 }
 
-TEST(TransmissionParser, leavesOutInvalidTransmissionsAlone) {
+TEST(TransmissionParser, SkipsOnlyInvalidTransmissions) {
   const std::string parts = std::string(kGoodJoint) + kGoodActuator;
   const std::string good = transmission(parts);
   const std::vector<std::string> invalid = {
@@ -123,14 +123,14 @@ TEST(TransmissionParser, leavesOutInvalidTransmissionsAlone) {
   }
 }
 
-TEST(TransmissionParser, anUnnamedPartVoidsTheWholeTransmission) {
+TEST(TransmissionParser, UnnamedPartInvalidatesTheTransmission) {
   EXPECT_THAT(parsed(transmission(std::string(kGoodJoint) + "<joint/>" + kGoodActuator)),
               IsEmpty());
   EXPECT_THAT(parsed(transmission(std::string(kGoodJoint) + kGoodActuator + "<actuator/>")),
               IsEmpty());
 }
 
-TEST(TransmissionParser, anEmptyNameOrNoInterfaceVoidsOnlyThatPart) {
+TEST(TransmissionParser, EmptyNameOrMissingInterfaceInvalidatesOnlyThatPart) {
   const auto infos = parsed(transmission(
       "<joint name=''><hardwareInterface>a/A</hardwareInterface></joint><joint name='j0'/>"
       "<joint name='j00'><hardwareInterface/></joint>" +

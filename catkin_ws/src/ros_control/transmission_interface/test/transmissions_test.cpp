@@ -28,7 +28,7 @@ std::vector<double*> pointersTo(Values& values) {
   return pointers;
 }
 
-/// One of a transmission's maps, as a function of numbers.
+/// One map of a transmission, as a function of numbers.
 typedef std::function<Values(const Values&)> Map;
 
 struct Case {
@@ -154,13 +154,13 @@ std::string refusal(Action action) {
 
 }  // namespace
 
-TEST(SimpleTransmissions, areMadeFromABracedList) {
+TEST(SimpleTransmissions, AreMadeFromABracedList) {
   const SimpleTransmission gear = {10.0, 1.0};
   EXPECT_EQ(10.0, gear.getActuatorReduction());
   EXPECT_EQ(1.0, gear.getJointOffset());
 }
 
-TEST_F(Transmissions, thereAndBackAgainChangesNothing) {
+TEST_F(Transmissions, RoundTripChangesNothing) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     Transmission& t = *c.transmission;
@@ -176,7 +176,7 @@ TEST_F(Transmissions, thereAndBackAgainChangesNothing) {
   }
 }
 
-TEST_F(Transmissions, velocitiesAreTheDerivativesOfPositions) {
+TEST_F(Transmissions, VelocitiesAreTheDerivativesOfPositions) {
   constexpr double kStep = 1e-3;
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
@@ -200,7 +200,7 @@ TEST_F(Transmissions, velocitiesAreTheDerivativesOfPositions) {
   }
 }
 
-TEST_F(Transmissions, powerIsTheSameOnBothSides) {
+TEST_F(Transmissions, PowerIsTheSameOnBothSides) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     Transmission& t = *c.transmission;
@@ -215,15 +215,15 @@ TEST_F(Transmissions, powerIsTheSameOnBothSides) {
   }
 }
 
-// The one place where the original's formula is not the transpose of its velocities: pinned down,
-// so that nobody corrects it unawares.
-TEST_F(Transmissions, fourBarEffortsAreThoseOfTheOriginal) {
+// The only place where the original's formula is not the transpose of its velocities: this test
+// prevents an accidental correction.
+TEST_F(Transmissions, FourBarEffortsMatchTheOriginal) {
   FourBarLinkageTransmission t({10.0, -10.0}, {2.0, 4.0});
   expectNear({60.0, 4.0 * (-50.0 - 60.0)}, jointEffort(t)({3.0, 5.0}));
   expectNear({3.0, 5.0}, actuatorEffort(t)({60.0, -440.0}));
 }
 
-TEST_F(Transmissions, simpleAtHandPickedPoints) {
+TEST_F(Transmissions, SimpleAtHandPickedPoints) {
   SimpleTransmission t(10.0, 1.0);
   EXPECT_EQ(10.0, t.getActuatorReduction());
   EXPECT_EQ(1.0, t.getJointOffset());
@@ -236,10 +236,10 @@ TEST_F(Transmissions, simpleAtHandPickedPoints) {
   EXPECT_EQ(0.0, SimpleTransmission(2.0).getJointOffset());
 }
 
-TEST_F(Transmissions, differentialAtHandPickedPoints) {
+TEST_F(Transmissions, DifferentialAtHandPickedPoints) {
   DifferentialTransmission t({10.0, 10.0}, {2.0, 2.0}, {1.0, 3.0});
-  expectNear({0.25, 0.0}, jointVelocity(t)({5.0, 5.0}));   // together: the first joint
-  expectNear({0.0, 0.25}, jointVelocity(t)({5.0, -5.0}));  // against each other: the second
+  expectNear({0.25, 0.0}, jointVelocity(t)({5.0, 5.0}));   // equal: the first joint
+  expectNear({0.0, 0.25}, jointVelocity(t)({5.0, -5.0}));  // opposite: the second
   expectNear({1.25, 3.0}, jointPosition(t)({5.0, 5.0}));
   expectNear({1.25, 3.0}, jointAbsolute(t)({5.0, 5.0}));
   expectNear({200.0, 0.0}, jointEffort(t)({5.0, 5.0}));
@@ -253,7 +253,7 @@ TEST_F(Transmissions, differentialAtHandPickedPoints) {
   expectNear({1.25, 3.0}, jointPosition(behind)({5.0, 5.0}));
 }
 
-TEST_F(Transmissions, fourBarAtHandPickedPoints) {
+TEST_F(Transmissions, FourBarAtHandPickedPoints) {
   FourBarLinkageTransmission t({10.0, 10.0}, {2.0, 2.0}, {1.0, 3.0});
   expectNear({0.25, -0.125}, jointVelocity(t)({5.0, 0.0}));  // the second joint stays level
   expectNear({0.0, 0.25}, jointVelocity(t)({0.0, 5.0}));
@@ -263,7 +263,7 @@ TEST_F(Transmissions, fourBarAtHandPickedPoints) {
   EXPECT_THAT(t.getJointOffset(), testing::ElementsAre(1.0, 3.0));
 }
 
-TEST_F(Transmissions, whatAFourBarCannotMapItSays) {
+TEST_F(Transmissions, FourBarThrowsForSensors) {
   FourBarLinkageTransmission t({1.0, 1.0}, {1.0, 1.0});
   EXPECT_FALSE(t.hasActuatorToJointAbsolutePosition());
   EXPECT_FALSE(t.hasActuatorToJointTorqueSensor());
@@ -283,7 +283,7 @@ TEST_F(Transmissions, whatAFourBarCannotMapItSays) {
   EXPECT_TRUE(DifferentialTransmission({1.0, 1.0}, {1.0, 1.0}).hasActuatorToJointTorqueSensor());
 }
 
-TEST_F(Transmissions, impossibleOnesAreRefused) {
+TEST_F(Transmissions, InvalidOnesAreRefused) {
   EXPECT_EQ("Transmission reduction ratio cannot be zero.",
             refusal([] { SimpleTransmission(0.0); }));
   const std::string zero = "Transmission reduction ratios cannot be zero.";
@@ -308,7 +308,7 @@ TEST_F(Transmissions, impossibleOnesAreRefused) {
   }
 }
 
-TEST(TransmissionsDeathTest, dataMustFit) {
+TEST(TransmissionsDeathTest, DataMustHaveTheRightSize) {
   double value = 0.0;
   ActuatorData no_actuator, actuator, null_actuator;
   JointData no_joint, joint, null_joint;

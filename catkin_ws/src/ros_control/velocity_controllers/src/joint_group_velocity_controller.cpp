@@ -6,7 +6,7 @@
 
 template <>
 void velocity_controllers::JointGroupVelocityController::starting(const ros::Time& /*time*/) {
-  // Written through the buffer's own copy: nothing is allocated, and older commands are dropped.
+  // Written through the real-time pointer: allocates nothing, and drops older commands.
   std::vector<double>& commands = *commands_buffer_.readFromRT();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     commands[i] = 0.0;

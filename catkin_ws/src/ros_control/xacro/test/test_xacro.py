@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The xacro executable works wherever launch files and people look for it."""
+"""The xacro executable works on all paths that launch files and users call."""
 
 import os
 import shutil
@@ -46,7 +46,7 @@ class XacroTest(unittest.TestCase):
         self.expect_robot(done.stdout, "somebody")
         self.expect_robot(run("xacro", ROBOT).stdout, "nobody")
 
-    def test_runs_by_rosrun_and_from_the_package_with_a_foreign_python(self):
+    def test_runs_by_rosrun_and_from_the_package_with_another_python(self):
         path = self.path_with_a_foreign_python()
         package = run("/usr/bin/rospack", "find", "xacro").stdout.strip()
         for command in (["rosrun", "xacro", "xacro"], [os.path.join(package, "xacro")], ["xacro"]):
@@ -86,7 +86,7 @@ class XacroTest(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("'no_such_package' was not found", done.stderr)
 
-    def test_cmake_function_makes_the_file_and_makes_it_again_when_an_include_changes(self):
+    def test_cmake_function_rebuilds_the_file_when_an_include_changes(self):
         for name in ("robot.xacro", "link.xacro", "numbers.yaml"):
             shutil.copy(os.path.join(HERE, name), self.directory)
         with open(os.path.join(self.directory, "robot.xacro"), encoding="utf-8") as file:

@@ -10,27 +10,27 @@
 
 namespace franka_sim::fci {
 
-/// A worse way for commands than loopback is: loses some and delays all by whole ticks. The same
-/// seed loses the same commands. One thread; pass is real-time safe.
+/// A simulated link for commands, worse than loopback: it loses some commands and delays all by
+/// whole ticks. The same seed loses the same commands. One thread; pass is real-time safe.
 class CommandLink {
  public:
   static constexpr unsigned kLongestDelay = 2;  ///< [ticks] (decision 20)
 
-  /// @param probability of each command to be lost, 0 to 1.
+  /// @param probability of loss of each command, 0 to 1.
   /// @throws std::invalid_argument with a sentence for any other.
   void setLoss(double probability, std::uint64_t seed);
-  /// Loses the next commands, one after the other.
+  /// Loses the next `commands` commands.
   void loseNext(unsigned commands) noexcept { lose_next_ = commands; }
   /// @param ticks 0, 1 or 2. @throws std::invalid_argument with a sentence for any other.
   void setDelay(double ticks);
 
-  /// Nothing is under way any more.
+  /// Drops all commands that are in transit.
   void clear() noexcept;
-  /// As when loss and delay were set: nothing under way, the same losses again.
+  /// Drops all commands in transit and repeats the same losses from the start.
   void restart() noexcept;
 
-  /// One tick: what comes in, or null; what comes out at the other end, or null. The result is
-  /// valid until the next call.
+  /// One tick: takes the incoming command, or null, and returns the outgoing one, or null. The
+  /// result is valid until the next call.
   const franka_core::RobotCommand* pass(const franka_core::RobotCommand* command) noexcept;
 
  private:

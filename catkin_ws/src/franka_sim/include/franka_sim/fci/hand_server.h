@@ -16,12 +16,12 @@
 
 namespace franka_sim::fci {
 
-/// The network face of what is mounted on the flange: requests over TCP, states over UDP about
-/// thirty times a second (the real rate is not published). One client at a time, as with
-/// RobotServer. A command that replaces another one ends it: the earlier one's reply is Aborted.
+/// TCP and UDP server of the device on the flange: requests over TCP, states over UDP about thirty
+/// times a second (the real rate is not published). One client at a time, as with RobotServer. A
+/// command that replaces another one ends it: the earlier one's reply is Aborted.
 ///
 /// One thread; serve allocates only when a client connects.
-/// @tparam Device says what the gripper and the vacuum gripper do not share (gripper_server.h).
+/// @tparam Device defines what differs between gripper and vacuum gripper (gripper_server.h).
 template <typename Device>
 class HandServer {
  public:
@@ -36,13 +36,13 @@ class HandServer {
   bool hasClient() const noexcept { return slot_.confirmed(); }
   /// See ClientSlot::onRefusal.
   void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
-  /// A command runs, also one whose client has gone: a hand does not drop what it holds because a
-  /// program ends.
+  /// Whether a command runs. It goes on after its client has disconnected: a hand must not drop an
+  /// object because a program ends.
   bool busy() const noexcept { return unit_.outcome(last_) == GripperOutcome::kRunning; }
 
-  /// Accepts, reads and answers. @param stops_only leaves all but Connect and Stop.
+  /// Accepts, reads and answers. @param stops_only serves Connect and Stop only.
   void serve(bool stops_only = false);
-  /// Sends a state if one is due and the replies of what has ended.
+  /// Sends a state if one is due, and the replies to commands that have ended.
   /// @param milliseconds of simulated time since the last call.
   void publish(std::uint64_t milliseconds);
 
@@ -73,7 +73,7 @@ class HandServer {
   ClientSlot slot_;
   Datagrams datagrams_;
   std::chrono::steady_clock::time_point state_sent_at_{};
-  std::optional<Running> running_;  // for the client that is there
+  std::optional<Running> running_;  // for the connected client
   TicketLog::Ticket last_{0};
   std::uint64_t message_id_{0};
 };
@@ -145,7 +145,7 @@ bool HandServer<Device>::start(const Header& header, const Request& request) {
     return reply(command, header.command_id, Status::kFail);
   }
   last_ = ticket;
-  // The unit has ended what ran before; its reply goes first.
+  // The unit has ended the previous command; its reply goes first.
   if (!replyToEnded()) {
     return false;
   }

@@ -24,10 +24,10 @@ enum class PaceMode {
   /// An asynchronous motion runs by the clock, because its client need not answer.
   kLockStep,
   /// As kLockStep, but time runs on between motions, as fast as the machine allows: for a world
-  /// that others use, too.
+  /// that has other users too.
   kFreeRunning,
-  /// As kFreeRunning, but no tick comes before the clock says so. The robot is as fast as a real
-  /// one, and loses nothing on a machine that does not keep time.
+  /// As kFreeRunning, but no tick comes earlier than the clock demands. The robot is as fast as a
+  /// real one, and loses no commands on a machine that is too slow for real time.
   kPatient,
 };
 
@@ -35,10 +35,10 @@ struct Pace {
   PaceMode mode{PaceMode::kRealTime};
   /// Simulated time per wall-clock time, in kRealTime and kPatient.
   double factor{1.0};
-  /// After so long without an answer a client of a motion counts as lost, and its cycles are then
-  /// waited for a millisecond each. Time in which this process itself does not run does not count.
-  /// A client whose connection ends is waited for no longer. The value is chosen here: a starved
-  /// machine stops a program for seconds (decision 50).
+  /// After this time without an answer in a motion the client counts as lost; from then on each of
+  /// its cycles waits only a millisecond. Time in which this process itself does not run does not
+  /// count, and a closed connection ends the wait. Chosen here: a starved machine stops a program
+  /// for seconds (decision 50).
   std::chrono::milliseconds patience{30000};
 
   /// Whether a tick within a motion waits for the client's answer.
@@ -57,42 +57,43 @@ class HostedRobot {
   /// Second half: act on the answer to the last state, if there is one.
   virtual void actuate() = 0;
 
-  /// Reads and answers requests. @param stops_only leaves all but those that stop something.
+  /// Reads and answers requests. @param stops_only serves only requests that stop something.
   virtual void serve(bool stops_only) = 0;
-  /// Sends states, `ticks` after the last ones. @param same_moment time stands still since then.
+  /// Sends states, `ticks` after the last ones. @param same_moment whether time has stood still
+  /// since.
   virtual void publish(std::uint64_t ticks, bool same_moment) = 0;
-  /// Time stands still for long within a motion: shows its client the last state once more, as it
-  /// was, unless an answer to it is due; and clients of what is mounted on the flange theirs.
+  /// For long standstills of time within a motion: sends the client the last state again,
+  /// unchanged, unless an answer to it is due; also to clients of the device on the flange.
   virtual void repeat() = 0;
-  /// Somebody waits for the next state.
+  /// Whether a client waits for the next state.
   virtual bool hasNews() const = 0;
 
-  /// Reads commands. @returns whether the one that answers the last state is there.
+  /// Reads commands. @returns whether the answer to the last state has arrived.
   virtual bool receiveCommand() = 0;
-  /// A motion runs for a client, which commands it.
+  /// Whether a motion runs for a client, which commands it.
   virtual bool expectsCommand() const = 0;
-  /// That client sends commands when it likes: no tick waits for one.
+  /// Whether that client may send commands at any time, so that no tick waits for one.
   virtual bool asynchronous() const = 0;
-  /// That motion has had its first command.
+  /// Whether that motion has had its first command.
   virtual bool motionHasBegun() const = 0;
-  /// The arm stops, recovers or is pushed, or its client has died in a motion: time must go on
-  /// though no client answers.
+  /// Whether the arm stops, recovers or is pushed, or its client has disconnected in a motion: time
+  /// must go on though no client answers.
   virtual bool settling() const = 0;
-  /// The hand is at work.
+  /// Whether a command of the hand runs.
   virtual bool handBusy() const = 0;
 
-  /// Adds the socket on which commands come, if there is a client, and all others.
+  /// Adds the command socket, if there is a client, and all others.
   virtual void addCommandDescriptor(std::vector<pollfd>& fds) const = 0;
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
 
-/// Something else with sockets that the host's thread attends to.
+/// Another user of sockets that the host's thread serves.
 class Service {
  public:
   virtual ~Service() = default;
   virtual void serve() = 0;
-  /// States have gone out that show what was done before; or, where time waits for the command of a
-  /// client in motion, are to follow that command.
+  /// States have gone out that show the effect of earlier requests; or, where time waits for the
+  /// command of a client in motion, are to follow that command.
   virtual void published() {}
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
@@ -102,37 +103,38 @@ class Service {
 class Host {
  public:
   /// @param step advances the world by one millisecond.
-  /// @param prepare does ahead what it can of that, before answers to a state are waited for.
+  /// @param prepare computes in advance what it can of the step, before the wait for answers.
   Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare = [] {});
 
   /// Must outlive the host, or be removed.
   void add(HostedRobot& robot);
   void add(Service& service);
-  /// Between ticks, as all that follows.
+  /// Call between ticks, like all functions below.
   void remove(const HostedRobot& robot);
   void setPace(const Pace& pace);
-  bool empty() const noexcept { return guests_.empty() && services_.empty(); }
+  bool empty() const noexcept { return entries_.empty() && services_.empty(); }
 
   /// Runs until `stop` is set.
   void run(const std::atomic<bool>& stop);
-  /// One tick. In lock-step it begins with a wait until time goes on.
+  /// One tick. In lock-step it first waits until time may go on.
   void tick();
-  /// One tick that heeds no clock: it waits for the answers of clients in motion alone.
+  /// One tick that ignores the clock: it waits only for the answers of clients in motion.
   void tickAtOnce();
-  /// Instead of a tick, about every millisecond while the world is halted: clients are heard and
-  /// see that the robots are there. A motion that runs waits with its client, whose time stands
-  /// still too.
+  /// Call about every millisecond, instead of a tick, while the world is halted: serves clients and
+  /// shows them that the robots are there. A running motion is suspended along with its client's
+  /// time.
   void standStill();
-  /// After a hold-up that is not to be made up for.
+  /// Call after a delay that must not be made up for.
   void restartClock() noexcept { deadline_ = Clock::now(); }
-  /// For lock-step: lets this many ticks run without waiting for anybody, for what is done to the
-  /// world from outside (a push) to take its course.
+  /// For lock-step: lets this many ticks run without waiting for clients, so that an external
+  /// change of the world (a push) can take effect.
   void letRun(std::uint64_t ticks);
-  /// After the world was reset: the same for a single tick, and nothing of what was to run before.
+  /// Call after a reset of the world: lets one tick run and cancels ticks of earlier letRun()
+  /// calls.
   void beginAnew();
 
   /// Whether the world has come to rest: in lock-step, that no motion runs and time stands still
-  /// (or that it would not come to rest for 10 s of its time); otherwise always.
+  /// (or that it did not come to rest within 10 s of simulated time); otherwise always true.
   bool settled() const;
 
   std::uint64_t ticks() const noexcept { return ticks_; }
@@ -140,10 +142,10 @@ class Host {
  private:
   using Clock = std::chrono::steady_clock;
 
-  struct Guest {
+  struct Entry {
     HostedRobot* robot;
     bool given_up{false};  // silent for too long in lock-step
-    int starts_shown{0};   // states sent to a client that is to begin
+    int starts_shown{0};   // states sent to a client that has not sent its first command
     Clock::time_point shown_at{};
     std::uint64_t unpublished_ticks{1};
 
@@ -152,7 +154,7 @@ class Host {
   };
 
   void publishAll(bool same_moment = false);
-  static void publish(Guest& guest, bool same_moment, Clock::time_point now);
+  static void publish(Entry& entry, bool same_moment, Clock::time_point now);
   void serveAll();
   void serveIfDue();
   bool holdsRequestsBack() const;
@@ -162,14 +164,14 @@ class Host {
   Clock::time_point nextDeadline();
   void listenUntil(Clock::time_point end);
   void waitInLockStep();
-  void awaitSwiftAnswers(Clock::time_point begin);
+  void spinForAnswers(Clock::time_point begin);
   void beginWait();
   bool waitForClients();
   void showThatTimeStandsStill(Clock::time_point now);
   bool clientsAreDue() const;
   bool clientsAreAtLeisure() const;
   bool heedsClock() const;
-  bool somebodyIsAwaited() const;
+  bool answersAreMissing() const;
   bool timeMustGoOn();
   void giveUpOnTheSilent();
   bool stopped() const;
@@ -177,11 +179,11 @@ class Host {
   std::function<void()> step_;
   std::function<void()> prepare_;
   Pace pace_;
-  std::vector<Guest> guests_;
+  std::vector<Entry> entries_;
   std::vector<Service*> services_;
   std::vector<pollfd> fds_;
   bool requests_ready_{true};
-  bool requests_left_{false};  // read, but kept for later
+  bool requests_left_{false};  // read, but deferred
   Clock::time_point served_at_{};
   const std::atomic<bool>* stop_{nullptr};
   Clock::duration period_{};
@@ -189,9 +191,9 @@ class Host {
   bool spin_;
   Clock::time_point published_at_{};
   Clock::time_point looked_at_{};
-  Clock::duration waited_{};  // in this tick, as far as this process ran
+  Clock::duration waited_{};  // in this tick, without time in which this process did not run
   std::uint64_t rolling_{0};
-  std::uint64_t held_back_{0};  // ticks in a row in which requests had to wait
+  std::uint64_t held_back_{0};  // consecutive ticks in which requests were deferred
   std::uint64_t ticks_{0};
 };
 

@@ -15,35 +15,35 @@
 
 namespace franka_sim::fci {
 
-/// What stands in for the user beside the robot: commands of one line each over TCP, answered by
-/// one line, "ok", "ok <value>" or "error: <sentence>". `nc` suffices to talk to it. Commands are
-/// carried out between two ticks, by the thread that runs the host, and answered once states that
-/// show their effect have gone out.
+/// The control interface, which stands for the operator beside the robot: commands of one line each
+/// over TCP, answered by one line, "ok", "ok <value>" or "error: <sentence>". `nc` suffices as a
+/// client. Commands are executed between two ticks, by the thread that runs the host, and answered
+/// once states that show their effect have been sent.
 ///
-/// One client at a time: a second one is refused with a sentence, unless the first has not sent a
-/// line for 5 s since it came; then that one is told so and goes. The user may type as slowly as
-/// they like while nobody else waits.
+/// One client at a time. A second one is refused with a sentence, unless the first has not sent a
+/// line for 5 s since it came; then the first is closed with a sentence. While no other client
+/// waits, there is no time limit.
 class LineServer final : public Service {
  public:
   using Words = std::vector<std::string>;
-  /// Gets the words behind the command's name; returns the value to tell, or nothing.
+  /// Gets the words after the command's name; returns the value to answer, or nothing.
   /// @throws std::exception whose text becomes the error.
   using Handler = std::function<std::string(const Words&)>;
-  /// Whether a command's time has come.
+  /// Whether a command can be executed now.
   using Ready = std::function<bool()>;
 
-  /// @param first_line a client that has sent no line for so long makes room for another
+  /// @param first_line a client that has sent no line for this time is replaced by a new one
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
   LineServer(const std::string& address, std::uint16_t port,
              std::chrono::seconds first_line = std::chrono::seconds(5))
       : listener_(address, port), first_line_(first_line) {}
-  /// Sends the answer that is left: to the line that ended the host.
+  /// Sends the answer that is still due: to the line that ended the host.
   ~LineServer() override;
 
   std::uint16_t port() const noexcept { return listener_.port(); }
-  /// @param usage the command as the user writes it, for example "user_stop on|off"; its first word
+  /// @param usage the command as the user types it, for example "user_stop on|off"; its first word
   /// is the name.
-  /// @param ready lines wait until it says yes
+  /// @param ready lines wait until it returns true
   void add(const std::string& usage, Handler handler, Ready ready = [] { return true; });
   /// The answer to one line.
   std::string answer(const std::string& line) const;
@@ -59,7 +59,7 @@ class LineServer final : public Service {
     Handler handler;
     Ready ready;
   };
-  /// A connection that has been told why it ends: closed once its peer has read that.
+  /// A refused connection: it is closed once its peer has read the reason.
   struct Leaving {
     std::unique_ptr<Connection> connection;
     Clock::time_point until;
@@ -77,9 +77,9 @@ class LineServer final : public Service {
   std::unique_ptr<Connection> client_;
   Clock::time_point accepted_at_{};
   bool has_spoken_{false};             ///< the client has sent a line
-  bool has_ended_{false};              ///< it sends no more, but may wait for answers
-  bool waits_{false};                  ///< its line is not ready
-  std::optional<std::string> answer_;  ///< to its last line, until states have gone out
+  bool has_ended_{false};              ///< it sends no more, but may still wait for answers
+  bool waits_{false};                  ///< its line cannot be executed yet
+  std::optional<std::string> answer_;  ///< to its last line; kept until states have been sent
   std::vector<Leaving> leaving_;
   std::map<std::string, Entry> entries_;
 };

@@ -9,7 +9,7 @@
 #include <string>
 
 /// @file
-/// How a Panda or an FR3 is put on the network, whoever runs the world it lives in.
+/// Sets up the network servers of a Panda or an FR3, for every program that runs a world.
 
 namespace franka_sim::fci {
 
@@ -18,36 +18,37 @@ struct ProtocolRange {
   std::uint16_t oldest, newest;
 };
 
-/// All versions of a robot's generation (decision 25). @param robot "fr3"; all else is a Panda
+/// All versions of a robot's generation (decision 25). @param robot "fr3"; any other value is a
+/// Panda
 ProtocolRange protocolsOf(const std::string& robot) noexcept;
 
-/// The network face at an address of this machine, with the models of the arm that clients ask for.
+/// Servers at an address of this machine, with the models of the arm that clients request.
 RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
                                const franka_core::ArmModel& arm);
 
-/// The hand on its fingers. @param fingers outlive it
+/// The hand on its fingers. @param fingers must outlive it
 SimRobot::Hand servedHand(HandPlant& fingers);
 
-/// Which links came too close, as the description calls them without the arm's name: "link2 and
-/// hand".
+/// The two links that came too close, named as in the description without the arm's name: "link2
+/// and hand".
 std::string linksOf(const SelfCollision::Pair& pair);
 
-/// What the user enters in Desk.
+/// Sets the load as the user does in Desk.
 /// @throws std::runtime_error with a sentence when the robot refuses it
 void setLoad(SimRobot& robot, const franka_core::Payload& load);
 
-/// What the user is told of a collision that raised this error (self-collision, joint or Cartesian
-/// reflex): "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
+/// Message about a collision that raised this error (self-collision, joint or Cartesian reflex):
+/// "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
 std::string collisionOf(const ControlUnit& unit, franka_core::RobotError error);
 
-/// Where a real arm comes to rest that was told to go to q [rad]: its model of gravity is wrong by
-/// a few tenths of a newton metre, which the stiffness [Nm/rad] of the hold answers with about 1e-4
-/// rad (docs/fidelity.md). A position that equals its target to the last bit is none that a client
-/// was ever tried with.
+/// Joint positions [rad] at which a real arm rests after a motion to q: its model of gravity is
+/// wrong by a few tenths of a newton metre, which the stiffness [Nm/rad] of the hold turns into
+/// about 1e-4 rad (docs/fidelity.md). Clients are never tested with a position that equals its
+/// target to the last bit.
 std::array<double, 7> restingNear(const std::array<double, 7>& q,
                                   const std::array<double, 7>& stiffness) noexcept;
 
-/// Mode, client, errors (of collisions: what met what) and joints in one line for the user.
+/// Mode, client, errors (of collisions: the links or the axis) and joints in one line for the user.
 std::string describe(SimRobot& robot);
 
 }  // namespace franka_sim::fci

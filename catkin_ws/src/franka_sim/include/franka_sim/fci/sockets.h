@@ -12,19 +12,19 @@
 #include <vector>
 
 /// @file
-/// The server's sockets. None of them ever blocks; one thread owns each.
+/// The server's sockets. None of them blocks; one thread owns each.
 
 namespace franka_sim::fci {
 
 using franka_core::fci::Bytes;
 
-/// Bytes that many messages share, such as a model: nobody copies them.
+/// Bytes that several messages share without a copy, such as a model.
 using Blob = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-/// Whether a text is an IPv4 address such as 127.0.0.1, of this machine or not.
+/// Whether a text is an IPv4 address such as 127.0.0.1, of this machine or another.
 bool isAddress(const std::string& text) noexcept;
 
-/// Closes a file descriptor when it goes.
+/// Closes its file descriptor when it is destroyed.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -55,10 +55,10 @@ class Listener {
   /// The next connection and where it comes from; an empty descriptor when there is none, or when
   /// this process can open no more of them.
   Descriptor accept(sockaddr_in& peer) noexcept;
-  /// Whether a connection that waits can be accepted: worth a poll.
+  /// Whether accept() can take a pending connection, so that a poll is useful.
   bool accepts() const noexcept;
 
-  /// Closed: whoever connects is refused; the port stays this listener's.
+  /// When closed, connections are refused; the port stays reserved for this listener.
   bool isOpen() const noexcept { return open_; }
   void close() noexcept;
   /// @returns false when another program has taken the port meanwhile.
@@ -72,9 +72,9 @@ class Listener {
   std::uint16_t port_{0};
 };
 
-/// One TCP connection. Requests collect in a buffer of fixed size; what the peer does not take at
-/// once is kept and sent by later calls of flush. A peer that vanishes without a word, or takes
-/// nothing, is noticed after 5 s.
+/// One TCP connection. Requests collect in a buffer of fixed size; bytes that the peer does not
+/// take at once are kept and sent by later calls of flush. A peer that vanishes silently, or takes
+/// nothing, is detected after 5 s.
 class Connection {
  public:
   explicit Connection(Descriptor socket);
@@ -82,20 +82,20 @@ class Connection {
   int descriptor() const noexcept { return socket_.get(); }
   bool open() const noexcept { return static_cast<bool>(socket_); }
   bool hasUnsent() const noexcept { return !unsent_.empty(); }
-  /// What is kept for the peer, shared bytes included.
+  /// Bytes that are kept for the peer, shared ones included.
   std::size_t unsentBytes() const noexcept;
-  /// The buffer has no room: nothing is received before something is consumed.
+  /// Whether the buffer has no room: nothing is received until something is consumed.
   bool isFull() const noexcept { return filled_ == kCapacity; }
 
-  /// Reads what is there. @returns false once the peer has closed or vanished.
+  /// Reads available bytes. @returns false once the peer has closed or vanished.
   bool receive() noexcept;
-  /// The same question where nothing may be read: it is answered whatever still waits to be read.
+  /// The same without reading: correct even while received bytes are still unread.
   bool peerHasClosed() const noexcept;
-  /// What has been received and not consumed.
+  /// Bytes that have been received and not consumed.
   Bytes received() const noexcept { return {buffer_, filled_}; }
   void consume(std::size_t size) noexcept;
 
-  /// Sends, or keeps for later. Allocates only where the peer is slower than the messages.
+  /// Sends, or keeps for later. Allocates only if the peer is slower than the messages.
   /// @returns false once the peer has vanished.
   bool send(Bytes message);
   /// The same for shared bytes, which are kept without a copy.
@@ -103,7 +103,7 @@ class Connection {
   bool flush() noexcept;
 
   void close() noexcept { socket_.close(); }
-  /// Closes so that the peer notices at once: it sees a reset, not an end.
+  /// Closes with a reset instead of an end, so that the peer detects it at once.
   void reset() noexcept;
 
  private:
@@ -129,11 +129,11 @@ class Datagrams {
   explicit Datagrams(const std::string& address);
 
   int descriptor() const noexcept { return socket_.get(); }
-  /// The system keeps away what others send from then on.
+  /// From now on the system drops datagrams of other senders.
   void setPeer(const sockaddr_in& peer) noexcept;
-  /// Real-time safe. A datagram that the system does not take is lost, as on a wire.
+  /// Real-time safe. A datagram that the system does not accept is lost, as on a wire.
   void send(Bytes datagram) noexcept;
-  /// The next datagram from the peer's address; others are dropped, a limited number a call.
+  /// The next datagram from the peer's address; others are dropped, a limited number per call.
   /// @returns its size, which may be larger than `capacity`; -1 when there is none.
   std::ptrdiff_t receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
 

@@ -11,8 +11,8 @@
 
 namespace franka_sim::fci {
 
-/// The vacuum gripper, protocol version 1. The profiles P0 to P3 are accepted and make no
-/// difference: what they set on a device is not published.
+/// The vacuum gripper, protocol version 1. The profiles P0 to P3 are accepted without effect: what
+/// they set on a device is not published.
 struct VacuumDevice {
   using Unit = VacuumGripperUnit;
   using Command = franka_core::fci::vacuum::Command;

@@ -8,9 +8,9 @@ namespace franka_sim {
 
 class World;
 
-/// What the bare mj_step calls of a tick take [us], with the same model and substeps, from the
+/// Time of the bare mj_step calls of a tick [us], with the same model and substeps, from the
 /// present state with the present torques held: the reference of the simulation's benchmark. Works
-/// on copies of the state; the world is left as it is. Allocates.
+/// on copies of the state; the world does not change. Allocates.
 double bareTickMicroseconds(World& world, std::uint32_t ticks);
 
 }  // namespace franka_sim

@@ -8,17 +8,17 @@ struct JointMeasurement {
   double position{0}, velocity{0}, effort{0};  ///< [rad|m, rad/s|m/s, Nm|N]
 };
 
-/// The drive of a single joint: of a lift, a wheel, a gripper of another make. Called from the
-/// thread that steps the world; no function allocates or throws.
+/// The drive of a single joint of another device, such as a lift, a wheel or another gripper.
+/// Called from the thread that steps the world; no function allocates or throws.
 class JointDrive {
  public:
   virtual ~JointDrive() = default;
-  /// Position and velocity at the end of the last tick, and the mean of what the drive gave [Nm|N].
+  /// Position and velocity at the end of the last tick, and the mean effort of the drive [Nm|N].
   virtual JointMeasurement measure() const noexcept = 0;
-  /// Lets go of a position; the effort [Nm] or [N] acts until another is given.
+  /// Ends follow(); the effort [Nm] or [N] acts until another one is given.
   virtual void applyEffort(double effort) noexcept = 0;
-  /// Takes the joint to a position [rad] or [m] and keeps it there with whatever effort that needs
-  /// (a time constant of 2 ms, critically damped: it lags a steady motion by 4 ms).
+  /// Moves the joint to a position [rad] or [m] and holds it there with any effort needed (time
+  /// constant 2 ms, critically damped: it lags a steady motion by 4 ms).
   virtual void follow(double position) noexcept = 0;
 };
 

@@ -10,7 +10,7 @@ namespace franka_sim {
 
 struct RobotDescription;
 
-/// The joints' properties that no URDF carries (decision 1), joints 1 to 7.
+/// Joint properties that URDFs do not contain (decision 1), joints 1 to 7.
 struct JointPhysics {
   std::array<double, 7> rotor_inertia{{0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< [kg m^2]
   std::array<double, 7> coulomb_friction{};                                  ///< [Nm]
@@ -23,12 +23,12 @@ struct JointPhysics {
 
 /// Reads franka_description's physics.yaml.
 /// @param robot_type its section: "panda" or "fr3"
-/// @param friction_set "none", "fr3"; see there
+/// @param friction_set "none", "fr3"; see the file
 /// @throws std::runtime_error with a sentence that names the file and what is wrong in it
 JointPhysics readJointPhysics(const std::string& file, const std::string& robot_type,
                               const std::string& friction_set);
 
-/// Enters the properties for the joints <arm_id>_joint1 to 7.
+/// Sets the properties of the joints <arm_id>_joint1 to 7.
 void applyJointPhysics(const JointPhysics& physics, const std::string& arm_id,
                        RobotDescription& description);
 

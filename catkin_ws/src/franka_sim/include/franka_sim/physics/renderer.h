@@ -20,7 +20,7 @@ struct Camera {
   double field_of_view{45};  ///< vertical [deg]
 };
 
-/// What is needed to draw a moment of a world: copied by the stepping thread, drawn by another.
+/// The data that drawing needs: captured by the stepping thread, drawn by another.
 struct Scene {
   std::string mjcf;                      ///< World::mjcf(true)
   std::map<std::string, Pose> bodies;    ///< free bodies
@@ -31,12 +31,12 @@ struct Scene {
 struct Picture {
   int width{0}, height{0};
   std::vector<std::uint8_t> rgb;  ///< rows from top to bottom, 3 bytes a pixel
-  std::vector<float> depth;       ///< along the line of sight's axis [m], as rgb; infinity: nothing
-  Pose camera;                    ///< of a named camera: optical frame (z ahead, y down)
+  std::vector<float> depth;  ///< distance along the viewing axis [m], as rgb; infinity: nothing
+  Pose camera;               ///< pose of a named camera: optical frame (z ahead, y down)
 };
 
-/// Takes what `Renderer` needs from a world (the stepping thread calls it, between ticks; it
-/// allocates).
+/// Captures what `Renderer` needs from a world. The stepping thread calls it, between ticks; it
+/// allocates.
 Scene captureScene(World& world);
 
 /// Draws scenes without a display, by EGL surfaceless or OSMesa, whichever the machine has. To save
@@ -44,7 +44,7 @@ Scene captureScene(World& world);
 /// thread owns a renderer.
 class Renderer {
  public:
-  /// @throws std::runtime_error with a sentence when no way of drawing is found.
+  /// @throws std::runtime_error with a sentence when neither is available.
   Renderer();
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -52,8 +52,8 @@ class Renderer {
   /// @throws std::runtime_error with a sentence when the size, the camera or the scene cannot be
   /// drawn.
   Picture render(const Scene& scene, const Camera& camera, int width, int height);
-  /// The view of a camera that stands in the world, with depth. @throws as the other one, and when
-  /// the scene has no such camera.
+  /// The view of a camera of the world, with depth. @throws as the other one, and when the scene
+  /// has no such camera.
   Picture render(const Scene& scene, const std::string& camera, int width, int height);
   /// "EGL" or "OSMesa".
   std::string backend() const;

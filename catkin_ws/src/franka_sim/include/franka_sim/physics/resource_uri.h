@@ -7,13 +7,13 @@
 
 namespace franka_sim {
 
-/// Where a file of a package is, empty if there is none; `file` is relative to the package.
+/// Returns the path of a package's file, empty if there is none; `file` is relative to the package.
 using PackageFinder =
     std::function<std::string(const std::string& package, const std::string& file)>;
 
-/// The file that a robot's or a world's description names: package://NAME/FILE, file:///FILE or a
-/// path, which stays as it is. @returns empty where a package is named that is not there, or no
-/// file in it.
+/// The path of a file that a robot's or a world's description names: package://NAME/FILE,
+/// file:///FILE or a path, which is returned unchanged. @returns empty if the package or its file
+/// does not exist.
 std::string fileOfUri(const std::string& uri, const PackageFinder& find);
 
 }  // namespace franka_sim

@@ -6,9 +6,9 @@
 #include <string>
 
 /// @file
-/// Sizes that the world of a robot arm does not exceed (chosen here, far above what an arm of 1 m
-/// that lifts 3 kg meets). A number beyond them is a typing error or another unit, and would make
-/// the physics diverge.
+/// Limits of numbers in a world for a robot arm (chosen here, far above what an arm of 1 m that
+/// lifts 3 kg meets). A number beyond them is a typing error or in another unit, and would make the
+/// physics diverge.
 
 namespace franka_sim::sizes {
 
@@ -17,7 +17,7 @@ constexpr double kFastest = 1e3;    ///< [m/s] or [rad/s]
 constexpr double kStrongest = 1e4;  ///< [N] or [Nm]
 constexpr double kGravity = 1e2;    ///< [m/s^2]
 
-/// @param what the beginning of the sentence, for example "The force"
+/// @param what the start of the sentence, for example "The force"
 /// @throws std::runtime_error with a sentence that names the first number which is not finite or
 /// beyond `largest`, the limit and the unit.
 void check(const std::array<double, 3>& values, double largest, const char* unit,

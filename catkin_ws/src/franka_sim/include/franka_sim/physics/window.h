@@ -9,18 +9,18 @@
 
 namespace franka_sim {
 
-/// A window on the world. Left button turns, right button shifts, the wheel zooms; C shows contact
-/// points and forces, F the frames of the bodies, T makes everything translucent. One thread owns a
-/// window and a process has one.
+/// A window that shows the world. Left button turns, right button shifts, the wheel zooms; C shows
+/// contact points and forces, F the frames of the bodies, T makes everything translucent. One
+/// thread owns a window and a process has one.
 class Window {
  public:
-  /// @throws std::runtime_error with a sentence when there is no display or no OpenGL on it
+  /// @throws std::runtime_error with a sentence without a display or without OpenGL on it
   explicit Window(const std::string& title);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Draws a moment and handles what mouse and keyboard did meanwhile.
+  /// Draws a scene and handles mouse and keyboard input.
   /// @returns false when the user has closed the window
   /// @throws std::runtime_error with a sentence when the scene does not compile
   bool draw(const Scene& scene);

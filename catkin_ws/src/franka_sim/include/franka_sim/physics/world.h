@@ -26,12 +26,12 @@ struct Pose {
 /// when unknown.
 using ResourceResolver = std::function<std::string(const std::string& uri)>;
 
-/// A robot to put into the world: its simulatable URDF (xacro argument gazebo:=true).
+/// A robot to add to the world: its simulatable URDF (xacro argument gazebo:=true).
 struct RobotDescription {
   std::string name;  ///< unique in the world; the arm_id for an arm
   std::string urdf;  ///< the text; link and joint names are kept as they are
   ResourceResolver resolve;
-  Pose base;  ///< where the URDF's root stands when that is not a link named `world`
+  Pose base;  ///< of the URDF's root, unless that is a link named `world`
   std::map<std::string, double> initial_positions;  ///< joint name -> [rad] or [m]
   // For joints not named: no rotor inertia; friction and damping of the URDF's <dynamics>, but none
   // for the joints of Franka arms and hands.
@@ -48,18 +48,18 @@ struct Contact {
   std::array<double, 3> force;     ///< on body2, world axes [N]
 };
 
-/// A robot's link and a body that is none of its links, one within the other.
+/// A robot's link and a body of something else that penetrate each other.
 struct Overlap {
   std::string link, body;
   double depth;  ///< [m]
 };
 
-/// How a body moves: linear velocity of its origin [m/s] and angular velocity [rad/s], world axes.
+/// Velocity of a body: linear of its origin [m/s] and angular [rad/s], world axes.
 struct Twist {
   std::array<double, 3> linear{}, angular{};
 };
 
-/// Where a body is and how it moves.
+/// Pose and velocity of a body.
 struct BodyState {
   Pose pose;
   Twist twist;
@@ -68,27 +68,27 @@ struct BodyState {
 /// A joint with one degree of freedom.
 struct WorldJoint {
   std::string name;
-  bool slides{false};   ///< or turns
+  bool slides{false};   ///< prismatic, else revolute
   bool limited{false};  ///< has stops
   double damping{0};    ///< [Nm s/rad] or [N s/m]
 };
 
-/// What Gazebo calls a model: a robot, an object, or a body of the world file that hangs on nothing
-/// else, with all that hangs on it.
+/// What Gazebo calls a model: a robot, an object, or a top-level body of the world file, with all
+/// bodies attached to it.
 struct WorldModel {
   std::string name;
-  std::string body;                ///< whose pose is the model's
+  std::string body;                ///< its pose is the model's
   std::vector<std::string> links;  ///< names of bodies; those of SDF models begin with `model::`
   std::vector<WorldJoint> joints;
   bool is_static{false};
 };
 
-/// A camera that stands in the world or on a body: MJCF's <camera> or SDF's camera sensor.
+/// A camera fixed to the world or to a body: MJCF's <camera> or SDF's camera sensor.
 struct WorldCamera {
   std::string name;
   double field_of_view{45};     ///< vertical [deg]
   int width{640}, height{480};  ///< [pixel]; MJCF: attribute user="width height rate"
-  double rate{30};              ///< wanted pictures a simulated second [Hz]
+  double rate{30};              ///< desired pictures per simulated second [Hz]
 };
 
 /// The dynamic state of a world at a tick. Copies share it.
@@ -103,15 +103,15 @@ class Snapshot {
   std::shared_ptr<const Content> content_;
 };
 
-/// The scene: an MJCF or SDF world file with robots from URDFs, stepped in ticks of 1 ms.
+/// The simulated world: an MJCF or SDF world file with robots from URDFs, stepped in ticks of 1 ms.
 ///
-/// One thread at a time may call it. Everything that changes the set of robots allocates and throws
-/// std::runtime_error with a sentence; `step` and the plants neither allocate nor throw.
+/// Only one thread at a time may call it. Functions that change the set of robots allocate and
+/// throw std::runtime_error with a sentence; `step` and the plants neither allocate nor throw.
 class World {
  public:
-  /// @param file the world, MJCF or SDF; empty means an empty one: ground, light and sky.
-  /// @param resolve finds what SDF texts name by package:// and model://
-  /// @throws std::runtime_error naming the file and what MuJoCo or sdformat says about it.
+  /// @param file the world, MJCF or SDF; empty: ground, light and sky only.
+  /// @param resolve finds files that SDF texts name by package:// and model://
+  /// @throws std::runtime_error naming the file and the error of MuJoCo or sdformat.
   explicit World(const std::string& file = "", ResourceResolver resolve = {});
   ~World();
   World(const World&) = delete;
@@ -120,19 +120,19 @@ class World {
   static constexpr double kTick = franka_core::kTick;  ///< [s]
   static constexpr int kSubsteps = 2;  ///< per tick: a grasp slips above 0.5 ms (decision 18)
 
-  /// Merges a robot in; everything already there keeps its state. Nothing changes when it throws.
+  /// Adds a robot; the state of everything else is kept. Nothing changes when it throws.
   void addRobot(const RobotDescription& robot);
   void removeRobot(const std::string& name);
   std::vector<std::string> robots() const;
 
-  /// Puts an object in: SDF with one model, MJCF with bodies, or a lone MJCF <body>. Everything
-  /// already there keeps its state; nothing changes when it throws.
-  /// @param pose where the text's origin comes to stand
+  /// Adds an object: SDF with one model, MJCF with bodies, or a lone MJCF <body>. The state of
+  /// everything else is kept; nothing changes when it throws.
+  /// @param pose of the text's origin in the world
   void addObject(const std::string& name, const std::string& text, const Pose& pose);
   void removeObject(const std::string& name);
   std::vector<std::string> objects() const;
-  /// One sentence that names what the SDF of the world file (or of an object) asks for and nobody
-  /// simulates; empty when there is nothing.
+  /// One sentence that names elements of the world file's SDF (or of an object) that are not
+  /// simulated; empty when there are none.
   std::string unsupported(const std::string& object = "") const;
 
   /// Names of all bodies (links included) and of all joints with one degree of freedom.
@@ -142,49 +142,50 @@ class World {
   /// Robots first.
   std::vector<WorldModel> models() const;
 
-  /// Plants stay valid until their robot is removed, over additions of other robots too.
+  /// Plants stay valid until their robot is removed, also when other robots are added.
   /// @throws std::runtime_error when the robot has no joints `<arm_id>_joint1..7` (arm) or no
   /// `<arm_id>_finger_joint1..2` (hand).
   ArmPlant& arm(const std::string& robot, const std::string& arm_id);
   HandPlant& hand(const std::string& robot, const std::string& arm_id);
   bool hasHand(const std::string& robot, const std::string& arm_id) const;
-  /// The drive of a single joint, valid as plants are. One joint has one driver: a plant or this.
-  /// A joint that follows another (mimic) takes efforts, but no positions.
+  /// The drive of a single joint, valid as long as plants are. A joint is driven either by a plant
+  /// or by this. A joint that follows another (mimic) takes efforts, but no positions.
   /// @throws std::runtime_error when there is no such joint or it does not move
   JointDrive& drive(const std::string& robot, const std::string& joint);
 
-  /// One tick of 1 ms. Once the world has stopped, nothing happens.
+  /// One tick of 1 ms. Does nothing once the world has stopped.
   void step() noexcept;
-  /// Does ahead what of the next tick is certain already, for a moment when there is nothing else
-  /// to do. It changes neither what anybody sees nor what comes.
+  /// Computes in advance the part of the next tick that no input can change, for a moment of idle
+  /// time. Neither the visible state nor later results change.
   void prepareStep() noexcept;
   /// Whether the physics has diverged: a position, velocity or acceleration was not finite or
-  /// beyond 1e10. The world then stands still, as it was, until reset() or restore(); what would
-  /// change its state throws. MuJoCo alone would reset it in silence. Real-time safe.
+  /// beyond 1e10. The world then stands still, unchanged, until reset() or restore(), and functions
+  /// that change its state throw. (MuJoCo alone would reset it silently.) Real-time safe.
   bool stopped() const noexcept;
   /// Why it has stopped: a sentence; empty while it runs.
   std::string fault() const;
-  /// Sentences for what MuJoCo has warned of since the last call, each once until a reset.
+  /// Sentences for MuJoCo's warnings since the last call, each once until a reset.
   std::vector<std::string> takeWarnings();
   std::uint64_t ticks() const noexcept;  ///< since the start; reset() sets it to 0
   double time() const noexcept;          ///< [s]
 
-  /// Everything to where it was first put, warm starts included.
+  /// Resets everything to where it was first put, warm starts included.
   void reset();
 
-  /// Everything as it is now, and back to it: what follows is the same to the last bit. A snapshot
-  /// holds until a robot or object comes or goes (then restore throws); it counts ticks too.
+  /// Saves the complete state for restore(): what follows is the same to the last bit. A snapshot
+  /// is valid until a robot or object comes or goes (then restore throws); it includes the tick
+  /// count.
   Snapshot snapshot() const;
   void restore(const Snapshot& snapshot);
 
-  // Numbers from outside are limited: physics/sizes.h.
+  // Limits of these arguments: physics/sizes.h.
   std::array<double, 3> gravity() const;
   void setGravity(const std::array<double, 3>& gravity);  ///< [m/s^2]; a reset does not change it
   Pose bodyPose(const std::string& body) const;
   void setBodyPose(const std::string& body,
                    const Pose& pose);  ///< free bodies only; velocity becomes 0
   Twist bodyTwist(const std::string& body) const;
-  /// Of many bodies at once, which costs less. @throws std::runtime_error for an unknown one
+  /// For many bodies in one call, which is faster. @throws std::runtime_error for an unknown one
   std::vector<BodyState> bodyStates(const std::vector<std::string>& names) const;
   void setBodyTwist(const std::string& body, const Twist& twist);  ///< free bodies only
   JointMeasurement joint(const std::string& joint) const;
@@ -197,14 +198,14 @@ class World {
   void pushAt(const std::string& body, const std::array<double, 3>& point,
               const std::array<double, 3>& force, std::uint64_t ticks);
   std::vector<Contact> contacts() const;
-  /// Where a robot stands within other bodies, by more than 1 mm. Allocates.
+  /// Where a robot penetrates other bodies, by more than 1 mm. Allocates.
   std::vector<Overlap> overlaps(const std::string& robot) const;
   /// A sentence about them; empty when there are none.
   std::string describeOverlaps(const std::string& robot) const;
-  /// Bytes that identify the whole dynamic state: equal hash, equal future (decision 22).
+  /// Hash of the complete dynamic state: equal hash, equal future (decision 22).
   std::uint64_t stateHash() const noexcept;
 
-  /// The merged model as MJCF text, for a look and for reference benchmarks. `visuals` adds the
+  /// The merged model as MJCF text, for inspection and for reference benchmarks. `visuals` adds the
   /// visual meshes, which the stepped model leaves out.
   std::string mjcf(bool visuals) const;
 

@@ -8,14 +8,14 @@
 
 namespace franka_sim {
 
-/// What the Cartesian law needs of the arm in this tick.
+/// Input of the Cartesian impedance law in one tick.
 struct CartesianImpedanceInput {
-  Transform O_T_EE_d, O_T_EE;           ///< wanted and measured, 4x4 column-major
+  Transform O_T_EE_d, O_T_EE;           ///< desired and measured, 4x4 column-major
   Transform EE_T_K;                     ///< of the stiffness frame
-  std::array<double, 6> O_dP_EE_d;      ///< wanted twist of EE in O [m/s, rad/s]
+  std::array<double, 6> O_dP_EE_d;      ///< desired twist of EE in O [m/s, rad/s]
   std::array<double, 42> O_J_EE;        ///< zero Jacobian of EE, 6x7 column-major
   std::array<double, 49> mass;          ///< without rotors, 7x7 column-major [kg m^2]
-  std::array<double, 7> q_d, q, dq;     ///< [rad], [rad/s]; q_d leads the null space
+  std::array<double, 7> q_d, q, dq;     ///< [rad], [rad/s]; q_d is the null space's target
   std::array<double, 7> coriolis;       ///< C(q, dq) dq [Nm]
   std::array<double, 6> K;              ///< stiffness [N/m, Nm/rad], 0 or more
   double nullspace_stiffness{10.0};     ///< [Nm/rad], chosen here (decision 11)

@@ -10,16 +10,16 @@
 
 namespace franka_sim {
 
-/// What a collision reflex was raised for: the joint or axis that was the farthest beyond its upper
-/// threshold in the tick of the reflex.
+/// The cause of a collision reflex: the joint or axis that was farthest beyond its upper threshold
+/// in the tick of the reflex.
 struct Collision {
   bool happened{false};
   std::size_t index{0};   ///< of the joint, or of x, y, z, R, P, Y
   double value{0.0};      ///< external torque [Nm] or force [N], not filtered
-  double threshold{0.0};  ///< the upper one that held [Nm, N]
+  double threshold{0.0};  ///< the upper one in effect [Nm, N]
 };
 
-/// The farthest beyond its threshold by ratio. Real-time safe.
+/// The entry farthest beyond its threshold by ratio. Real-time safe.
 template <std::size_t N>
 Collision worstOf(const std::array<double, N>& values, const std::array<double, N>& upper) noexcept;
 

@@ -7,16 +7,17 @@
 
 namespace franka_sim {
 
-/// The low-pass filters that clients up to protocol 5 can put before the motion generators and the
-/// torque controller (SetFilters). First order (protocol 5.6); at 1000 Hz a signal passes
-/// unchanged. Rotations are filtered along the shortest arc. Real-time safe; one thread.
+/// The low-pass filters that clients up to protocol 5 can set for motion generators and torque
+/// controller (SetFilters). First order (protocol 5.6); at 1000 Hz a signal passes unchanged.
+/// Rotations are filtered along the shortest arc. Real-time safe; one thread.
 class CommandFilter {
  public:
   /// @returns whether all cutoffs are within 1 and 1000 Hz.
   bool set(const franka_core::fci::SetFiltersRequest& cutoffs) noexcept;
-  /// A motion begins from here: q_d, O_T_EE_c, elbow_c of the state; nothing else moves.
+  /// Starts at q_d, O_T_EE_c and elbow_c of the state, at rest.
   void begin(const franka_core::RobotState& state) noexcept;
-  /// One command. What is not finite or no rigid transform passes as it is, to be refused.
+  /// Filters one command. Values that are not finite or no rigid transform pass unchanged, to be
+  /// refused later.
   const franka_core::RobotCommand& apply(const franka_core::RobotCommand& command) noexcept;
 
  private:

@@ -8,9 +8,9 @@
 
 namespace franka_sim {
 
-/// Contact and collision of N signals (decision 15). Contact shows while lower < |x| <= upper;
-/// collision once |x| > upper, and stays until it is cleared. Flags are 0 or 1, as in RobotState.
-/// Real-time safe; one thread.
+/// Contact and collision of N signals (decision 15). Contact is 1 while lower < |x| <= upper;
+/// collision becomes 1 when |x| > upper, and stays until it is cleared. Flags are 0 or 1, as in
+/// RobotState. Real-time safe; one thread.
 template <std::size_t N>
 class ContactMonitor {
  public:

@@ -7,11 +7,11 @@
 
 namespace franka_sim {
 
-/// Whether three bounds are positive numbers, as a Move request must have them.
+/// Whether three bounds are positive numbers, as Move requires.
 bool isDeviation(const franka_core::fci::Deviation& deviation) noexcept;
 
-/// Whether the measured end effector is farther from where it is wanted (O_T_EE_d) than allowed, or
-/// the elbow (elbow_d). Real-time safe.
+/// Whether the measured end effector is farther from the desired one (O_T_EE_d) than allowed, or
+/// the elbow from elbow_d. Real-time safe.
 bool deviates(const franka_core::RobotState& state,
               const franka_core::fci::Deviation& allowed) noexcept;
 

@@ -8,8 +8,8 @@
 
 namespace franka_sim {
 
-/// Configuration of the elbow as the states show it: +1 where joint 4 is at or above
-/// franka_core::kElbowFlip, else -1. Real-time safe. Thread-safe.
+/// Sign of the elbow in the states: +1 where joint 4 is at or above franka_core::kElbowFlip, else
+/// -1. Real-time safe. Thread-safe.
 /// @param q joint positions [rad]
 inline double elbowSign(const std::array<double, 7>& q) noexcept {
   return q[3] >= franka_core::kElbowFlip ? 1.0 : -1.0;

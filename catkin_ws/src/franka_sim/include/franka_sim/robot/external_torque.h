@@ -12,8 +12,8 @@ namespace franka_sim {
 /// External joint torque: the measured torque minus that of the motion's model (decision 3),
 ///   tau_ext = tau_J - [M(q) a + c(q, dq) + g(q)],  a = (dq_k - dq_{k-1}) / T.
 ///
-/// tau_J is a mean over the tick. With n physics substeps the plant evaluated its dynamics at the
-/// start of each, whose mean lies at alpha = (n - 1) / (2 n) of the tick: the model is evaluated
+/// tau_J is a mean over the tick. With n physics substeps the plant evaluates its dynamics at the
+/// start of each; their mean lies at alpha = (n - 1) / (2 n) of the tick, so the model is evaluated
 /// there. The robot's own force counts positive: an outside force F on the arm reads -J^T F
 /// (decision 4). Real-time safe; one thread.
 class ExternalTorque {
@@ -29,7 +29,7 @@ class ExternalTorque {
                                const std::array<double, 3>& gravity_earth,
                                const ArmMeasurement& now) noexcept;
 
-  /// Starts anew from this sample: what happened before it is not explained by motor torques.
+  /// Restarts from this sample: motor torques do not explain the motion before it.
   void restart(const ArmMeasurement& now) noexcept;
 
  private:

@@ -8,13 +8,13 @@
 
 namespace franka_sim {
 
-/// From joint torques to the wrench at the stiffness frame K (decision 5): the undamped
-/// pseudo-inverse of J^T, F = (J J^T)^-1 J tau. Where the arm is singular (smallest singular value
-/// of J below 0.02) no wrench can be told and zero is shown. Forces first [N], then moments about
-/// the origin of K [Nm]. Real-time safe; one thread.
+/// Wrench at the stiffness frame K from joint torques (decision 5): the undamped pseudo-inverse of
+/// J^T, F = (J J^T)^-1 J tau. Where the arm is singular (smallest singular value of J below 0.02)
+/// the wrench is not observable and zero is shown. Forces first [N], then moments about the origin
+/// of K [Nm]. Real-time safe; one thread.
 class ExternalWrench {
  public:
-  /// Prepares the map for the present pose.
+  /// Computes the map for the present pose.
   /// @param O_T_EE pose of the end effector @param J_EE its zero Jacobian in O, 6x7 column-major
   void update(const Transform& O_T_EE, const std::array<double, 42>& J_EE,
               const Transform& EE_T_K) noexcept;

@@ -11,13 +11,12 @@ struct FingerGains {
 
 /// Force law of one finger that follows a desired position: PID on the position with the derivative
 /// taken of the speeds, plus the drive's own damping about the desired speed.
-///
-/// The manual's gains (100, 0, 1) alone leave a finger with its drive's inertia ringing at a
-/// seventh of critical damping for half a second; a real hand's drive does not ring. Real-time
+/// With the manual's gains (100, 0, 1) alone a finger with its drive's inertia oscillates for half
+/// a second, at a seventh of critical damping; a real hand does not. Real-time safe; one thread.
 /// safe; one thread.
 class FingerForce {
  public:
-  /// [N s/m], our choice: critical or above for moving masses of a finger up to 0.16 kg at p = 100
+  /// [N s/m], chosen here: at or above critical for moving finger masses up to 0.16 kg at p = 100
   /// N/m, and stable at 1 kHz from 0.01 kg on.
   static constexpr double kDriveDamping = 7.0;
 
@@ -25,7 +24,7 @@ class FingerForce {
 
   /// @param error q_d - q [m] @param rate_error dq_d - dq [m/s] @param period [s] @returns [N]
   double update(double error, double rate_error, double period) noexcept;
-  /// Forgets the integral.
+  /// Resets the integral.
   void restart() noexcept { integral_ = 0.0; }
 
   const FingerGains& gains() const noexcept { return gains_; }

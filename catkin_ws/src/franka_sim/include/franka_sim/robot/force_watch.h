@@ -9,13 +9,13 @@
 
 namespace franka_sim {
 
-/// The two errors of external torque control for which no rule is published; the rules are ours.
+/// Two errors of external torque control. Their rules are not published; these are chosen here.
 ///
-/// force_control_safety_violation: something outside drives a joint with more torque than its motor
-/// can give, whichever collision thresholds are set.
-/// force_controller_desired_force_tolerance_violation: the torque at the link side has missed the
-/// commanded one by more than 10 Nm for 100 ms: a joint that does not do what it is told.
-/// Real-time safe; one thread.
+/// force_control_safety_violation: an external torque on a joint exceeds what its motor can give,
+/// whatever the collision thresholds are.
+/// force_controller_desired_force_tolerance_violation: the link-side torque has missed the
+/// commanded one by more than 10 Nm for 100 ms: the joint does not follow its command. Real-time
+/// safe; one thread.
 class ForceWatch {
  public:
   void restart() noexcept { missed_ = 0; }

@@ -18,50 +18,48 @@ struct GripperParameters {
   double max_width{0.08};           ///< [m]
   double move_tolerance{0.005};     ///< a move has arrived within this of its width [m]
   double resting_threshold{0.001};  ///< at or below this width speed the fingers stand still [m/s]
-  int consecutive_samples{3};       ///< ticks of standstill before it counts
+  int consecutive_samples{3};       ///< ticks of standstill that count as standing still
   double homing_speed{0.02};        ///< [m/s] (decision 29)
-  double max_speed{0.1};    ///< faster commands are carried out at this speed [m/s], data sheet
-  double max_force{140.0};  ///< stronger grasps are carried out with this force [N], data sheet
-  /// Warming of the motor (our choice; Franka publishes no figures).
+  double max_speed{0.1};            ///< faster commands run at this speed [m/s], data sheet
+  double max_force{140.0};          ///< stronger grasps use this force [N], data sheet
+  /// Heating of the motor, chosen here: Franka publishes no figures.
   double room_temperature{30.0};   ///< of a hand at rest [deg C]
-  double temperature_rise{25.0};   ///< in the end, under max_force [K]
+  double temperature_rise{25.0};   ///< final rise under max_force [K]
   double temperature_time{600.0};  ///< time constant [s]
 };
 
 enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
 
-/// The hand's controller: state machine and force law of both faces (FCI and ROS), stepped once a
-/// millisecond by the thread that steps the world. Commands come from that thread too, between
-/// steps. Allocation-free, deterministic, throws nothing but in the constructor. Widths are totals
-/// of both fingers [m], speeds of the width [m/s], forces the hand's total [N]: each finger presses
+/// The hand's controller: state machine and force law behind both interfaces (FCI and ROS), stepped
+/// once a millisecond by the thread that steps the world. Commands come from that thread too,
+/// between steps. Allocation-free, deterministic; only the constructor throws. Widths are totals of
+/// both fingers [m], speeds of the width [m/s], forces the hand's total [N]: each finger presses
 /// with half (decision 29).
 ///
 /// Idle keeps the fingers where the last command left them, by the position gains alone. A grasp
-/// approaches at its speed until the fingers stand still, then presses (the force builds up within
-/// 0.05 s, pushing a loose object into the middle) and judges the width once they stand still under
-/// the full force. A hold keeps pressing whatever happens to the object; a lost object shows in
-/// `isGrasped`.
+/// approaches at its speed until the fingers stand still, then presses (the force rises within 0.05
+/// s and centres a loose object) and checks the width once they stand still under full force. A
+/// hold keeps pressing even if the object is lost; `isGrasped` shows the loss.
 class GripperUnit {
  public:
-  /// @throws std::invalid_argument with a sentence that names the parameter which makes no sense.
+  /// @throws std::invalid_argument with a sentence that names the invalid parameter.
   explicit GripperUnit(const GripperParameters& parameters);
 
-  /// Names a command; its outcome can be asked for until sixteen more have been given.
+  /// Identifies a command; its outcome is available until sixteen more have been given.
   using Ticket = TicketLog::Ticket;
 
-  /// Closes fully, then opens fully. Fails where something is in the way.
+  /// Closes fully, then opens fully. Fails if an obstacle blocks it.
   Ticket homing() noexcept;
   /// @returns 0 when refused: not finite, negative speed, width outside [0, max_width].
   Ticket move(double width, double speed) noexcept;
-  /// Drives towards `width` and beyond until an object resists; then holds with `force`.
-  /// Succeeds when width - epsilon_inner < measured width < width + epsilon_outer.
-  /// Opens (to hold an object from inside) when width - epsilon_inner lies above the present width,
-  /// else closes. @returns 0 when refused: as for move, or force not finite or negative, or
-  /// epsilons not finite.
+  /// Drives towards `width` and beyond until an object resists; then holds with `force`. Succeeds
+  /// when width - epsilon_inner < measured width < width + epsilon_outer. Opens (to hold an object
+  /// from inside) when width - epsilon_inner lies above the present width, else closes. @returns 0
+  /// when refused: as for move, or force not finite or negative, or epsilons not finite.
   Ticket grasp(double width, double epsilon_inner, double epsilon_outer, double speed,
                double force) noexcept;
-  /// Interrupts what runs and releases the force; the fingers stay where they are. Succeeds at
-  /// once.
+  /// Interrupts the running command and releases the force; the fingers stay where they are.
+  /// Succeeds at once.
   Ticket stop() noexcept;
 
   GripperOutcome outcome(Ticket ticket) const noexcept { return tickets_.outcome(ticket); }
@@ -69,20 +67,21 @@ class GripperUnit {
   /// As last measured [m].
   double width() const noexcept { return measured_.q[0] + measured_.q[1]; }
   double maxWidth() const noexcept { return parameters_.max_width; }  ///< [m]
-  bool isGrasped() const noexcept;  ///< holds an object within the epsilons of the last grasp
+  bool isGrasped()
+      const noexcept;  ///< whether an object is held within the epsilons of the last grasp
 
-  /// Of the motor [deg C]: follows, first-order, the square of the force, as the loss in a motor's
-  /// windings does.
+  /// Motor temperature [deg C]: a first-order lag of the squared force, like the heat loss in a
+  /// motor's windings.
   double temperature() const noexcept { return temperature_; }
 
-  /// Shows a measurement that is finite. Real-time safe.
+  /// Takes over a measurement if it is finite. Real-time safe.
   void observe(const HandMeasurement& measurement) noexcept;
 
   /// One tick. @param period [s] @returns force on each finger, positive opens [N]; zero for a
   /// measurement that is not finite.
   std::array<double, 2> step(const HandMeasurement& measurement, double period) noexcept;
 
-  /// After a reset of the world: idle at the present width. What ran is interrupted.
+  /// Call after a reset of the world: idle at the present width; interrupts the running command.
   void restart() noexcept;
 
  private:
@@ -106,10 +105,10 @@ class GripperUnit {
 
   GripperParameters parameters_;
   GripperState state_{GripperState::kIdle};
-  bool begun_{false};     // the ramp has been set off from the measured width
-  bool homing_{false};    // the move that runs is the closing half of a homing
+  bool begun_{false};     // the ramp has started from the measured width
+  bool homing_{false};    // the running move is the closing half of a homing
   bool pressing_{false};  // the grasp has met resistance
-  double pressed_{0.0};   // for how long it has pressed [s]
+  double pressed_{0.0};   // duration of pressing [s]
   double target_{0.0};    // of the command [m]
   double speed_{0.0};     // of the command [m/s]
   double temperature_;    // [deg C]

@@ -6,10 +6,10 @@
 
 namespace franka_sim {
 
-/// The unit's joint impedance law (decision 10): a spring K to the desired position, a damper
-/// D_i = 1.4 sqrt(K_i (M_ii + B_i)) to the desired velocity, and the Coriolis torques.
-/// D is 0.7 of critical for the inertia the spring sees; a joint without stiffness is not damped
-/// either. Real-time safe; one thread.
+/// Joint impedance law (decision 10): a spring K to the desired position, a damper D_i = 1.4
+/// sqrt(K_i (M_ii + B_i)) to the desired velocity, and the Coriolis torques. D is 0.7 of critical
+/// for the inertia at the spring; a joint without stiffness has no damping either. Real-time safe;
+/// one thread.
 class JointImpedance {
  public:
   /// @param stiffness K [Nm/rad] @param rotor_inertia B [kg m^2]

@@ -6,22 +6,21 @@
 
 namespace franka_sim {
 
-/// Counts the commands of a motion that arrived and those that did not (protocol 5.3). Real-time
-/// safe; one thread.
+/// Counts received and lost commands of a motion (protocol 5.3). Real-time safe; one thread.
 class LossMonitor {
  public:
-  /// So many lost in a row end a motion.
+  /// This many lost commands in a row end a motion.
   static constexpr int kLostInARow = 20;
 
-  /// One tick. Before a motion's first command nothing counts as lost: the client takes states
-  /// without an answer while it starts (protocol 5.2).
-  /// @param patience ticks to wait for that first command @returns whether the client is lost.
+  /// One tick. Before a motion's first command nothing counts as lost: the client receives states
+  /// without answering while it starts (protocol 5.2). @param patience ticks to wait for that first
+  /// command @returns whether the client is lost.
   bool record(bool received, int patience = kPatience) noexcept;
   double rate() const noexcept { return window_.rate(); }
   void restart() noexcept;
 
  private:
-  static constexpr int kPatience = 1000;  // [ticks], our choice: the client's own UDP timeout
+  static constexpr int kPatience = 1000;  // [ticks], chosen here: the client's own UDP timeout
 
   CommandWindow window_;
   int lost_{0};

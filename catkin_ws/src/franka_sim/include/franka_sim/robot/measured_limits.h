@@ -11,9 +11,9 @@
 
 namespace franka_sim {
 
-/// Limits of the measured arm, in every mode in which it is driven (decision 14). The motion
-/// generators check the commands; these limits lie at least 5 % above theirs, so that an arm which
-/// follows well is not stopped.
+/// Limits of the measured arm, in every mode with motor control (decision 14). The motion
+/// generators check the commands; these limits are at least 5 % wider, so that an arm which follows
+/// its commands well is not stopped.
 /// @param O_dP_EE measured twist of EE in O [m/s, rad/s]
 /// @returns the first error of: tau_J_range_violation (|tau_J| above 1.2 times the motors' range),
 /// joint_position_limits_violation (0.005 rad beyond), joint_velocity_violation (1.05 times),
@@ -23,11 +23,11 @@ std::optional<franka_core::RobotError> measuredViolation(
     const franka_core::ArmLimits& limits, const franka_core::RobotState& state,
     const std::array<double, 6>& O_dP_EE) noexcept;
 
-/// Sum of |tau_J dq| over the joints [W]. The data sheet gives the arm's highest electrical power
-/// as about 350 W; what the joints give mechanically cannot be more (our choice).
+/// Sum of |tau_J dq| over the joints [W]. Chosen here: the data sheet gives a peak electrical power
+/// of about 350 W, and the mechanical power cannot exceed it.
 constexpr double kPowerLimit = 350.0;
 
-/// Whether a joint stands 0.005 rad or more beyond its limits, which only the user can mend.
+/// Whether a joint is 0.005 rad or more beyond its limits, so that the user must move it back.
 /// Real-time safe.
 bool beyondJointLimits(const franka_core::ArmLimits& limits,
                        const std::array<double, 7>& q) noexcept;

@@ -10,23 +10,21 @@
 
 namespace franka_sim {
 
-/// Whether the arm can be told to carry such a body: finite, mass not negative, inertia symmetric
-/// without a negative principal moment, within the limits of
-/// franka_core/limits.h. A mass without inertia (a point)
-/// is fine. Real-time safe.
+/// Whether the arm accepts this payload: finite, mass not negative, inertia symmetric without a
+/// negative principal moment, within the limits of franka_core/limits.h. A mass without inertia (a
+/// point) is accepted. Real-time safe.
 bool isPayload(const franka_core::Payload& payload) noexcept;
 
-/// What is wrong with it: a sentence with value, limit and unit; empty if nothing is.
+/// Why it is not accepted: a sentence with value, limit and unit; empty if it is.
 std::string payloadFault(const franka_core::Payload& payload);
 
-/// A frame on the arm is no further from the one it is given in [m] (chosen here).
+/// Largest distance of a frame on the arm from its parent frame [m] (chosen here).
 constexpr double kMaxFrameDistance = 10.0;
 
 /// Whether it is a rigid transform to a frame that can be on the arm. Real-time safe.
 bool isFrame(const std::array<double, 16>& transform) noexcept;
 
-/// What keeps it from being one, as the end of a sentence that names it; empty if nothing does.
-/// Not real-time safe.
+/// Why it is not one, as the end of a sentence that names it; empty if it is. Not real-time safe.
 std::string frameFault(const std::array<double, 16>& transform);
 
 /// Whether all thresholds are finite and not negative. Real-time safe.
@@ -38,8 +36,7 @@ bool isJointStiffness(const std::array<double, 7>& K) noexcept;
 /// Likewise: 10 to 3000 N/m, 1 to 300 Nm/rad. Real-time safe.
 bool isCartesianStiffness(const std::array<double, 6>& K) noexcept;
 
-/// @throws std::invalid_argument with a sentence that names the first parameter which makes no
-/// sense.
+/// @throws std::invalid_argument with a sentence that names the first invalid parameter.
 void checkParameters(const ControlUnitParameters& parameters);
 
 }  // namespace franka_sim

@@ -6,7 +6,7 @@
 
 namespace franka_sim {
 
-/// What the arm's sensors show at the end of a tick of 1 ms.
+/// Readings of the arm's sensors at the end of a tick of 1 ms.
 struct ArmMeasurement {
   std::array<double, 7> q{};   ///< [rad]
   std::array<double, 7> dq{};  ///< [rad/s]
@@ -15,20 +15,20 @@ struct ArmMeasurement {
   std::array<double, 7> tau_J{};
 };
 
-/// A seven-joint arm as its control unit meets it. Implemented by physics/, faked by tests.
-/// Called from the thread that steps the world; no function allocates or throws.
+/// A seven-joint arm as its control unit sees it. Implemented by physics/, faked by tests. Called
+/// from the thread that steps the world; no function allocates or throws.
 class ArmPlant {
  public:
   virtual ~ArmPlant() = default;
-  /// Sensors at the end of the last tick. Right after a reset tau_J is zero plus what was applied.
+  /// Sensors at the end of the last tick. Right after a reset tau_J is the applied torque.
   virtual ArmMeasurement measure() const noexcept = 0;
   /// Motor torques held over the coming tick [Nm].
   virtual void applyTorques(const std::array<double, 7>& tau) noexcept = 0;
-  /// Closed brakes lock the joints where they stand, whatever torque is applied.
+  /// Closed brakes lock the joints where they are, whatever torque is applied.
   virtual void setBrakes(bool closed) noexcept = 0;
 };
 
-/// What the two fingers' sensors show at the end of a tick.
+/// Readings of the two fingers' sensors at the end of a tick.
 struct HandMeasurement {
   std::array<double, 2> q{};   ///< finger positions from closed [m], width = q[0] + q[1]
   std::array<double, 2> dq{};  ///< [m/s]

@@ -20,10 +20,10 @@ constexpr int kHandLink = 8;  ///< its frame: the flange turned by -45 degrees a
 constexpr std::size_t kCapsuleCount = 12;
 
 /// The coarse volumes of arm and hand: those of the links `_sc` of the robot's description, without
-/// safety distance. A test compares them with it.
+/// safety distance. A test compares both.
 extern const std::array<Capsule, kCapsuleCount> kCapsules;
 
-/// The shortest distance of two line segments [m].
+/// The shortest distance between two line segments [m].
 double segmentDistance(const std::array<double, 3>& a0, const std::array<double, 3>& a1,
                        const std::array<double, 3>& b0, const std::array<double, 3>& b1) noexcept;
 
@@ -41,9 +41,9 @@ class SelfCollision {
   /// The closest pair at q [rad].
   Pair closest(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
 
-  /// A motion begins here: pairs that already overlap may part, but not come closer.
+  /// Call when a motion begins: pairs that already overlap may separate, but not approach.
   void begin(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
-  /// @returns whether a pair overlaps, more than it did; `culprit` then names it.
+  /// @returns whether a pair overlaps, and more than at begin(); `culprit` then names it.
   bool violated(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
   const Pair& culprit() const noexcept { return culprit_; }
 

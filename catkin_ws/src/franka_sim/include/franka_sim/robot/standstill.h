@@ -4,20 +4,20 @@
 
 namespace franka_sim {
 
-/// Whether something that was set in motion has come to rest: enough consecutive samples below a
-/// threshold. Samples count after the first motion that was asked for or, for what cannot move at
-/// all, after 0.2 s (decision 29): at the start everything still rests. Real-time safe; one thread.
+/// Whether a commanded motion has come to rest: enough consecutive samples below a threshold.
+/// Samples count after the first motion or, if nothing can move, after 0.2 s (decision 29): at the
+/// start everything still rests. Real-time safe; one thread.
 class Standstill {
  public:
   explicit Standstill(int samples) noexcept : samples_(samples) {}
 
   /// A new motion begins.
   void restart() noexcept;
-  /// Samples count from now on, motion or not.
+  /// Samples count from now on, with or without motion.
   void countFromNow() noexcept { counting_ = true; }
-  /// One tick. @param speed, threshold in the same unit @param period [s] @param asked whether a
-  /// motion can be the answer to the command yet @returns whether it rests.
-  bool update(double speed, double threshold, double period, bool asked = true) noexcept;
+  /// One tick. @param speed, threshold in the same unit @param period [s] @param commanded whether
+  /// a motion can already be the response to the command @returns whether it rests.
+  bool update(double speed, double threshold, double period, bool commanded = true) noexcept;
 
  private:
   int samples_;

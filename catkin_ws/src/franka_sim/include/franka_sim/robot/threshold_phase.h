@@ -4,12 +4,12 @@
 
 namespace franka_sim {
 
-/// Which collision thresholds hold: those of acceleration while a motion generator accelerates, and
-/// 100 ms after; else the nominal ones (decision 15). Real-time safe; one thread.
+/// Which collision thresholds are in effect: those of acceleration while a motion generator
+/// accelerates and 100 ms after; else the nominal ones (decision 15). Real-time safe; one thread.
 class ThresholdPhase {
  public:
   /// One tick. @param accelerating more than a tenth of an acceleration limit is commanded
-  /// @returns whether the thresholds of acceleration hold.
+  /// @returns whether the thresholds of acceleration are in effect.
   bool update(bool accelerating) noexcept {
     remaining_ = accelerating ? kTicks : (remaining_ > 0 ? remaining_ - 1 : 0);
     return accelerating || remaining_ > 0;

@@ -8,7 +8,7 @@ namespace franka_sim {
 
 using franka_core::kTick;
 
-/// Cutoff of the unit's own signal filters [Hz] (decisions 2, 3).
+/// Cutoff of the control unit's own signal filters [Hz] (decisions 2, 3).
 constexpr double kSignalCutoff = 100.0;
 
 }  // namespace franka_sim

@@ -8,7 +8,7 @@
 
 namespace franka_sim {
 
-/// How a command of the gripper ended.
+/// Outcome of a gripper command.
 enum class GripperOutcome {
   kRunning,
   kSucceeded,    ///< arrived, or holds an object within the epsilons
@@ -17,7 +17,7 @@ enum class GripperOutcome {
   kInterrupted,  ///< another command or stop() came first
 };
 
-/// Numbers commands and remembers how the last ones ended. At most one runs at a time: opening a
+/// Numbers commands and stores the outcomes of the last ones. At most one runs at a time: opening a
 /// new one interrupts it. Real-time safe; one thread.
 class TicketLog {
  public:
@@ -25,9 +25,9 @@ class TicketLog {
   static constexpr std::size_t kRemembered = 16;
 
   Ticket open() noexcept;
-  /// Ends the running command; nothing happens when none runs.
+  /// Ends the running command, if any.
   void close(GripperOutcome outcome) noexcept;
-  /// kFailed for 0 and for numbers never given; kInterrupted for those long forgotten.
+  /// kFailed for 0 and for unknown numbers; kInterrupted for those no longer stored.
   GripperOutcome outcome(Ticket ticket) const noexcept;
 
  private:

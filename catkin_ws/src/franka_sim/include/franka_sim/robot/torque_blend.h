@@ -6,22 +6,22 @@
 
 namespace franka_sim {
 
-/// Leads the torque from one control law to the next without a step: what the laws differ by at
-/// the switch is added and fades at the torque rate that the robot allows (protocol 5.5).
-/// Real-time safe; one thread.
+/// Changes from one control law to the next without a torque step: the difference of the laws at
+/// the switch is added and fades at the torque rate that the robot allows (protocol 5.5). Real-time
+/// safe; one thread.
 class TorqueBlend {
  public:
   /// The law changes before the next `apply`.
   void lawChanges() noexcept { changing_ = true; }
-  /// The same, where the next law begins with nothing: what it gives then acts at once.
+  /// The same for a law that starts from zero: its torque acts at once.
   void lawStartsFromZero() noexcept {
     changing_ = false;
     offset_ = last_;
   }
-  /// No torque acts (brakes): nothing to lead over from.
+  /// No torque acts (brakes closed): nothing to blend from.
   void restart() noexcept;
 
-  /// @param tau of the present law [Nm] @returns what is to act [Nm]
+  /// @param tau of the present law [Nm] @returns the torque to apply [Nm]
   std::array<double, 7> apply(const std::array<double, 7>& tau) noexcept;
 
  private:

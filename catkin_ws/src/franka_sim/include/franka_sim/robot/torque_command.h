@@ -6,32 +6,32 @@
 
 namespace franka_sim {
 
-/// Each torque cut to what its motor can give; not finite values become zero.
+/// Each torque saturated to the motor's range; values that are not finite become zero.
 /// @param limit [Nm] Real-time safe.
 std::array<double, 7> saturate(const std::array<double, 7>& tau,
                                const std::array<double, 7>& limit) noexcept;
 
-/// The torque of external control: the last one commanded, cut to the motors' range and held while
-/// commands are missing (protocol 5.3). Real-time safe; one thread.
+/// The torque of external control: the last commanded one, saturated to the motors' range and held
+/// while commands are missing (protocol 5.3). Real-time safe; one thread.
 class TorqueCommand {
  public:
   explicit TorqueCommand(const std::array<double, 7>& limit) noexcept : limit_(limit) {}
 
   /// @param tau without gravity [Nm]; ignored as a whole when any value is not finite
-  /// @returns whether it was taken.
+  /// @returns whether it was accepted.
   bool receive(const std::array<double, 7>& tau) noexcept;
   /// Whether `tau` is not finite, or a step to it exceeds the rate of 1000 Nm/s from both the last
-  /// torque as commanded and the last torque as cut; tolerance 0.01 Nm/s (decision 14).
+  /// commanded and the last saturated torque; tolerance 0.01 Nm/s (decision 14).
   bool jumps(const std::array<double, 7>& tau) const noexcept;
   void clear() noexcept {
     tau_.fill(0.0);
-    asked_.fill(0.0);
+    commanded_.fill(0.0);
   }
   const std::array<double, 7>& value() const noexcept { return tau_; }
 
  private:
   std::array<double, 7> limit_;
-  std::array<double, 7> tau_{}, asked_{};  // cut, and as commanded
+  std::array<double, 7> tau_{}, commanded_{};  // saturated, and as commanded
 };
 
 }  // namespace franka_sim

@@ -14,18 +14,18 @@ namespace franka_sim {
 /// (protocol 3.2). Real-time safe; one thread.
 class VirtualWalls {
  public:
-  static constexpr std::size_t kCount = 8;  ///< numbers 0 to 7, our choice
+  static constexpr std::size_t kCount = 8;  ///< numbers 0 to 7 (chosen here: none published)
 
-  /// @returns whether the number exists and the wall makes sense: edges finite and not negative, a
+  /// @returns whether the number exists and the wall is valid: edges finite and not negative, a
   /// rigid frame.
   bool set(std::int32_t id, const franka_core::fci::CartesianLimit& wall) noexcept;
   /// nullptr if there is no such number.
   const franka_core::fci::CartesianLimit* get(std::int32_t id) const noexcept;
 
-  /// A motion begins here: out of a wall it is in already, the end effector may go.
+  /// Call when a motion begins: an end effector that is inside a wall may move out.
   /// @param O_T_EE 4x4 column-major
   void begin(const std::array<double, 16>& O_T_EE) noexcept;
-  /// Whether the origin of EE is inside an active wall, deeper than it was allowed.
+  /// Whether the origin of EE is inside an active wall, deeper than allowed.
   bool violated(const std::array<double, 16>& O_T_EE) noexcept;
 
  private:

@@ -4,12 +4,12 @@
 
 namespace franka_sim {
 
-/// The desired width of a hand on its way to a target: speeds up and brakes at a constant rate, so
-/// that the fingers neither jerk nor overshoot. Widths [m], speeds of the width [m/s]. Real-time
+/// The desired width of a hand on its way to a target: accelerates and brakes at a constant rate,
+/// so that the fingers neither jerk nor overshoot. Widths [m], speeds of the width [m/s]. Real-time
 /// safe; one thread.
 class WidthRamp {
  public:
-  /// From here (at rest) to the target. @param speed not negative; zero never gets there.
+  /// Starts at rest at `width`. @param speed not negative; with zero it never arrives.
   void start(double width, double target, double speed) noexcept;
   /// Rests at a width.
   void hold(double width) noexcept { start(width, width, 0.0); }

@@ -11,8 +11,8 @@ using franka_core::ArmFrame;
 using franka_core::ArmModel;
 using franka_core::Payload;
 
-// Filled in by the server in the file that it sends; volatile, so that the compiler does not take
-// the zeros for granted.
+// The server fills these in, in the file that it sends; volatile, so that the compiler cannot
+// assume zeros.
 __attribute__((used)) const volatile franka_sim::model_library::Parameters kParameters{
     franka_sim::model_library::kMark, {}};
 

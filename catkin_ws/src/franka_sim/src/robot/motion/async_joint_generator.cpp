@@ -10,9 +10,9 @@ namespace franka_sim {
 
 namespace {
 
-constexpr double kShare = 0.999;  // of the limits that is used, so that rounding never exceeds them
+constexpr double kShare = 0.999;  // used share of the limits, so that rounding never exceeds them
 
-// The highest velocity of this tick from which braking by `step` a tick ends on a target that is
+// The highest velocity of this tick from which braking by `step` per tick ends on a target
 // `distance` ahead. Braking from v covers kTick (v + (v - step) + ...); with n whole steps in v
 // that is kTick ((n + 1) v - step n (n + 1) / 2).
 double landingVelocity(double distance, double step) noexcept {
@@ -45,15 +45,15 @@ void AsyncJointGenerator::step(const MotionLimits& limits) noexcept {
     const double landing = std::copysign(landingVelocity(std::abs(distance), step), distance);
     const double up = kShare * std::min(maximum_velocity_[i], limits.highestVelocity(i, q_[i]));
     const double down = kShare * std::max(-maximum_velocity_[i], limits.lowestVelocity(i, q_[i]));
-    const double wanted = stopping_ ? 0.0 : std::min(std::max(landing, down), up);
+    const double desired = stopping_ ? 0.0 : std::min(std::max(landing, down), up);
     const double before = dq_[i];
-    dq_[i] = std::min(std::max(wanted, before - step), before + step);
-    // The last step lands on the target itself, free of rounding.
+    dq_[i] = std::min(std::max(desired, before - step), before + step);
+    // The last step sets the target itself, without rounding.
     const bool landed = !stopping_ && dq_[i] == landing && std::abs(landing) <= step;
     q_[i] = landed ? target_[i] : q_[i] + dq_[i] * kTick;
     target_[i] = stopping_ && dq_[i] == 0.0 ? q_[i] : target_[i];
     history_[newest_][i] = q_[i];
-    // Differences to the first keep the mean of equal values exact.
+    // Differences to the first value keep the mean of equal values exact.
     double mean = 0.0;
     for (const std::array<double, 7>& past : history_) {
       mean += past[i] - q_[i];

@@ -24,13 +24,14 @@ using Matrix = Eigen::Map<const Eigen::Matrix4d>;
 using MutableMatrix = Eigen::Map<Eigen::Matrix4d>;
 
 // A client's rate limiter shortens an acceleration that would leave the sphere of allowed speeds,
-// in one tick if it must, and so beyond the jerk limit. A rate-limited client is never aborted, so
-// the same is right here. What its margins (lost packets, 99 % of the rotation limits) may cost:
+// if necessary in one tick and beyond the jerk limit. A rate-limited client is never aborted, so
+// this is accepted here. What the limiter's margins (lost packets, 99 % of the rotation limits) may
+// cost:
 constexpr double kSpeedMargin = 0.005;  // [s]: acceleration times this is kept free
 constexpr double kSpeedShare = 0.985;
 constexpr double kBrakingShare = 0.999;
 constexpr double kElbowMargin = 1e-3;  // [rad/s]
-// Floats leave a rotation a little skew, which turns the direction of a small acceleration.
+// Floats slightly skew a rotation, which turns the direction of a small acceleration.
 constexpr double kAccelerationNoise = 5e-4;   // [m/s^2], [rad/s^2]
 constexpr double kMostDirectionNoise = 0.01;  // [rad]
 
@@ -38,21 +39,21 @@ Vector3d part(const Derivative& values, std::size_t first) noexcept {
   return {values[first], values[first + 1], values[first + 2]};
 }
 
-// How much speed fits in a direction until the sphere of radius highest ends.
-double roomFor(const Vector3d& direction, const Vector3d& velocity, double highest) noexcept {
+// The speed along a direction at which the sphere of radius highest ends.
+double speedLeft(const Vector3d& direction, const Vector3d& velocity, double highest) noexcept {
   const double along = direction.dot(velocity);
   const double square = along * along - velocity.squaredNorm() + highest * highest;
   return std::sqrt(std::max(square, 0.0)) - along;
 }
 
-// How far the ray along a direction, from a length on, stays from a point.
+// Distance between a point and the ray along a direction that starts at a length.
 double distanceToRay(const Vector3d& direction, double from, const Vector3d& point) noexcept {
   const double nearest = std::max(from, direction.dot(point));
   return (nearest * direction - point).norm();
 }
 
-// Whether the acceleration is one within the jerk limit, shortened because speed ends; beyond the
-// sphere the limiter turns it round.
+// Whether the acceleration is one within the jerk limit, shortened by the speed limit; beyond the
+// sphere the limiter reverses it.
 bool isShortened(const CartesianSample& step, const CartesianSample& last, std::size_t first,
                  const franka_core::DerivativeLimits& limits) noexcept {
   const Vector3d acceleration = part(step.acceleration, first);
@@ -67,8 +68,8 @@ bool isShortened(const CartesianSample& step, const CartesianSample& last, std::
   const double gain = limits.jerk / limits.acceleration;
   const double reach = limits.jerk * kTick;
   const double noise = std::min(kAccelerationNoise / size, kMostDirectionNoise) * limits.velocity;
-  const double least = gain * (roomFor(direction, velocity, highest) - noise) * kBrakingShare;
-  const double hardest = gain * (noise - roomFor(-direction, velocity, highest)) / kBrakingShare;
+  const double least = gain * (speedLeft(direction, velocity, highest) - noise) * kBrakingShare;
+  const double hardest = gain * (noise - speedLeft(-direction, velocity, highest)) / kBrakingShare;
   return (size >= least && distanceToRay(direction, size, before) <= reach) ||
          (size <= hardest && distanceToRay(-direction, 0.0, before) <= reach);
 }
@@ -90,13 +91,13 @@ bool jerkFails(const CartesianSample& step, const CartesianSample& last, std::si
   return !(part(step.jerk, first).norm() <= limits.jerk) && !isShortened(step, last, first, limits);
 }
 
-// The same for the elbow: it may brake as hard as the limiter's law asks of one that comes close to
-// the limiter's speed.
+// The same for the elbow: it may brake as hard as the limiter's law demands near the limiter's
+// speed.
 bool elbowBrakes(const ElbowSample& step, const ElbowSample& last,
                  const franka_core::DerivativeLimits& limiter) noexcept {
   const double towards = step.dddq3 < 0.0 ? 1.0 : -1.0;
-  const double room = limiter.velocity - kElbowMargin - towards * last.dq3;
-  const double hardest = limiter.jerk / limiter.acceleration * room;
+  const double speed_left = limiter.velocity - kElbowMargin - towards * last.dq3;
+  const double hardest = limiter.jerk / limiter.acceleration * speed_left;
   return towards * step.ddq3 >= hardest - (1.0 - kBrakingShare) * std::abs(hardest);
 }
 
@@ -120,7 +121,7 @@ void differentiate(const CartesianSample& last, CartesianSample& step) noexcept 
   }
 }
 
-// The pose one tick further at a twist in O.
+// The pose one tick later at a twist in O.
 Transform moved(const Transform& pose, const Derivative& twist) noexcept {
   const Matrix from(pose.data());
   Transform result = franka_core::kIdentityTransform;

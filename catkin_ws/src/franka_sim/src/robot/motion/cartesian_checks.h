@@ -9,7 +9,7 @@
 
 namespace franka_sim {
 
-/// The first stage, position to jerk, that a step fails; all failures of the elbow are one flag.
+/// The first stage, position to jerk, that a step fails; all failures of the elbow have one flag.
 /// @param last the sample before it.
 MotionFault judge(const CartesianSample& step, const CartesianSample& last,
                   const MotionLimits& limits) noexcept;
@@ -20,7 +20,7 @@ CartesianSample stepByTwist(const CartesianSample& last, const std::array<double
                             double q3) noexcept;
 /// The step that keeps the accelerations.
 CartesianSample stepByAcceleration(const CartesianSample& last) noexcept;
-/// A history as a client saw it in states of 32 bit floats.
+/// A history as a client reads it from states of 32 bit floats.
 CartesianSample asEchoed(const CartesianSample& sample) noexcept;
 
 }  // namespace franka_sim

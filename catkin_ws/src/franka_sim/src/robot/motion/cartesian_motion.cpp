@@ -82,7 +82,7 @@ MotionFault CartesianMotion::takePose(const Transform& pose, const ElbowCommand&
     step = atRest(step.pose, q3);
   }
   MotionFault fault = judge(step, last_, limits);
-  // Against the history as the client saw it the exact command counts, as it does for the client.
+  // Against the history as read by the client, the exact command counts, as in the client.
   if (fault && limits.echoes_floats && started_) {
     const CartesianSample seen = asEchoed(last_);
     fault = judge(stepToPose(seen, pose, q3), seen, limits) ? fault : MotionFault{};

@@ -34,8 +34,8 @@ Matrix7 withElbowRow(const std::array<double, 42>& jacobian) noexcept {
   return matrix;
 }
 
-// A symmetric matrix minus s^2 times one is positive definite exactly if its eigenvalues exceed
-// s^2, which is cheaper to see than the eigenvalues.
+// A symmetric matrix minus s^2 I is positive definite if and only if its eigenvalues exceed s^2;
+// this test is cheaper than the eigenvalues.
 bool hasSingularValueBelow(const Matrix7& gram, double bound) noexcept {
   Matrix7 shifted = gram;
   shifted.diagonal().array() -= bound * bound;
@@ -47,16 +47,16 @@ double smallestSingularValue(const Matrix7& gram) noexcept {
   return std::sqrt(std::max(solver.eigenvalues()(0), 0.0));
 }
 
-Vector7 residual(const Transform& wanted, double q3_wanted, const Transform& reached,
+Vector7 residual(const Transform& desired, double q3_desired, const Transform& reached,
                  double q3) noexcept {
-  const Eigen::Map<const Eigen::Matrix4d> to(wanted.data());
+  const Eigen::Map<const Eigen::Matrix4d> to(desired.data());
   const Eigen::Map<const Eigen::Matrix4d> from(reached.data());
   const Eigen::Matrix3d turn = to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose();
   Vector7 error;
   error.head<3>() = to.topRightCorner<3, 1>() - from.topRightCorner<3, 1>();
   error.segment<3>(3) << turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1);
   error.segment<3>(3) *= 0.5;
-  error(6) = q3_wanted - q3;
+  error(6) = q3_desired - q3;
   return error;
 }
 

@@ -15,13 +15,13 @@ namespace franka_sim {
 namespace {
 
 // A velocity limit that shrinks with the position cannot be kept by braking within the jerk limit
-// (at 17 rad/s^2 not even within the acceleration's). A client that brakes as the rate limiter of
-// its library does is right nevertheless: a rate-limited client is never aborted. Share that its
-// margins may cost it:
+// (at 17 rad/s^2 not even within the acceleration limit). A client that brakes like the rate
+// limiter of its library is accepted nevertheless: a rate-limited client is never aborted. Share
+// that the limiter's margins may cost:
 constexpr double kBrakingShare = 0.999;
-constexpr double kClientMargin = 1e-3;  // what the client keeps free of a velocity limit [rad/s]
+constexpr double kClientMargin = 1e-3;  // the client's margin to a velocity limit [rad/s]
 
-/// A joint seen in the direction in which it may be too fast.
+/// A joint seen in its direction of motion.
 struct Directed {
   double dq, ddq, last_dq;
   double limit;      // there, at the last position
@@ -40,7 +40,7 @@ Directed downwards(const JointSample& step, const JointSample& last, const Motio
           limits.arm.dq[i]};
 }
 
-// Above a shrinking limit, but with half of the excess gone in this tick or at full braking.
+// Above a shrinking limit, but with half of the excess removed in this tick or at full braking.
 bool comesDown(const Directed& joint, double ddq_max) noexcept {
   const double excess = joint.last_dq - joint.limit;
   const double braking = std::min(0.5 * excess, ddq_max * kTick) * kBrakingShare;
@@ -48,7 +48,7 @@ bool comesDown(const Directed& joint, double ddq_max) noexcept {
          joint.dq <= joint.last_dq - braking;
 }
 
-// Brakes suddenly, but no harder than the limiter's law: jerk / acceleration times what is left to
+// Brakes suddenly, but no harder than the limiter's law: jerk / acceleration times the distance to
 // the limit. (Where the limit shrinks, the law may even exceed the acceleration.)
 bool mustBrake(const Directed& joint, double ddq_max, double dddq_max) noexcept {
   const double hardest = dddq_max / ddq_max * (joint.limit - kClientMargin - joint.last_dq);
@@ -64,7 +64,7 @@ Directed againstChange(double change, const JointSample& step, const JointSample
 bool positionsFail(const JointSample& step, const JointSample& last,
                    const MotionLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
-    // From beyond a limit, back is allowed.
+    // Beyond a limit, motion back is allowed.
     const double highest = std::max(limits.arm.q_max[i], last.q[i]);
     const double lowest = std::min(limits.arm.q_min[i], last.q[i]);
     if (!(step.q[i] <= highest && step.q[i] >= lowest)) {

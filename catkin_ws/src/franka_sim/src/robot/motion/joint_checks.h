@@ -9,7 +9,7 @@
 
 namespace franka_sim {
 
-/// Which flag speaks for which stage, and how far the jerk may go.
+/// The flag of each stage, and the factor on the jerk limit.
 struct JointFlags {
   franka_core::RobotError position, velocity, acceleration, jerk;
   double jerk_factor;
@@ -25,7 +25,7 @@ JointSample stepToPositions(const JointSample& last, const std::array<double, 7>
 JointSample stepByVelocities(const JointSample& last, const std::array<double, 7>& dq) noexcept;
 /// The step that keeps the acceleration.
 JointSample stepByAcceleration(const JointSample& last) noexcept;
-/// A history as a client saw it in states of 32 bit floats.
+/// A history as a client reads it from states of 32 bit floats.
 JointSample asEchoed(const JointSample& sample) noexcept;
 
 }  // namespace franka_sim

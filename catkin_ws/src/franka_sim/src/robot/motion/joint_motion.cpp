@@ -16,9 +16,9 @@ using franka_core::RobotError;
 namespace {
 
 constexpr double kStartTolerance = 1e-3;  // [rad] (decision 13)
-// How much harder than commanded joints those may jerk that follow a Cartesian command (our
-// choice). Steps from one acceleration limit to the other are 4 times the jerk limit, so that any
-// factor above would leave the flag without a meaning.
+// Jerk limit of joints that follow a Cartesian command, relative to commanded joints. Chosen here:
+// a step between the two acceleration limits is 4 times the jerk limit, so that any larger factor
+// would disable the flag.
 constexpr double kSolvedJerkFactor = 3.5;
 
 JointFlags commanded(const MotionLimits& limits) noexcept {
@@ -36,7 +36,7 @@ JointFlags solved(const MotionLimits& limits) noexcept {
 
 using Step = JointSample (*)(const JointSample&, const std::array<double, 7>&);
 
-// Fails only what fails against both histories; the exact one names the flag.
+// Fails only if both histories fail; the exact one determines the flag.
 MotionFault judgeBoth(Step make, const std::array<double, 7>& command, const JointSample& last,
                       const MotionLimits& limits) noexcept {
   const JointFlags flags = commanded(limits);

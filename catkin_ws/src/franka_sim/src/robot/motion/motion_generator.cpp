@@ -24,7 +24,7 @@ using Joints = std::array<double, 7>;
 using Twist = std::array<double, 6>;
 
 constexpr double kAcceleratingShare = 0.1;  // of an acceleration limit (decision 15)
-constexpr double kEcho = 1e-6;  // [rad] that a position may lose on its way to the client and back
+constexpr double kEcho = 1e-6;  // [rad] change of a position on its way to the client and back
 
 bool allPositive(const Joints& values) noexcept {
   return std::all_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
@@ -82,19 +82,19 @@ MotionStartResult MotionGenerator::start(const MotionStart& start, const ArmMode
 MotionStep MotionGenerator::step(const franka_core::RobotCommand* command,
                                  const ArmModel& model) noexcept {
   MotionStep result;
-  const bool asked = command != nullptr && command->motion_generation_finished;
+  const bool finish = command != nullptr && command->motion_generation_finished;
   if (start_.asynchronous) {
-    if (asked) {
+    if (finish) {
       async_.stop();
       finishing_ = true;
     }
-    // What ends the motion is no target: genuine clients leave its numbers zero.
+    // The finishing command is no target: genuine clients leave its numbers zero.
     result.fault = advanceAsync(finishing_ ? nullptr : command);
     result.finished = finishing_ && async_.atRest();
   } else {
     result.fault = isCartesian() ? advanceCartesian(command, model) : advanceJoints(command);
-    result.finished = asked;
-    if (asked && !result.fault) {
+    result.finished = finish;
+    if (finish && !result.fault) {
       result.fault = isCartesian() ? cartesian_.checkStop(limits_) : joints_.checkStop(limits_);
     }
   }
@@ -111,7 +111,7 @@ MotionFault MotionGenerator::advanceAsync(const franka_core::RobotCommand* comma
     }
     Joints target;
     for (std::size_t i = 0; i < 7; i++) {
-      // Where the arm is it may stay, and from beyond its reach it may come back.
+      // The arm may stay where it is, and return from beyond its reach.
       const double here = async_.position()[i];
       const franka_core::JointRange reach = limits_.reach(i);
       const double highest = std::max(reach.highest, here);
@@ -153,9 +153,9 @@ MotionFault MotionGenerator::advanceCartesian(const franka_core::RobotCommand* c
   if (fault || waiting) {
     return fault;
   }
-  const CartesianSample& wanted = cartesian_.last();
-  const InverseKinematics::Solution solution =
-      InverseKinematics::solve(desired_.q_d, wanted.pose, wanted.elbow.q3, start_.F_T_EE, model);
+  const CartesianSample& commanded = cartesian_.last();
+  const InverseKinematics::Solution solution = InverseKinematics::solve(
+      desired_.q_d, commanded.pose, commanded.elbow.q3, start_.F_T_EE, model);
   fault = joints_.takeSolved(solution.q, !solved_, limits_);
   if (!fault) {
     solved_ = true;

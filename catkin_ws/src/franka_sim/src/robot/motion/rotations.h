@@ -7,7 +7,7 @@
 
 namespace franka_sim {
 
-/// The rotation about a vector by its length [rad].
+/// The rotation of a rotation vector [rad].
 inline Eigen::Matrix3d rotationFrom(const Eigen::Vector3d& vector) noexcept {
   const double angle = vector.norm();
   if (!(angle > 0.0)) {
@@ -16,15 +16,15 @@ inline Eigen::Matrix3d rotationFrom(const Eigen::Vector3d& vector) noexcept {
   return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
 }
 
-/// The vector of a rotation: its axis, as long as its angle [rad].
+/// The rotation vector [rad] of a rotation.
 inline Eigen::Vector3d vectorOf(const Eigen::Matrix3d& rotation) noexcept {
   const Eigen::AngleAxisd turn(rotation);
   return turn.angle() * turn.axis();
 }
 
-/// The rotation nearest to a matrix that nearly is one. Newton's iteration for the polar factor:
-/// unlike a detour over quaternions it is smooth, so that rounded matrices cause no jerk. Errors of
-/// 1e-5 vanish in three steps (1e-10, 1e-20).
+/// The rotation nearest to an approximate rotation matrix. Newton's iteration for the polar factor:
+/// unlike a conversion to quaternions it is smooth, so that rounded matrices cause no jerk. Errors
+/// of 1e-5 vanish in three steps (1e-10, 1e-20).
 inline Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& matrix) noexcept {
   Eigen::Matrix3d rotation = matrix;
   for (int i = 0; i < 3; i++) {

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Cartesian commands integrated from jerk: just inside each limit they pass, just outside they
-// raise the flag of their stage and no other. The commands alone are judged here, so that no joint
-// limit is met first.
+// raise only the flag of their stage. Only the commands are checked here, so that no joint limit
+// comes first.
 #include <franka_sim/robot/motion/cartesian_motion.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ Transform startPose() {
   return model().pose(franka_core::ArmFrame::kEndEffector, kReady, handFrame());
 }
 
-/// Drives one part along (or about) a slanted direction by jerk, backward Euler; the rest stands.
+/// Drives one part along (or about) an oblique direction by jerk, backward Euler; the rest stands.
 class CartesianDrive {
  public:
   CartesianDrive(unsigned protocol, CartesianClient client, Part part)
@@ -188,13 +188,13 @@ void passesInsideAndFailsOutside(CartesianClient client, unsigned protocol) {
   }
 }
 
-TEST(CartesianLimits, PosesPassInsideAndRaiseTheFlagOfTheirStageOutside) {
+TEST(CartesianLimits, PosesPassInsideAndRaiseTheirFlagOutside) {
   for (unsigned protocol : kProtocols) {
     passesInsideAndFailsOutside({true, false}, protocol);
   }
 }
 
-TEST(CartesianLimits, TwistsPassInsideAndRaiseTheFlagOfTheirStageOutside) {
+TEST(CartesianLimits, TwistsPassInsideAndRaiseTheirFlagOutside) {
   for (unsigned protocol : kProtocols) {
     passesInsideAndFailsOutside({false, false}, protocol);
   }

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Inverse kinematics against the forward kinematics of ArmModel, and its end near singularities.
+// Inverse kinematics against the forward kinematics of ArmModel, and its behaviour near
+// singularities.
 #include <franka_sim/robot/motion/inverse_kinematics.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ using franka_core::ArmFrame;
 
 Transform forward(const Joints& q) { return model().pose(ArmFrame::kEndEffector, q, handFrame()); }
 
-/// Of the Jacobian with a row for joint 3, by another decomposition than the one under test.
+/// Of the Jacobian with a row for joint 3, by another decomposition than the tested one.
 double smallestSingularValue(const Joints& q) {
   Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();
   const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, q, handFrame());
@@ -46,7 +47,7 @@ Joints randomPose(std::mt19937& engine) {
   return q;
 }
 
-TEST(InverseKinematics, FindsBackTheJointsOfAPoseAndReachesItExactly) {
+TEST(InverseKinematics, RecoversTheJointsOfAPoseExactly) {
   std::mt19937 engine(1);
   int solved = 0;
   for (int i = 0; i < 5000; i++) {
@@ -55,7 +56,7 @@ TEST(InverseKinematics, FindsBackTheJointsOfAPoseAndReachesItExactly) {
       continue;
     }
     solved++;
-    Joints near = q;  // a tick away, at a few rad/s
+    Joints near = q;  // one tick away, at a few rad/s
     for (double& value : near) {
       value += std::uniform_real_distribution<double>(-2e-3, 2e-3)(engine);
     }
@@ -69,7 +70,7 @@ TEST(InverseKinematics, FindsBackTheJointsOfAPoseAndReachesItExactly) {
   EXPECT_GT(solved, 1000);
 }
 
-TEST(InverseKinematics, RefusesToStartWhereTheSmallestSingularValueIsBelowTheBound) {
+TEST(InverseKinematics, RefusesSingularStartPoses) {
   std::mt19937 engine(2);
   int singular = 0;
   for (int i = 0; i < 20000; i++) {
@@ -85,16 +86,16 @@ TEST(InverseKinematics, RefusesToStartWhereTheSmallestSingularValueIsBelowTheBou
 }
 
 TEST(InverseKinematics, TakesOneDampedStepNearASingularity) {
-  // Somewhere on the way to the stretched arm.
+  // On the way to the stretched arm.
   Joints q = kReady;
   for (q[3] = -1.5; smallestSingularValue(q) > 0.015; q[3] += 1e-3) {
     ASSERT_LT(q[3], 0.5);
   }
   const double sigma = smallestSingularValue(q);
   ASSERT_GT(sigma, 0.005);
-  Transform wanted = forward(q);
-  wanted[12] += 1e-4;
-  const auto solution = InverseKinematics::solve(q, wanted, q[2], handFrame(), model());
+  Transform desired = forward(q);
+  desired[12] += 1e-4;
+  const auto solution = InverseKinematics::solve(q, desired, q[2], handFrame(), model());
   EXPECT_TRUE(solution.near_singularity);
   // Closed form by another decomposition: q += sum v s / (s^2 + lambda^2) (u . e).
   Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();

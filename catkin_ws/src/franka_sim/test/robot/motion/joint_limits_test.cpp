@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Joint commands integrated from jerk: just inside each limit they pass, just outside they raise
-// the flag of their stage and no other.
+// only the flag of their stage.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,10 +16,10 @@ using franka_core::RobotError;
 
 namespace {
 
-/// What a client sends and how it keeps its own history.
+/// How a client sends commands and keeps its history.
 struct JointClient {
   MotionGeneratorMode mode;
-  bool reads_floats;  // takes its history from the states on the wire instead of its own
+  bool reads_floats;  // takes its history from the received states instead of its own
 };
 
 /// Drives one joint by jerk, backward Euler, from q at rest; the others stand.
@@ -46,7 +46,7 @@ class JointDrive {
     fault_ = motion_.step(command()).fault;
   }
 
-  /// One tick towards an acceleration, with this jerk at most.
+  /// One tick towards an acceleration, limited by this jerk.
   void tickTowards(double acceleration, double jerk) {
     const double seen = client_.reads_floats ? asFloat(motion_.desired().ddq_d[joint_]) : a_;
     tick(std::min(std::max((acceleration - seen) / kTick, -jerk), jerk));
@@ -79,7 +79,7 @@ class JointDrive {
   MotionFault fault_;
 };
 
-// Forth and back at full jerk, so that a float's rounding cannot hide all of it.
+// Alternates at full jerk, so that a float's rounding cannot hide all of it.
 void reachJerk(JointDrive& drive, double share, std::size_t joint) {
   const double jerk = share * drive.limits().arm.dddq[joint];
   for (int i = 0; i < 20; i++) {
@@ -106,7 +106,7 @@ void reachVelocity(JointDrive& drive, double share, std::size_t joint) {
   const double target = share * drive.limits().arm.dq[joint];
   const double acceleration = 0.8 * drive.limits().arm.ddq[joint];
   const double jerk = 0.5 * drive.limits().arm.dddq[joint];
-  // The way down from this acceleration takes a / j seconds and adds a^2 / 2j; then slowly up.
+  // Ramping down from this acceleration takes a / j seconds and adds a^2 / 2j; then slowly up.
   const double rest = 0.5 * acceleration * acceleration / jerk + 2.0 * acceleration * kTick;
   speedUpTo(drive, target - rest, acceleration, jerk);
   drive.accelerateTo(0.0, jerk);
@@ -123,7 +123,7 @@ const std::vector<Stage> kStages{
     {RobotError::kJointMotionGeneratorVelocityDiscontinuity, reachAcceleration},
     {RobotError::kJointMotionGeneratorVelocityLimitsViolation, reachVelocity}};
 
-/// Where there is room to reach the highest velocity upwards.
+/// A pose with enough range to reach the highest velocity upwards.
 Joints lowPose(const MotionLimits& limits) {
   Joints q = limits.arm.q_min;
   for (double& value : q) {
@@ -149,13 +149,13 @@ void passesInsideAndFailsOutside(JointClient client, unsigned protocol, double o
   }
 }
 
-TEST(JointLimits, PositionsPassInsideAndRaiseTheFlagOfTheirStageOutside) {
+TEST(JointLimits, PositionsPassInsideAndRaiseTheirFlagOutside) {
   for (unsigned protocol : kProtocols) {
     passesInsideAndFailsOutside({MotionGeneratorMode::kJointPosition, false}, protocol, 1.01);
   }
 }
 
-TEST(JointLimits, VelocitiesPassInsideAndRaiseTheFlagOfTheirStageOutside) {
+TEST(JointLimits, VelocitiesPassInsideAndRaiseTheirFlagOutside) {
   for (unsigned protocol : kProtocols) {
     passesInsideAndFailsOutside({MotionGeneratorMode::kJointVelocity, false}, protocol, 1.01);
   }
@@ -166,7 +166,7 @@ TEST(JointLimits, ClientsThatReadFloatsPassInsideAndFailOutside) {
   passesInsideAndFailsOutside({MotionGeneratorMode::kJointVelocity, true}, 10, 1.01);
 }
 
-TEST(JointLimits, PositionsEndAtTheRangeAndTheFlagDependsOnTheSystem) {
+TEST(JointLimits, PositionsEndAtTheRangeWithTheFlagOfTheSystem) {
   for (const auto& [protocol, flag] :
        {std::pair{5U, RobotError::kJointMotionGeneratorPositionLimitsViolation},
         std::pair{8U, RobotError::kJointMotionGeneratorPositionLimitsViolation},
@@ -204,7 +204,7 @@ TEST(JointLimits, VelocitiesEndAtTheRangeToo) {
   EXPECT_NEAR(2.8973, motion.desired().q_d[0], 2e-4);
 }
 
-TEST(JointLimits, FromBeyondTheRangeOnlyTheWayBackIsOpen) {
+TEST(JointLimits, BeyondTheRangeOnlyMotionBackIsAllowed) {
   Joints q = kReady;
   q[0] = 2.91;
   for (const double direction : {-1.0, 1.0}) {
@@ -216,7 +216,7 @@ TEST(JointLimits, FromBeyondTheRangeOnlyTheWayBackIsOpen) {
   }
 }
 
-TEST(JointLimits, TheSpeedOfAnFr3ShrinksTowardsTheEndsOfItsJoints) {
+TEST(JointLimits, SpeedLimitOfAnFr3ShrinksTowardsTheEnds) {
   for (unsigned protocol : {8U, 10U}) {
     const MotionLimits limits = motionLimitsOfProtocol(protocol);
     for (std::size_t joint = 0; joint < 7; joint++) {
@@ -243,7 +243,7 @@ TEST(JointLimits, TheSpeedOfAnFr3ShrinksTowardsTheEndsOfItsJoints) {
   }
 }
 
-TEST(JointLimits, WhatIsNotFiniteIsRefused) {
+TEST(JointLimits, NonFiniteCommandsAreRefused) {
   for (const double bad : {NAN, INFINITY, -INFINITY}) {
     Joints q = kReady;
     q[4] = bad;

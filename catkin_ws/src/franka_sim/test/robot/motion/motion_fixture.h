@@ -36,7 +36,7 @@ inline const franka_core::ArmModel& model() {
   return arm;
 }
 
-/// A value as 32 bit floats carry it. Volatile: see src/robot/motion/as_echoed.h.
+/// A value rounded to 32 bit float. Volatile: see src/robot/motion/as_echoed.h.
 inline double asFloat(double value) {
   const volatile float narrow = static_cast<float>(value);
   return narrow;

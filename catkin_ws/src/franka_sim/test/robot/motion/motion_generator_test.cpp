@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The generators as a whole: starts, what the states show, lost commands, finishing, the elbow.
+// The generators as a whole: starts, states, lost commands, finishing, the elbow.
 #include <franka_sim/robot/motion/motion_generator.h>
 #include <gtest/gtest.h>
 #include <rt_guard/rt_guard.h>
@@ -21,7 +21,7 @@ using franka_core::ArmFrame;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// A smooth way from 0 to 1 in one second and its derivative.
+/// A smooth path from 0 to 1 in one second and its derivative.
 double way(double t) { return 0.5 * (1.0 - std::cos(kPi * std::min(t, 1.0))); }
 
 Transform forward(const Joints& q) { return model().pose(ArmFrame::kEndEffector, q, handFrame()); }
@@ -58,7 +58,7 @@ Joints speedsAt(double t) {
   return dq;
 }
 
-/// What a client of each generator sends at time t of the same smooth motion.
+/// Command of each generator at time t of the same smooth motion.
 RobotCommand commandAt(MotionGeneratorMode mode, double t) {
   switch (mode) {
     case MotionGeneratorMode::kJointPosition:
@@ -123,7 +123,7 @@ TEST_P(EachGenerator, ShowsConsistentStatesAlongASmoothMotion) {
       EXPECT_EQ(-1.0, now.elbow_c[1]);
       before = now;
     }
-    // Where the motion leads: by integration of velocities a millisecond's worth off.
+    // End of the motion: integrated velocities may be off by one millisecond.
     if (cartesian()) {
       expectNear(movedBy(1.0), before.O_T_EE_c, 1e-5, "end");
       EXPECT_NEAR(kReady[2], before.q_d[2], 1e-12);
@@ -167,7 +167,7 @@ TEST_P(EachGenerator, KeepsTheAccelerationWhileCommandsAreLost) {
         EXPECT_EQ(at.ddq_d[i], now.ddq_d[i]);
       }
     }
-    // A client that goes by the clock finds the arm where it expects it.
+    // A client that follows the clock finds the arm where it expects it.
     if (lost <= 10) {
       const MotionStep step = motion.step(commandAt(GetParam(), (250 + lost) * kTick));
       EXPECT_FALSE(lost <= 2 && step.fault) << "after " << lost;
@@ -184,7 +184,7 @@ TEST_P(EachGenerator, NothingMovesBeforeTheFirstCommand) {
   EXPECT_FALSE(motion.step(commandAt(GetParam(), 0.0)).fault);
 }
 
-TEST_P(EachGenerator, RefusesAFinishInFullMotion) {
+TEST_P(EachGenerator, RefusesAFinishAtSpeed) {
   const RobotError flag = cartesian() ? RobotError::kCartesianMotionGeneratorVelocityDiscontinuity
                                       : RobotError::kJointMotionGeneratorVelocityDiscontinuity;
   Motion motion(5, GetParam());

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Starts, elbows, frames, the resume trap, braking and the asynchronous generator.
+// Starts, elbows, frames, resuming after losses, braking and the asynchronous generator.
 #include <franka_sim/robot/motion/motion_generator.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ Transform shifted(double x) {
   return pose;
 }
 
-TEST(MotionStart, RefusesWhatItCannotDo) {
+TEST(MotionStart, RefusesInvalidStarts) {
   MotionGenerator generator;
   MotionStart start;
   start.q_d = kReady;
@@ -50,7 +50,7 @@ TEST(MotionStart, RefusesWhatItCannotDo) {
   EXPECT_EQ(MotionStartResult::kInvalidArgument, generator.start(start, model()));
 }
 
-TEST(MotionStart, ASingularPoseStopsCartesianMotionsOnly) {
+TEST(MotionStart, SingularPoseRefusesCartesianMotionsOnly) {
   MotionGenerator generator;
   MotionStart start;  // q_d is zero: the arm stretched up
   for (const auto& [mode, result] :
@@ -63,7 +63,7 @@ TEST(MotionStart, ASingularPoseStopsCartesianMotionsOnly) {
   }
 }
 
-TEST(MotionStart, TheFirstCommandMustBeWhereTheArmIsWanted) {
+TEST(MotionStart, FirstCommandMustEqualTheDesiredPosition) {
   for (const double offset : {0.99e-3, -0.99e-3, 1.01e-3, -1.01e-3}) {
     const bool far = std::abs(offset) > 1e-3;
     Joints q = kReady;
@@ -76,7 +76,7 @@ TEST(MotionStart, TheFirstCommandMustBeWhereTheArmIsWanted) {
     EXPECT_EQ(far ? MotionFault(RobotError::kCartesianPositionMotionGeneratorStartPoseInvalid)
                   : MotionFault(),
               cartesian.step(pose(shifted(offset))).fault);
-    if (!far) {  // history starts there, at rest
+    if (!far) {  // the history starts there, at rest
       EXPECT_EQ(q, joints.desired().q_d);
       EXPECT_EQ(Joints{}, joints.desired().dq_d);
       EXPECT_EQ(Joints{}, cartesian.desired().dq_d);
@@ -94,7 +94,7 @@ TEST(MotionStart, TheFirstCommandMustBeWhereTheArmIsWanted) {
   }
 }
 
-TEST(MotionStart, AFloatsRoundingIsWithinTheTolerances) {
+TEST(MotionStart, RoundingToFloatsIsWithinTheTolerances) {
   Motion joints(10, MotionGeneratorMode::kJointPosition);
   Joints q = kReady;
   std::transform(q.begin(), q.end(), q.begin(), asFloat);
@@ -107,7 +107,7 @@ TEST(MotionStart, AFloatsRoundingIsWithinTheTolerances) {
   }
 }
 
-TEST(Frames, WhatIsNoRigidMotionIsRefused) {
+TEST(Frames, NonRigidTransformsAreRefused) {
   const Transform good = startPose();
   for (std::size_t i = 0; i < 16; i++) {
     for (const double bad : {good[i] + 0.1, static_cast<double>(NAN)}) {
@@ -126,7 +126,7 @@ TEST(Frames, WhatIsNoRigidMotionIsRefused) {
             motion.step(twist({{0, 0, 0, NAN, 0, 0}})).fault);
 }
 
-TEST(Elbow, MovesTheArmAboutAHandThatStays) {
+TEST(Elbow, MovesTheArmWithoutMovingTheHand) {
   Motion motion(5, MotionGeneratorMode::kCartesianPosition);
   for (int tick = 0; tick <= 1000; tick++) {
     const double q3 = 0.1 * (1.0 - std::cos(3.14159265 * tick * kTick));
@@ -138,12 +138,12 @@ TEST(Elbow, MovesTheArmAboutAHandThatStays) {
   }
   EXPECT_NEAR(0.2, motion.desired().elbow_d[0], 1e-9);
   EXPECT_GT(std::abs(motion.desired().q_d[0] - kReady[0]), 0.05);
-  // Without a command it stays where it was commanded last.
+  // Without a command the elbow stays where it was commanded last.
   EXPECT_FALSE(motion.step(pose(startPose())).fault);
   EXPECT_NEAR(0.2, motion.desired().elbow_c[0], 1e-9);
 }
 
-TEST(Elbow, MustBeOnItsSideAndFinite) {
+TEST(Elbow, MustKeepItsSignAndBeFinite) {
   for (const double sign : {1.0, 0.0, 0.5, static_cast<double>(NAN)}) {
     Motion motion(5, MotionGeneratorMode::kCartesianPosition);
     EXPECT_EQ(RobotError::kCartesianMotionGeneratorElbowSignInconsistent,
@@ -154,8 +154,8 @@ TEST(Elbow, MustBeOnItsSideAndFinite) {
             motion.step(withElbow(pose(startPose()), NAN)).fault);
 }
 
-TEST(SolvedJoints, RaiseFlagsOfTheirOwn) {
-  // Fast enough for the hand, too fast for the joints: near its reach the elbow must open quickly.
+TEST(SolvedJoints, RaiseTheirOwnFlags) {
+  // Slow enough for the hand, too fast for the joints: near its reach the elbow must open quickly.
   const auto flagOf = [](unsigned protocol, const Joints& q, const Twist& way,
                          double acceleration) {
     Motion motion(protocol, MotionGeneratorMode::kCartesianVelocity, q);
@@ -184,7 +184,7 @@ TEST(SolvedJoints, RaiseFlagsOfTheirOwn) {
             flagOf(5, close_to_end, turn, 0.1));
 }
 
-TEST(SolvedJoints, MayJerkThreeAndAHalfTimesAsHardAsCommandedOnes) {
+TEST(SolvedJoints, HaveThreeAndAHalfTimesTheJerkLimit) {
   for (const auto& [acceleration, fault] :
        {std::pair{12.5, MotionFault()},
         std::pair{
@@ -208,7 +208,7 @@ TEST(SolvedJoints, MayJerkThreeAndAHalfTimesAsHardAsCommandedOnes) {
   }
 }
 
-TEST(ResumeTrap, AClientThatGoesOnFromItsOwnLastCommandIsRefusedAfterALoss) {
+TEST(ResumeTrap, ResumingFromTheOwnLastCommandAfterALossIsRefused) {
   for (int lost = 1; lost <= 19; lost++) {
     for (const bool from_the_state : {false, true}) {
       Motion motion(5, MotionGeneratorMode::kJointPosition);
@@ -227,8 +227,8 @@ TEST(ResumeTrap, AClientThatGoesOnFromItsOwnLastCommandIsRefusedAfterALoss) {
       }
       q[0] = (from_the_state ? motion.desired().q_d[0] : q[0]) + v * kTick;
       const MotionFault fault = motion.step(jointPositions(q)).fault;
-      // Alone it stands 0.3 mrad a lost tick behind: 300 rad/s^2 and more. One lost command asks
-      // for no speed beyond the limit, ten do (3 rad/s backwards).
+      // Resumed at its own last command, it jumps by 0.3 mrad per lost tick: 300 rad/s^2 and more.
+      // One lost command needs no speed beyond the limit, ten do (3 rad/s backwards).
       const RobotError flag = lost >= 9 ? RobotError::kJointMotionGeneratorVelocityLimitsViolation
                                         : RobotError::kJointMotionGeneratorVelocityDiscontinuity;
       EXPECT_EQ(from_the_state ? MotionFault() : MotionFault(flag), fault) << lost;
@@ -252,7 +252,7 @@ TEST(BrakeTrajectory, StopsEachJointAtItsFullAcceleration) {
     for (std::size_t i = 0; i < 7; i++) {
       EXPECT_LE(std::abs(brake.ddq()[i]), arm.ddq[i] * (1 + 1e-12));
       EXPECT_NEAR((brake.q()[i] - before[i]) / kTick, brake.dq()[i], 1e-12);
-      EXPECT_GE(brake.dq()[i] * dq[i], 0.0);  // never turns round
+      EXPECT_GE(brake.dq()[i] * dq[i], 0.0);  // never reverses
     }
   }
   EXPECT_EQ(static_cast<int>(std::ceil(2.175 / 7.5 / kTick)), ticks);  // joint 2 takes longest
@@ -266,7 +266,7 @@ TEST(BrakeTrajectory, StopsEachJointAtItsFullAcceleration) {
   EXPECT_TRUE(brake.atRest());
 }
 
-/// An asynchronous motion and a judge of what it does.
+/// An asynchronous motion and a check of its limits.
 struct Async {
   explicit Async(unsigned protocol, double maximum_velocity = 1.0)
       : generator(motionLimitsOfProtocol(protocol)) {
@@ -295,7 +295,7 @@ struct Async {
   MotionGenerator generator;
 };
 
-TEST(AsyncJointGenerator, ReachesATargetExactlyAndInTheTimeATrapezoidTakes) {
+TEST(AsyncJointGenerator, ReachesATargetExactlyInTrapezoidTime) {
   for (unsigned protocol : kProtocols) {
     Async motion(protocol);
     const auto& arm = motion.generator.limits().arm;
@@ -353,7 +353,7 @@ TEST(AsyncJointGenerator, TakesNewTargetsAtAnyTime) {
   }
 }
 
-/// Where an FR3's joint can still go to in one direction, and a place beyond that within its
+/// The last reachable position of an FR3's joint in one direction, and one beyond it within its
 /// limits.
 struct End {
   std::size_t joint;
@@ -395,7 +395,7 @@ TEST(AsyncJointGenerator, ReachesTheLastTargetItAcceptsAndRefusesTheNext) {
   }
 }
 
-TEST(AsyncJointGenerator, AnArmInADeadZoneMayStayThereAndComeBack) {
+TEST(AsyncJointGenerator, AnArmBeyondItsReachMayStayOrReturn) {
   for (const End& end : endsOf(motionLimitsOfProtocol(10))) {
     MotionGenerator generator(motionLimitsOfProtocol(10));
     MotionStart start;
@@ -404,7 +404,7 @@ TEST(AsyncJointGenerator, AnArmInADeadZoneMayStayThereAndComeBack) {
     start.asynchronous = true;
     start.maximum_velocity.fill(1.0);
     ASSERT_EQ(MotionStartResult::kStarted, generator.start(start, model()));
-    // As the client reads it in a state of protocol 10.
+    // As the client reads it from a state of protocol 10.
     Joints target = start.q_d;
     target[end.joint] = static_cast<double>(static_cast<float>(end.dead));
     RobotCommand command = jointPositions(target);
@@ -419,7 +419,7 @@ TEST(AsyncJointGenerator, AnArmInADeadZoneMayStayThereAndComeBack) {
   }
 }
 
-TEST(AsyncJointGenerator, AFinishBrakesAndEndsWhateverTheTarget) {
+TEST(AsyncJointGenerator, FinishBrakesAndEndsForAnyTarget) {
   for (const double maximum_velocity : {1e-9, 1.5}) {
     Async motion(10, maximum_velocity);
     Joints target = kReady;
@@ -441,7 +441,7 @@ TEST(AsyncJointGenerator, AFinishBrakesAndEndsWhateverTheTarget) {
   }
 }
 
-TEST(AsyncJointGenerator, RefusesTargetsItMustNotReach) {
+TEST(AsyncJointGenerator, RefusesTargetsOutOfReach) {
   for (const auto& [protocol, flag] :
        {std::pair{8U, RobotError::kJointMotionGeneratorPositionLimitsViolation},
         std::pair{10U, RobotError::kJointPositionLimitsViolation}}) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// A client that limits its commands as libfranka does is never aborted, whatever it wants to reach:
+// A client that limits its commands as libfranka does is never aborted, whatever its targets:
 // random targets, every robot, states as doubles and as floats.
 #include <franka/rate_limiting.h>
 #include <franka_sim/robot/motion/cartesian_motion.h>
@@ -38,7 +38,7 @@ struct Bounds {
   MotionLimits limits;
 };
 
-/// Reads states as they come over the wire.
+/// Reads states as sent over the network.
 struct Wire {
   bool floats;
   double operator()(double value) const { return floats ? asFloat(value) : value; }
@@ -52,7 +52,7 @@ struct Wire {
 };
 
 // The FR3's limiter, with the two velocity limits at q (protocol 5.6).
-Joints limitFr3(const Bounds& bounds, const Joints& q, const Joints& wanted, const Joints& v,
+Joints limitFr3(const Bounds& bounds, const Joints& q, const Joints& desired, const Joints& v,
                 const Joints& a) {
   Joints limited{};
   for (std::size_t i = 0; i < 7; i++) {
@@ -60,7 +60,7 @@ Joints limitFr3(const Bounds& bounds, const Joints& q, const Joints& wanted, con
     const auto& table = bounds.limits.velocity_near_ends;
     const double high = franka_core::upperVelocityLimit(table, i, q[i]) - franka::kLimitEps;
     const double low = franka_core::lowerVelocityLimit(table, i, q[i]) + franka::kLimitEps;
-    const double jerk = ((wanted[i] - v[i]) / kTick - a[i]) / kTick;
+    const double jerk = ((desired[i] - v[i]) / kTick - a[i]) / kTick;
     const double acceleration = a[i] + std::max(std::min(jerk, b.jerk), -b.jerk) * kTick;
     const double gain = b.jerk / b.acceleration;
     const double up = std::min(gain * (high - v[i]), b.acceleration);
@@ -70,23 +70,23 @@ Joints limitFr3(const Bounds& bounds, const Joints& q, const Joints& wanted, con
   return limited;
 }
 
-Joints limitVelocities(const Bounds& bounds, const Joints& q, const Joints& wanted, const Joints& v,
-                       const Joints& a) {
+Joints limitVelocities(const Bounds& bounds, const Joints& q, const Joints& desired,
+                       const Joints& v, const Joints& a) {
   return bounds.protocol <= 5
              ? franka::limitRate(franka::kMaxJointVelocity, franka::kMaxJointAcceleration,
-                                 franka::kMaxJointJerk, wanted, v, a)
-             : limitFr3(bounds, q, wanted, v, a);
+                                 franka::kMaxJointJerk, desired, v, a)
+             : limitFr3(bounds, q, desired, v, a);
 }
 
-Joints limitPositions(const Bounds& bounds, const Joints& wanted, const Joints& q, const Joints& v,
+Joints limitPositions(const Bounds& bounds, const Joints& desired, const Joints& q, const Joints& v,
                       const Joints& a) {
   if (bounds.protocol <= 5) {
     return franka::limitRate(franka::kMaxJointVelocity, franka::kMaxJointAcceleration,
-                             franka::kMaxJointJerk, wanted, q, v, a);
+                             franka::kMaxJointJerk, desired, q, v, a);
   }
   Joints velocities{};
   for (std::size_t i = 0; i < 7; i++) {
-    velocities[i] = (wanted[i] - q[i]) / kTick;
+    velocities[i] = (desired[i] - q[i]) / kTick;
   }
   Joints limited = limitFr3(bounds, q, velocities, v, a);
   for (std::size_t i = 0; i < 7; i++) {
@@ -110,7 +110,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// The middle half of a joint's range, where the limiter, which knows no positions, can stop.
+/// The middle half of a joint's range, where the limiter, which ignores positions, can stop.
 Joints middle(const MotionLimits& limits, Random& random) {
   Joints q{};
   for (std::size_t i = 0; i < 7; i++) {

@@ -12,21 +12,20 @@
 #include <vector>
 
 /// @file
-/// Joint targets to which the robot finds its own way (protocol 10).
+/// Joint targets to which the robot plans its own motion (protocol 10).
 
 namespace franka {
 
-/// Sends the robot from one joint position to the next; a new target may be set at any time, also
-/// on the way to another. Failures are told in the results, not thrown. To be used from one thread;
-/// not for the 1 kHz loop.
+/// Moves the robot from one joint position to the next; a new target may be set at any time, also
+/// during a motion. Failures are returned, not thrown. Use from one thread; not for the 1 kHz loop.
 class AsyncPositionControlHandler {
  public:
-  /// How the targets are approached.
+  /// How targets are approached.
   struct Configuration {
     std::vector<double> maximum_joint_velocities;  ///< seven limits [rad/s]
     double goal_tolerance{0.001};  ///< a target is reached within this norm of joint angles [rad]
   };
-  /// A handler, or why there is none.
+  /// A handler, or the reason why there is none.
   struct ConfigurationResult {
     std::shared_ptr<AsyncPositionControlHandler> handler;
     std::optional<std::string> error_message;
@@ -37,11 +36,11 @@ class AsyncPositionControlHandler {
   };
   /// Whether a target was sent.
   struct CommandResult {
-    std::string motion_uuid;  ///< names this target in logs; empty where there is none
+    std::string motion_uuid;  ///< identifies this target in logs; empty on failure
     bool was_successful{false};
     std::optional<std::string> error_message;
   };
-  /// What became of the last target.
+  /// Progress towards the last target.
   struct TargetFeedback {
     TargetStatus status{TargetStatus::kIdle};
     std::optional<std::string> error_message;
@@ -56,10 +55,10 @@ class AsyncPositionControlHandler {
                                        const Configuration& configuration);
   ~AsyncPositionControlHandler();
 
-  /// Sends a target in answer to the next state, which is waited for.
+  /// Sends a target in answer to the next state, for which it waits.
   CommandResult setJointPositionTarget(const JointPositionTarget& target);
-  /// @param robot_state the newest state; without it the next one is waited for. One of this motion
-  /// in another mode than kMove shows that the motion has ended.
+  /// @param robot_state the newest state; without it the next one is awaited. A state of this
+  /// motion in another mode than kMove shows that the motion has ended.
   TargetFeedback getTargetFeedback(const std::optional<RobotState>& robot_state = std::nullopt);
   /// Stops the robot and ends the motion.
   void stopControl();

@@ -3,11 +3,11 @@
 #pragma once
 
 /// @file
-/// What becomes of a target of franka::AsyncPositionControlHandler.
+/// Progress towards a target of franka::AsyncPositionControlHandler.
 
 namespace franka {
 
-/// How far the way to a target has come.
+/// Progress towards a target.
 enum class TargetStatus {
   kIdle,           ///< no target has been set
   kExecuting,      ///< on the way

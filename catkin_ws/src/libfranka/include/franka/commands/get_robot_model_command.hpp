@@ -5,11 +5,11 @@
 #include <string>
 
 /// @file
-/// The answer to the command that asks a robot for its description.
+/// The reply to the request for the robot's description.
 
 namespace franka {
 
-/// What Robot::getRobotModel receives.
+/// Result of Robot::getRobotModel.
 struct GetRobotModelResult {
   std::string robot_model_urdf;  ///< the URDF text
 };

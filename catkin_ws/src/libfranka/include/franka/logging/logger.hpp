@@ -9,15 +9,14 @@
 #include <vector>
 
 /// @file
-/// Messages that go to the sinks which the program registers. Without a sink they are dropped; only
-/// the library's own warnings then go to standard error. All functions are thread-safe. Not
-/// real-time safe.
+/// Messages for the sinks that the program registers. Without a sink only the library's own
+/// warnings are written, to standard error. All functions are thread-safe. Not real-time safe.
 ///
 ///   franka::logging::addLogger(std::make_shared<franka::CoutLoggingSink>());
 
 namespace franka::logging {
 
-/// Registers a sink. Where one of the same name is registered already, that one stays.
+/// Registers a sink. If one of the same name is already registered, that one stays.
 /// @throws std::invalid_argument for a null pointer.
 void addLogger(const std::shared_ptr<LoggingSinkInterface>& logger);
 /// Removes the sink of this name, if there is one.
@@ -32,12 +31,12 @@ void logWarn(const std::string& message);
 void logError(const std::string& message);
 /// @}
 
-/// A text with its placeholders replaced in order: each `{}`, also one with a format such as
+/// Replaces the placeholders of a text in order: each `{}`, also one with a format such as
 /// `{:.3f}`, which is not applied. `{{` and `}}` stand for braces. Placeholders without a value
 /// stay.
 std::string fill(const std::string& text, const std::vector<std::string>& values);
 
-/// A value as `std::ostream` writes it.
+/// A value as written by `std::ostream`.
 template <typename Value>
 std::string toText(const Value& value) {
   std::ostringstream text;

@@ -5,17 +5,17 @@
 #include <string>
 
 /// @file
-/// Where messages of the library go.
+/// Receiver of the library's messages.
 
 namespace franka {
 
-/// Takes messages; registered with franka::logging::addLogger. Its functions may be called from any
-/// thread, one at a time, and never from the 1 kHz loop. They must not call franka::logging.
+/// Receives messages; registered with franka::logging::addLogger. Its functions may be called from
+/// any thread, one at a time, and never from the 1 kHz loop. They must not call franka::logging.
 class LoggingSinkInterface {
  public:
   virtual ~LoggingSinkInterface() = default;
 
-  /// What removeLogger calls it. Must not change while it is registered.
+  /// Name for removeLogger. Must not change while it is registered.
   virtual std::string getName() const = 0;
 
   virtual void logInfo(const std::string& message) = 0;

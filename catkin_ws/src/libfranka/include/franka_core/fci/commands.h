@@ -9,8 +9,8 @@
 #include <variant>
 
 /// @file
-/// What a client asks of the robot and what the robot answers, the same for every protocol version.
-/// Transforms are 4x4, inertias 3x3, both column-major; [m] [rad] [N] [Nm] [kg] [s].
+/// Requests of a client and replies of the robot, the same for every protocol version. Transforms
+/// are 4x4, inertias 3x3, both column-major; [m] [rad] [N] [Nm] [kg] [s].
 
 namespace franka_core::fci {
 
@@ -56,12 +56,12 @@ constexpr std::size_t kStatusCount = 15;
 
 struct ConnectRequest {
   std::uint16_t version{0};
-  std::uint16_t udp_port{0};  ///< where the client awaits states
+  std::uint16_t udp_port{0};  ///< the client's port for states
 };
 
-/// How far the arm may be from where it is wanted.
+/// Allowed distance of the arm from its desired pose.
 struct Deviation {
-  double translation{10.0};         ///< [m]; the defaults are what the genuine client sends
+  double translation{10.0};         ///< [m]; the defaults of the genuine client
   double rotation{3.12};            ///< [rad]
   double elbow{6.283185307179586};  ///< [rad]
 };
@@ -133,14 +133,14 @@ constexpr Command commandOf(const Request& request) noexcept {
   return static_cast<Command>(request.index());
 }
 
-/// A cuboid that the arm must not enter, as GetCartesianLimit answers.
+/// A cuboid that the arm must not enter, as returned by GetCartesianLimit.
 struct CartesianLimit {
   std::array<double, 3> object_world_size{};  ///< edges [m]
   std::array<double, 16> object_frame{};      ///< its pose in O
   bool active{false};
 };
 
-/// What a reply carries. Fields that the command's reply does not have keep their defaults.
+/// Content of a reply. Fields that the command's reply does not have keep their defaults.
 struct Reply {
   Status status{Status::kSuccess};
   std::uint16_t server_version{0};  ///< Connect

@@ -18,13 +18,13 @@ namespace franka_core::fci::gripper {
 constexpr std::size_t kHeaderSize = 10;
 constexpr std::size_t kMaxRequestSize = 50;
 constexpr std::size_t kMaxReplySize = 14;
-/// What a client takes: answers to Connect may be longer than ours (our choice).
+/// Largest reply that a client accepts (chosen here: replies to Connect may be longer than ours).
 constexpr std::size_t kMaxReceivedReplySize = 256;
 constexpr std::size_t kStateSize = 23;
 
 enum class Command : std::uint16_t { kConnect, kHoming, kGrasp, kMove, kStop };
 
-/// Numbers of every reply but Connect's, which knows 0 (success) and 1 (incompatible version).
+/// Statuses of all replies except Connect's, which has 0 (success) and 1 (incompatible version).
 enum class Status : std::uint16_t { kSuccess, kFail, kUnsuccessful, kAborted };
 
 struct ConnectRequest {
@@ -74,7 +74,7 @@ using RequestMessage = Message<kMaxRequestSize>;
 using ReplyMessage = Message<kMaxReplySize>;
 using StateBuffer = std::array<std::uint8_t, kStateSize>;
 
-/// As fci::nextMessage, with the gripper's header. Serves the vacuum gripper too.
+/// Like fci::nextMessage, with the gripper's header. Also for the vacuum gripper.
 CodecError nextMessage(Bytes stream, std::size_t max_size, Header& header) noexcept;
 
 /// Sizes with header.
@@ -82,7 +82,7 @@ std::size_t requestSize(Command command) noexcept;
 std::size_t replySize(Command command) noexcept;
 
 /// Client to gripper. Arguments that are not finite are passed on. decodeRequest fails with
-/// kWrongSize or kUnknownCommand and fills `header` whenever it is there.
+/// kWrongSize or kUnknownCommand and fills `header` if it is complete.
 void encodeRequest(std::uint32_t command_id, const Request& request,
                    RequestMessage& message) noexcept;
 CodecError decodeRequest(Bytes message, Header& header, Request& request) noexcept;

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 /// @file
-/// The parts of the Franka Control Interface, and what each of its versions has. A version is the
-/// robot's unless another device is named. Everything here is constant (protocol 1.1, 1.2).
+/// The parts of the Franka Control Interface, and the features of each version. A version is the
+/// robot's unless another device is named. All constant (protocol 1.1, 1.2).
 
 namespace franka_core::fci {
 
@@ -32,7 +32,7 @@ constexpr bool isVacuumGripperVersion(std::uint16_t version) noexcept {
   return version == kVacuumGripperVersion;
 }
 
-/// Panda, called FER since.
+/// Panda, also called FER.
 constexpr bool isPandaVersion(std::uint16_t version) noexcept {
   return version >= kOldestRobotVersion && version <= kNewestPandaVersion;
 }
@@ -43,14 +43,14 @@ constexpr bool hasModelLibrary(std::uint16_t version) noexcept { return version 
 constexpr bool hasRobotModel(std::uint16_t version) noexcept { return version >= 8; }
 /// Torques can be commanded without a motion generator; commands carry torque_command_finished.
 constexpr bool hasTorqueOnlyMove(std::uint16_t version) noexcept { return version >= 7; }
-/// Move can ask for the robot's own point-to-point generator.
+/// Move can use the robot's own point-to-point generator.
 constexpr bool hasAsyncMotion(std::uint16_t version) noexcept { return version >= 10; }
 /// Filters can be set, virtual walls read.
 constexpr bool hasFiltersAndWalls(std::uint16_t version) noexcept { return version <= 5; }
-/// Replies tell of activated safety functions.
+/// Replies report activated safety functions.
 constexpr bool hasSafetyFunctions(std::uint16_t version) noexcept { return version >= 6; }
 
-/// Bytes owned by somebody else.
+/// A view of bytes owned by others.
 struct Bytes {
   const std::uint8_t* data{nullptr};
   std::size_t size{0};

@@ -10,7 +10,7 @@
 
 /// @file
 /// The state datagram, robot to client, once a millisecond. Real-time safe: no allocation, lock or
-/// exception; buffers are the caller's.
+/// exception; the caller owns the buffers.
 
 namespace franka_core::fci {
 
@@ -18,15 +18,15 @@ constexpr std::size_t kMaxStateSize = 2373;
 
 using StateBuffer = std::array<std::uint8_t, kMaxStateSize>;
 
-/// How a field's numbers are written.
+/// Type of a field's numbers in the datagram.
 enum class WireType : std::uint8_t { kU8, kBool, kU64, kF32, kF64 };
 
-/// One field of the datagram, for tests and for people who look at packets.
+/// One field of the datagram, for tests and for the inspection of datagrams.
 struct StateField {
   const char* name;
   std::size_t count;
   WireType type;
-  std::size_t offset;  ///< [bytes] from the datagram's begin
+  std::size_t offset;  ///< [bytes] from the datagram's start
 };
 
 constexpr std::size_t kStateFieldCount = 48;
@@ -38,7 +38,7 @@ struct StateLayout {
   std::size_t size;  ///< [bytes] of the datagram
 };
 
-/// The version's layout; null for a version that does not exist.
+/// The version's layout; null for an unknown version.
 const StateLayout* stateLayout(std::uint16_t version) noexcept;
 
 /// Size of the datagram: 2085 (version 3), 2341 (4), 2373 (5 to 9), 1377 (10); 0 for others.
@@ -51,10 +51,10 @@ CodecError encodeState(std::uint16_t version, const RobotState& state,
                        StateBuffer& buffer) noexcept;
 
 /// Client: reads a datagram of exactly stateSize(version) bytes. Fields that the version lacks get
-/// what they are on such a robot: version 3 has F_T_NE the identity and NE_T_EE = F_T_EE, versions
-/// 3 and 4 have O_ddP_O = (0, 0, -9.81) and the later errors false, accelerometers are zero
-/// before 10. The total payload is composed from end effector and load. Fails with kUnknownVersion,
-/// kWrongSize, kUnknownEnum, kBadBoolean, and then leaves `state` as it was.
+/// the values of such a robot: version 3 has F_T_NE the identity and NE_T_EE = F_T_EE, versions 3
+/// and 4 have O_ddP_O = (0, 0, -9.81) and the later errors false, accelerometers are zero before
+/// 10. The total payload is combined from end effector and load. Fails with kUnknownVersion,
+/// kWrongSize, kUnknownEnum, kBadBoolean, and then leaves `state` unchanged.
 CodecError decodeState(std::uint16_t version, Bytes datagram, RobotState& state) noexcept;
 
 }  // namespace franka_core::fci

@@ -18,23 +18,22 @@ const char* commandName(Command command) noexcept;
 /// The mode's name without quotes: "Idle", "User stopped", ...
 const char* modeName(RobotMode mode) noexcept;
 
-/// What a status means to whoever asked.
+/// Meaning of a status for the client.
 enum class Meaning : std::uint8_t {
   kGood,      ///< success, or a motion has started
-  kRejected,  ///< nothing has happened: CommandException
-  kAborted,   ///< begun and ended early: ControlException in a control loop, else CommandException
+  kRejected,  ///< nothing happened: CommandException
+  kAborted,   ///< ended early: ControlException in a control loop, else CommandException
 };
 Meaning meaning(Status status) noexcept;
 
-/// The text of the exception for a status that is not good, beginning with "libfranka: ". `mode` is
-/// the robot's mode when the reply came. For good statuses the text of unexpectedResponse.
+/// The text of the exception for a failure, starting with "libfranka: ". `mode` is the robot's mode
+/// at the time of the reply. For other statuses the text of unexpectedResponse.
 std::string statusText(Command command, Status status, RobotMode mode);
 
 /// "libfranka: Unexpected response while handling <name> command!", of a ProtocolException.
 std::string unexpectedResponse(Command command);
 
-/// What a text about a motion's end by reflex begins with when the client had already commanded the
-/// motion finished.
+/// Start of the text about a reflex after the client has already commanded the motion finished.
 constexpr const char* kStillMoving = "Motion finished commanded, but the robot is still moving!";
 
 /// Texts of connections.
@@ -46,7 +45,7 @@ constexpr const char* kServerClosed = "libfranka: server closed connection";
 constexpr const char* kStateTimeout = "libfranka: UDP receive: Timeout";
 constexpr const char* kWrongObjectSize = "libfranka: incorrect object size";
 
-/// Texts of operations that clash.
+/// Texts of conflicting operations.
 constexpr const char* kOtherOperationRunning =
     "libfranka robot: Cannot perform this operation while another control or read operation is "
     "running.";

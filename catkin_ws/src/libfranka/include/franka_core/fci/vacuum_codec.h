@@ -58,7 +58,7 @@ using StateBuffer = std::array<std::uint8_t, kStateSize>;
 std::size_t requestSize(Command command) noexcept;
 std::size_t replySize(Command command) noexcept;
 
-/// As the gripper's; decodeRequest also fails with kUnknownEnum (a profile).
+/// Like the gripper's; decodeRequest also fails with kUnknownEnum (a profile).
 void encodeRequest(std::uint32_t command_id, const Request& request,
                    RequestMessage& message) noexcept;
 CodecError decodeRequest(Bytes message, Header& header, Request& request) noexcept;

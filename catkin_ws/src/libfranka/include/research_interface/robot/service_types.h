@@ -5,15 +5,15 @@
 #include <cstdint>
 
 /// @file
-/// The one name of the protocol's own headers that programs written for libfranka 0.11 and later
-/// spell out: the controller of a motion that they drive themselves.
+/// The only name of the protocol's own headers that programs for libfranka 0.11 and later use: the
+/// controller of a motion that the program drives itself.
 
 namespace research_interface {
 namespace robot {
 
 /// The command that starts a motion.
 struct Move {
-  /// What turns the motion into torques.
+  /// The controller of the motion.
   enum class ControllerMode : uint32_t {
     kJointImpedance,      ///< springs between q and q_d, in the robot
     kCartesianImpedance,  ///< springs between O_T_EE and O_T_EE_d, in the robot

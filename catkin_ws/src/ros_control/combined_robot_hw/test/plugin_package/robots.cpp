@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../test_robot.h"
 
-// By the header's ROS 1 name, as users' robots include it.
+// Tests the header's ROS 1 name, used in users' robots.
 #include <pluginlib/class_list_macros.h>
 
 PLUGINLIB_EXPORT_CLASS(combined_robot_hw_test::Robot, hardware_interface::RobotHW)

@@ -6,14 +6,14 @@
 
 namespace control_toolbox {
 
-/// White noise with a normal distribution about zero, to keep a joint from sticking. The same seed
-/// gives the same noise. update() is real-time safe; not to be used by two threads at once.
+/// White noise with a normal distribution about zero, to overcome stiction of a joint. The same
+/// seed gives the same noise. update() is real-time safe; not thread-safe.
 class Dither {
  public:
   /// @param amplitude standard deviation, in the unit of the result
-  /// @param seed its integer part counts
-  /// @returns false, changing nothing, for an amplitude not finite or below zero, or a seed that is
-  /// no 32-bit number
+  /// @param seed only its integer part counts
+  /// @returns false, without changes, if the amplitude is not finite or negative, or the seed is no
+  /// 32-bit number
   bool init(double amplitude, double seed);
 
   /// The next value; zero before init().

@@ -14,8 +14,8 @@ inline T clamp(const T& value, const T& low, const T& high) {
 }
 
 /// One step of a first-order low-pass filter.
-/// @param alpha in [0, 1]: 1 follows the raw value at once, 0 keeps the last one. For samples every
-/// dt and a time constant tau it is 1 - exp(-dt / tau).
+/// @param alpha in [0, 1]: 1 follows the raw value at once, 0 keeps the last one. For a sample
+/// period dt and a time constant tau it is 1 - exp(-dt / tau).
 /// @returns the new smoothed value
 inline double exponentialSmoothing(double current_raw_value, double last_smoothed_value,
                                    double alpha) {

@@ -27,8 +27,8 @@ namespace control_toolbox {
 /// caller's: with e in [rad] and a command in [Nm], p is [Nm/rad], i [Nm/(rad s)], d [Nm s/rad].
 ///
 /// Threads: one thread calls computeCommand(), reset(), setCurrentCmd() and the getters of errors
-/// and command. Gains may be read and set by any thread. Real-time safe: those just named,
-/// getGains() and trySetGains(). Everything else belongs to set-up or to other threads.
+/// and command. Gains may be read and set by any thread. Real-time safe: these functions,
+/// getGains() and trySetGains(). All others are for set-up or other threads.
 class Pid {
  public:
   struct Gains {
@@ -54,7 +54,7 @@ class Pid {
   // The original's default of i_min; it compares equal to 0.
   Pid(double p = 0.0, double i = 0.0, double d = 0.0, double i_max = 0.0, double i_min = -0.0,
       bool antiwindup = false);
-  /// Copies take over the gains, with errors and command at zero; they have no reconfigure server
+  /// Copies have the same gains, with errors and command at zero; they have no reconfigure server
   /// and publish no state.
   Pid(const Pid& source);
   Pid& operator=(const Pid& source);
@@ -62,7 +62,7 @@ class Pid {
 
   /// Sets the gains and resets errors and command.
   void initPid(double p, double i, double d, double i_max, double i_min, bool antiwindup = false);
-  /// Likewise, and opens dynamic reconfigure in the namespace "pid" of this node.
+  /// The same, and starts dynamic reconfigure in the namespace "pid" of this node.
   /// @param node not used, as in the original.
   void initPid(double p, double i, double d, double i_max, double i_min,
                const ros::NodeHandle& node);
@@ -72,28 +72,28 @@ class Pid {
   /// init() with the parameters in the namespace `prefix`.
   bool initParam(const std::string& prefix, bool quiet = false);
 
-  /// Reads the gains from parameters, resets, and opens dynamic reconfigure in that namespace.
+  /// Reads the gains from parameters, resets, and starts dynamic reconfigure in that namespace.
   ///
   /// Parameters: `p` (required), `i`, `d`, `i_clamp` (limits of the integral term, + and -),
   /// `i_clamp_min`, `i_clamp_max` (each overrides its side), `antiwindup`, `publish_state`
-  /// (control_msgs/PidState on the topic `state`; stamping it takes a lock where time is
-  /// simulated). Signs of the limits are ignored.
+  /// (control_msgs/PidState on the topic `state`; its time stamp takes a lock in simulated time).
+  /// Signs of the limits are ignored.
   ///
-  /// @param quiet say nothing about a missing `p`.
-  /// @return false, with an error in the log, when `p` is missing or a value has the wrong type.
+  /// @param quiet do not log a missing `p`.
+  /// @return false, with an error in the log, if `p` is missing or a value has the wrong type.
   bool init(const ros::NodeHandle& node, bool quiet = false);
 
-  /// Reads the attributes p, i, d, iClamp and antiwindup, resets, and opens dynamic reconfigure in
+  /// Reads the attributes p, i, d, iClamp and antiwindup, resets, and starts dynamic reconfigure in
   /// the namespace "pid".
   bool initXml(TiXmlElement* config);
 
-  /// Opens a dynamic reconfigure server for the gains; it starts with those in use, whatever the
-  /// parameter server says.
+  /// Starts a dynamic reconfigure server for the gains; it starts with the gains in use and ignores
+  /// the parameter server.
   void initDynamicReconfig(ros::NodeHandle& node);
 
   /// Sets errors and command to zero. The next derivative is taken from an error of zero.
   void reset();
-  /// Likewise with given starting values: the next computeCommand(error, dt) uses `d_error` as
+  /// The same with starting values: the next computeCommand(error, dt) uses `d_error` as
   /// derivative, and the integral continues from `i_error`.
   void reset(double d_error, double i_error);
 
@@ -101,30 +101,30 @@ class Pid {
   void getGains(double& p, double& i, double& d, double& i_max, double& i_min, bool& antiwindup);
   Gains getGains();
 
-  /// Sets the gains and shows them in dynamic reconfigure, which publishes: not real-time safe.
+  /// Sets the gains and updates dynamic reconfigure, which publishes: not real-time safe.
   void setGains(double p, double i, double d, double i_max, double i_min, bool antiwindup = false);
   void setGains(const Gains& gains);
 
-  /// Sets the gains from the real-time thread; dynamic reconfigure does not show them. An addition
-  /// of ours. @return false when another thread is just setting gains.
+  /// Sets the gains from the real-time thread; dynamic reconfigure is not updated. Not in the
+  /// original. @return false if another thread is setting gains.
   bool trySetGains(const Gains& gains) noexcept { return gains_.trySet(gains); }
 
-  /// Shows the gains in use, other gains, or a whole configuration in dynamic reconfigure.
+  /// Updates dynamic reconfigure with the gains in use, other gains, or a whole configuration.
   void updateDynamicReconfig();
   void updateDynamicReconfig(Gains gains_config);
   void updateDynamicReconfig(ParametersConfig config);
 
-  /// Takes over the gains of a configuration.
+  /// Sets the gains of a configuration.
   void dynamicReconfigCallback(ParametersConfig& config, std::uint32_t level);
 
   /// One step with the derivative of the error taken from the previous step.
   /// @param error target minus actual value.
   /// @param dt since the previous step.
-  /// @return the command; 0 when dt is 0 or the error is not finite.
+  /// @return the command; 0 if dt is 0 or the error is not finite.
   double computeCommand(double error, ros::Duration dt);
 
   /// One step with a given derivative of the error.
-  /// @return the command; 0 when dt is 0 or an input is not finite.
+  /// @return the command; 0 if dt is 0 or an input is not finite.
   double computeCommand(double error, double error_dot, ros::Duration dt);
 
   [[deprecated("Use computeCommand(), which returns the opposite sign.")]] double updatePid(
@@ -132,7 +132,7 @@ class Pid {
   [[deprecated("Use computeCommand(), which returns the opposite sign.")]] double updatePid(
       double error, double error_dot, ros::Duration dt);
 
-  /// The command of the last step, and a way to correct it to what was really sent.
+  /// The last command, and its correction to the command really sent.
   void setCurrentCmd(double cmd);
   double getCurrentCmd();
 
@@ -156,7 +156,7 @@ class Pid {
   double i_error_{0.0};
   double d_error_{0.0};
   double cmd_{0.0};
-  /// Whether p_error_last_ may serve to compute a derivative.
+  /// Whether p_error_last_ is valid for a derivative.
   bool error_last_valid_{true};
 
   realtime_tools::RealtimePublisherSharedPtr<control_msgs::PidState> state_publisher_;

@@ -4,13 +4,13 @@
 
 namespace control_toolbox {
 
-/// A sine wave whose frequency goes from one value to another in constant ratios: each octave takes
-/// the same time. Real-time safe; not to be used by two threads at once.
+/// A sine wave whose frequency changes exponentially: each octave takes the same time. Real-time
+/// safe; not thread-safe.
 class SineSweep {
  public:
   /// @param start_freq [Hz] @param end_freq [Hz] @param duration [s] of the sweep
   /// @param amplitude in the unit of the result
-  /// @returns false, changing nothing, unless all are finite and above zero
+  /// @returns false, without changes, unless all are finite and above zero
   bool init(double start_freq, double end_freq, double duration, double amplitude);
 
   /// @param time [s] since the sweep's start

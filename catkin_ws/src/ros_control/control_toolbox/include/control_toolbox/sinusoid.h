@@ -4,12 +4,12 @@
 
 namespace control_toolbox {
 
-/// A sine wave about an offset. Real-time safe; not to be used by two threads at once.
+/// A sine wave about an offset. Real-time safe; not thread-safe.
 class Sinusoid {
  public:
-  /// Zero for ever.
+  /// Constant zero.
   Sinusoid() = default;
-  /// @param offset of its middle @param amplitude in the same unit @param frequency [Hz]
+  /// @param offset mean value @param amplitude in the same unit @param frequency [Hz]
   /// @param phase [rad] at time zero
   Sinusoid(double offset, double amplitude, double frequency, double phase);
 

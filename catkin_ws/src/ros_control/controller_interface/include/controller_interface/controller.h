@@ -19,9 +19,9 @@ class Controller : public virtual ControllerBase {
  public:
   Controller() = default;
 
-  /// Takes the handles the controller needs; override this one or the one with three arguments
-  /// (both are called, this one first). Outside the control loop.
-  /// @returns false if the controller cannot work; the reason should have been logged.
+  /// Gets the controller's handles; override this one or the one with three arguments (both are
+  /// called, this one first). Outside the control loop.
+  /// @returns false, after logging the reason, if the controller cannot work.
   virtual bool init(T* /*hw*/, ros::NodeHandle& /*controller_nh*/) { return true; }
 
   /// The same with the node handle of the controller manager.

@@ -15,10 +15,10 @@
 
 namespace controller_interface {
 
-/// Base of all controllers: the callbacks a controller implements, and the requests by which the
-/// controller manager leads it through its states. A request runs the callback first and changes
-/// the state after it. Every request except initRequest comes from the control loop, so the
-/// callbacks must be real-time safe; the is... queries may be asked from any thread.
+/// Base of all controllers: the callbacks that a controller implements, and the requests by which
+/// the controller manager changes its state. A request runs the callback first and then changes the
+/// state. Every request except initRequest comes from the control loop, so the callbacks must be
+/// real-time safe; the is... queries may be called from any thread.
 class ControllerBase {
  public:
   ControllerBase() = default;
@@ -41,7 +41,7 @@ class ControllerBase {
   /// Called in every cycle while the start waits for the robot. @param time of this cycle
   virtual void waiting(const ros::Time& /*time*/) {}
 
-  /// Called when the start is given up. @param time of this cycle
+  /// Called when the start is aborted. @param time of this cycle
   virtual void aborting(const ros::Time& /*time*/) {}
 
   bool isInitialized() const { return state_ == ControllerState::INITIALIZED; }
@@ -57,7 +57,7 @@ class ControllerBase {
     }
   }
 
-  /// The four requests below return false, after logging, for a controller not yet initialised.
+  /// The four requests below return false, after logging, for a controller that is not initialised.
   bool startRequest(const ros::Time& time) {
     if (!mayChangeState("start")) {
       return false;
@@ -96,17 +96,17 @@ class ControllerBase {
 
   typedef std::vector<hardware_interface::InterfaceResources> ClaimedResources;
 
-  /// Takes the controller from constructed to initialised. Runs outside the control loop.
+  /// Initialises a constructed controller. Runs outside the control loop.
   /// @param robot_hw offers the interfaces @param root_nh of the controller manager
   /// @param controller_nh of the controller's own namespace
-  /// @param[out] claimed_resources what the controller claims
+  /// @param[out] claimed_resources the controller's claims
   /// @returns false after logging the reason
   virtual bool initRequest(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh,
                            ros::NodeHandle& controller_nh, ClaimedResources& claimed_resources) = 0;
 
   enum class ControllerState { CONSTRUCTED, INITIALIZED, RUNNING, STOPPED, WAITING, ABORTED };
 
-  /// Written by the control loop (by initRequest before), read by services as well: hence atomic.
+  /// Atomic: written by the control loop (before that by initRequest), read by services as well.
   std::atomic<ControllerState> state_{ControllerState::CONSTRUCTED};
 
  private:

@@ -11,21 +11,21 @@
 namespace controller_interface {
 
 /// Base of controllers that work on several hardware interfaces. In init it gets a robot that has
-/// the interfaces named here and no others.
+/// only the interfaces named here.
 /// @tparam T each derives from hardware_interface::HardwareInterface
 template <typename... T>
 class MultiInterfaceController : public virtual ControllerBase {
   static_assert(sizeof...(T) > 0, "A controller needs at least one hardware interface.");
 
  public:
-  /// @param allow_optional_interfaces whether the robot may lack some of the interfaces; then
-  /// get<...>() of that type is nullptr in init.
+  /// @param allow_optional_interfaces whether the robot may lack some of the interfaces; get<...>()
+  /// of such a type is nullptr in init.
   MultiInterfaceController(bool allow_optional_interfaces = false)
       : allow_optional_interfaces_(allow_optional_interfaces) {}
 
-  /// Takes the handles the controller needs; override this one or the one with three arguments
-  /// (both are called, this one first). Outside the control loop.
-  /// @returns false if the controller cannot work; the reason should have been logged.
+  /// Gets the controller's handles; override this one or the one with three arguments (both are
+  /// called, this one first). Outside the control loop.
+  /// @returns false, after logging the reason, if the controller cannot work.
   virtual bool init(hardware_interface::RobotHW* /*robot_hw*/, ros::NodeHandle& /*controller_nh*/) {
     return true;
   }

@@ -14,8 +14,8 @@ namespace controller_manager {
 
 namespace internal {
 
-/// Held while plugin libraries are loaded: a process may have several managers, one for each robot,
-/// and what a library registers while it is opened belongs to whoever opens it.
+/// Held while plugin libraries are loaded: a process may have several managers, and registrations
+/// of a library belong to the loader that opens it.
 inline std::mutex& pluginMutex() {
   static std::mutex mutex;
   return mutex;
@@ -28,7 +28,7 @@ inline std::mutex& pluginMutex() {
 template <class T>
 class ControllerLoader : public ControllerLoaderInterface {
  public:
-  /// @param package under whose name plugins are exported @param base_class C++ name of T
+  /// @param package that exports the plugins @param base_class C++ name of T
   ControllerLoader(const std::string& package, const std::string& base_class)
       : ControllerLoaderInterface(base_class), package_(package), base_class_(base_class) {
     reload();

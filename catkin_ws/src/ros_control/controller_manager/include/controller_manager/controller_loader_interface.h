@@ -10,21 +10,21 @@
 
 namespace controller_manager {
 
-/// A source of controllers. The manager asks for one thing at a time, never from the control loop.
+/// A source of controllers. The manager makes one call at a time, never from the control loop.
 class ControllerLoaderInterface {
  public:
   /// @param name of the loader, shown as the base class of its types
   ControllerLoaderInterface(const std::string& name) : name_(name) {}
   virtual ~ControllerLoaderInterface() = default;
 
-  /// Makes a controller. @throws std::runtime_error saying why there is none.
+  /// Creates a controller. @throws std::runtime_error with the reason if it cannot.
   virtual controller_interface::ControllerBaseSharedPtr createInstance(
       const std::string& lookup_name) = 0;
 
-  /// The types that createInstance knows.
+  /// The types that createInstance accepts.
   virtual std::vector<std::string> getDeclaredClasses() = 0;
 
-  /// Looks for types anew. No controller of this loader exists any more.
+  /// Searches types again. No controller of this loader exists at that time.
   virtual void reload() = 0;
 
   const std::string& getName() { return name_; }

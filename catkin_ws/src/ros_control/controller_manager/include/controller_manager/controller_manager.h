@@ -35,30 +35,31 @@ class SwitchHandover;
 
 /// Loads controllers, starts and stops them, and updates the running ones in the control loop.
 ///
-/// Two kinds of threads meet here. The *loop* calls update(), from one thread at a time, as often
-/// and as irregularly as it likes, or not at all. All other functions belong *outside* the loop and
-/// may be called from any number of threads; the services of the same names call them. Both sides
-/// share atomics only: update() takes no lock, allocates nothing and never waits.
+/// Two kinds of threads use it. The *loop* calls update(), from one thread at a time, at any rate,
+/// or not at all. All other functions are for threads *outside* the loop and may be called from any
+/// number of them; the services of the same names call them. Both sides share atomics only:
+/// update() takes no lock, allocates nothing and never waits.
 ///
 /// While the loop stands still, controllers can be listed, loaded and unloaded; a switch waits for
-/// the loop, lets the other requests through meanwhile, and fails after its timeout (decision 40).
+/// the loop, allows other requests meanwhile, and fails after its timeout (decision 40).
 ///
-/// What a controller or the robot throws in the loop leaves update(), as in the original, unless
-/// abort_faulty_controllers holds it back; but only after the other controllers were updated and a
-/// switch carried on, so that one that throws in every cycle can be stopped. The controller keeps
-/// the state that the throwing callback found, so one whose starting() threw does not run. A switch
-/// that was thrown out of is over: its caller gets false, and what it had still to start or to stop
-/// is aborted, without another callback; the next update() works. Who catches the exception must
-/// tell the robot himself.
+/// Exceptions of a controller or the robot in the loop leave update(), as in the original, unless
+/// abort_faulty_controllers catches them; but only after the other controllers were updated and a
+/// switch was continued, so that a controller that throws in every cycle can be stopped. The
+/// controller keeps the state before the callback, so one whose starting() threw does not run. An
+/// exception ends a switch: its caller gets false, and controllers not yet started or stopped are
+/// aborted, without another callback; the next update() works. The caller of update() must notify
+/// the hardware itself.
 ///
-/// Parameters in `<nh>/controller_manager/`, read once, turn on what the original does not have:
+/// Parameters in `<nh>/controller_manager/`, read once, enable functions that the original does not
+/// have:
 /// * `statistics_rate` [Hz]: publish `statistics` (controller_manager_msgs/ControllersStatistics).
-/// * `abort_faulty_controllers` (bool): a controller that throws, or commands a joint NaN, is
-///   aborted alone; the robot keeps the commands of the cycle before until it has been told.
-/// * `max_update_time` [s]: so is one whose update takes longer.
-/// * `default_switch_timeout` [s]: of switches that name none.
-/// A controller's own parameter `fallback_controllers` (names) says what is started in its place
-/// after it was aborted so.
+/// * `abort_faulty_controllers` (bool): a controller that throws, or commands NaN to a joint, is
+///   aborted alone; the robot keeps the commands of the cycle before until it has been notified.
+/// * `max_update_time` [s]: likewise a controller whose update takes longer.
+/// * `default_switch_timeout` [s]: for switches without a timeout.
+/// A controller's own parameter `fallback_controllers` (names) lists the controllers to start in
+/// its place after such an abort.
 class ControllerManager {
  public:
   static constexpr bool WAIT_FOR_ALL_RESOURCES = false;
@@ -67,11 +68,11 @@ class ControllerManager {
   /// Offers the services list_controllers, list_controller_types, load_controller,
   /// unload_controller, switch_controller and reload_controller_libraries in
   /// `<nh>/controller_manager`. Loads plugins of controller_interface::ControllerBase.
-  /// @param robot_hw outlives the manager
-  /// @param nh below which controllers find their parameters; its queue answers the services,
-  /// except the two that may wait for the loop, and list_controllers, which waits for nothing:
-  /// those have threads of their own.
-  /// @throws std::invalid_argument with a sentence when one of the parameters above makes no sense
+  /// @param robot_hw must outlive the manager
+  /// @param nh above the controllers' parameters; its queue serves the services, except the two
+  /// that may wait for the loop, and list_controllers, which never waits: those have their own
+  /// threads.
+  /// @throws std::invalid_argument with a sentence if one of the parameters above is invalid
   ControllerManager(hardware_interface::RobotHW* robot_hw,
                     const ros::NodeHandle& nh = ros::NodeHandle());
 
@@ -80,15 +81,15 @@ class ControllerManager {
   ControllerManager(const ControllerManager&) = delete;
   ControllerManager& operator=(const ControllerManager&) = delete;
 
-  /// One cycle of the loop: updates all running controllers in the order of loading, then carries a
-  /// switch on. A controller stopped in this cycle was updated before, one started is updated from
-  /// the next cycle on. Throws what they throw, see above. Real-time safe if the controllers'
-  /// callbacks and the robot's switch are.
+  /// One cycle of the loop: updates all running controllers in the order of loading, then continues
+  /// a switch. A controller stopped in this cycle was updated before, one started is updated from
+  /// the next cycle on. Exceptions: see above. Real-time safe if the controllers' callbacks and the
+  /// robot's switch are.
   /// @param time of this cycle @param period since the one before
   /// @param reset_controllers restart the running controllers first
   void update(const ros::Time& time, const ros::Duration& period, bool reset_controllers = false);
 
-  /// Loads the controller whose parameters stand in the namespace `name`.
+  /// Loads the controller with the parameters in the namespace `name`.
   /// @returns false after logging the reason
   bool loadController(const std::string& name);
 
@@ -100,27 +101,27 @@ class ControllerManager {
   /// controller in both lists is restarted.
   /// @param strictness controller_manager_msgs/SwitchController STRICT or BEST_EFFORT
   /// @param start_asap start each controller once the robot is ready for it, not all together
-  /// @param timeout [s] to begin with, and again for the robot to get ready; 0 waits for ever, or
-  /// for the parameter default_switch_timeout
-  /// @returns true when the loop has carried the switch out, also if the robot was not ready in
-  /// time and controllers were aborted; false after logging the reason
+  /// @param timeout [s] for the start of the switch, and again for the robot to get ready; 0 waits
+  /// for ever, or for the parameter default_switch_timeout
+  /// @returns true if the loop has carried out the switch, also if the robot was not ready in time
+  /// and controllers were aborted; false after logging the reason
   bool switchController(const std::vector<std::string>& start_controllers,
                         const std::vector<std::string>& stop_controllers, const int strictness,
                         bool start_asap = WAIT_FOR_ALL_RESOURCES,
                         double timeout = INFINITE_TIMEOUT);
 
-  /// Destroys all controllers and loads their libraries anew.
-  /// @param force_kill stop and unload what is loaded; without it nothing may be loaded
+  /// Destroys all controllers and reloads their libraries. @param force_kill stop and unload all
+  /// controllers; otherwise none may be loaded
   /// @returns false after logging the reason
   bool reloadControllerLibraries(bool force_kill);
 
   /// The loaded controllers in the order of loading. Never waits for the loop.
   std::vector<ControllerSpec> getControllers() const;
 
-  /// nullptr if there is none of that name; valid until it is unloaded.
+  /// nullptr if there is no such controller; valid until it is unloaded.
   virtual controller_interface::ControllerBase* getControllerByName(const std::string& name);
 
-  /// Adds a source of controllers; earlier ones are asked first.
+  /// Adds a source of controllers; earlier ones are searched first.
   void registerControllerLoader(ControllerLoaderInterfaceSharedPtr controller_loader);
 
   /// A type of controllers and the loader it comes from.
@@ -131,14 +132,14 @@ class ControllerManager {
   std::vector<DeclaredType> getDeclaredTypes();
 
  private:
-  /// If it runs.
+  /// Restarts the controller if it runs.
   static void restart(const ControllerSpec& spec, const ros::Time& time);
   bool refusedInLoop(const char* action) const;
   bool reloadLoaders();
   controller_interface::ControllerBaseSharedPtr createController(const std::string& name,
                                                                  const std::string& type);
   bool initController(ControllerSpec& spec, ros::NodeHandle& controller_nh);
-  /// nullptr after logging why the switch is impossible
+  /// nullptr after logging why the switch is impossible.
   std::unique_ptr<internal::SwitchRequest> planSwitch(const std::vector<std::string>& start,
                                                       const std::vector<std::string>& stop,
                                                       bool strict);
@@ -146,9 +147,8 @@ class ControllerManager {
   /// @param[out] thrown the controllers whose starting() threw
   bool carryOut(const std::vector<std::string>& start, const std::vector<std::string>& stop,
                 int strictness, bool start_asap, double timeout, std::vector<std::string>& thrown);
-  /// Starts what stands in for an aborted controller, and tells the robot.
-  /// @param first say it if that is not possible yet
-  /// @returns false if it has to be tried again
+  /// Starts the fallbacks of an aborted controller, and notifies the robot. @param first log it if
+  /// that is not possible yet @returns false if it must be repeated
   bool settleFault(const std::string& name, bool first);
   std::unique_ptr<internal::SwitchRequest> planFallback(const ControllerSpec& aborted);
   bool watchController(ControllerSpec& spec, const ros::NodeHandle& controller_nh);
@@ -160,8 +160,8 @@ class ControllerManager {
   std::mutex loaders_mutex_;
   std::list<ControllerLoaderInterfaceSharedPtr> controller_loaders_;
 
-  /// One thread at a time changes the list or talks to the robot. Never held while waiting for a
-  /// switch. Taken before loaders_mutex_.
+  /// Guards changes of the list and calls of the robot. Never held while waiting for a switch.
+  /// Taken before loaders_mutex_.
   std::mutex services_mutex_;
 
   // In this order: controllers are destroyed before the loaders of their libraries.

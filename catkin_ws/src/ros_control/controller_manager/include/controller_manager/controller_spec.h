@@ -13,11 +13,11 @@ namespace internal {
 class ControllerWatch;
 }
 
-/// A loaded controller, and what is known about it.
+/// A loaded controller with its properties.
 struct ControllerSpec {
   hardware_interface::ControllerInfo info;
   controller_interface::ControllerBaseSharedPtr c;
-  /// Times the updates and stops a faulty controller; null unless parameters ask for that.
+  /// Measures the updates and aborts a faulty controller; null unless parameters enable it.
   std::shared_ptr<internal::ControllerWatch> watch;
 };
 

@@ -1,8 +1,8 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Calls the services of the controller manager in this namespace and prints how it went.
+"""Calls the services of the controller manager in this namespace and prints the results.
 
-All functions return whether it went well, and raise rospy.ROSException without a manager.
+All functions return whether they succeeded, and raise rospy.ROSException without a manager.
 """
 
 import rospy
@@ -37,7 +37,7 @@ def _controllers():
 
 
 def reload_libraries(force_kill, restore=False):
-    """Loads the plugin libraries anew; with `restore`, the present controllers after it too."""
+    """Reloads the plugin libraries; with `restore`, then also the present controllers."""
     print(f"Restore: {restore}")
     before = _controllers() if restore else []
     if not _call("reload_controller_libraries", ReloadControllerLibraries, force_kill).ok:
@@ -98,7 +98,7 @@ def stop_controllers(names):
 
 
 def start_stop_controllers(start_controllers=(), stop_controllers=()):
-    """Starts and stops in one cycle; nothing happens when part of it is impossible."""
+    """Starts and stops in one cycle; does nothing if part of it is impossible."""
     start = list(start_controllers)
     stop = list(stop_controllers)
     answer = _call(

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The end of programs that have something to put back first."""
+"""Orderly exit of programs that must restore something first."""
 
 import signal
 import threading
@@ -8,20 +8,19 @@ import threading
 import rospy
 
 POLL_PERIOD = 0.1  # [s]
-# How long a request to end from outside (rosnode kill) waits for the program to put things back.
+# How long an external shutdown request (rosnode kill) waits for the program's clean-up.
 LONGEST_END = 15.0  # [s]
 
 
 class Ended(Exception):
-    """The program was told to end."""
+    """The program must exit."""
 
 
 class Ending:
-    """Knows when a program shall end, by signal or by the master (rosnode kill).
+    """Detects a request to exit, by signal or by the master (rosnode kill).
 
-    Either only leaves a note, and the main thread does what is left to do: within a signal handler
-    it would meet whatever lock the interrupted code holds. rospy's shutdown waits for finish(), so
-    that services can be called until then.
+    The request only sets a flag, and the main thread cleans up: a signal handler could deadlock on a lock
+    of the interrupted code. rospy's shutdown waits for finish(), so that services can be called until then.
     """
 
     def __init__(self):
@@ -39,23 +38,23 @@ class Ending:
         return self._asked.is_set()
 
     def sleep(self, duration):
-        """Raises Ended when the time is cut short."""
+        """Raises Ended if a request to exit interrupts the sleep."""
         if self._asked.wait(duration):
             raise Ended
 
     def finish(self):
-        """Everything is done: the node may go."""
+        """The clean-up is done: the node may exit."""
         self._done.set()
         rospy.signal_shutdown("the program has ended")
 
     def call(self, service, request):
-        """The answer of a service that may take for ever. Raises Ended if told to end meanwhile."""
+        """The answer of a service that may never come. Raises Ended on a request to exit."""
         outcome = {}
 
         def work():
             try:
                 outcome["answer"] = service(request)
-            except Exception as error:  # re-raised where it can be handled
+            except Exception as error:  # raised again in the main thread
                 outcome["error"] = error
 
         worker = threading.Thread(target=work, daemon=True)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Loads controllers, starts them, and takes them away again when the spawner is ended."""
+"""Loads controllers, starts them, and unloads them when the spawner exits."""
 
 import argparse
 import contextlib
@@ -28,18 +28,18 @@ from controller_manager.ending import POLL_PERIOD, Ended, Ending
 DEFAULT_TIMEOUT = 30.0  # [s]
 # How long the loop may take to stop controllers at the end. roslaunch waits 15 s before it kills.
 STOP_TIMEOUT = 5.0  # [s]
-# The manager's own account of a failed load should stand above ours in the log.
+# The manager's message about a failed load must be above ours in the log.
 PAUSE_AFTER_FAILED_LOAD = 1.0  # [s]
-# After which a wait for a topic is reported, and how often then.
+# Time until a wait for a topic is first reported, and then the period.
 FIRST_REPORT = 10.0  # [s]
 REPORT_PERIOD = 60.0  # [s]
 LONELY_TIME = 3.0  # [s] after which a subscriber without a publisher is replaced
-# roslaunch ends all its nodes at once: so long a manager that breaks a call off may take to be gone.
+# roslaunch ends all its nodes at once: time until a manager that broke a call off has exited.
 END_OF_MANAGER = 2.0  # [s]
 
 
 class SpawnerError(Exception):
-    """What the user has to know before the spawner gives up."""
+    """An error that ends the spawner; the message is for the user."""
 
 
 def parse_arguments(arguments):
@@ -84,10 +84,10 @@ def parse_arguments(arguments):
 
 
 class SimulatedClock:
-    """Whether the simulated clock has begun, where there is one.
+    """Whether the simulated clock has started, if there is one.
 
-    Listens to /clock until then and no longer. A node that follows the clock is woken up by each of a
-    thousand messages a second, and every robot has its spawners, which stay as long as it does.
+    Unsubscribes from /clock then. The clock's thousand messages per second would wake the node each time,
+    and every robot has its spawners, which run as long as the robot.
     """
 
     def __init__(self):
@@ -110,7 +110,7 @@ class SimulatedClock:
 
 
 class Deadline:
-    """Wall time left for waiting. While a simulated clock has not begun, it does not run."""
+    """Wall time left for waiting. It stands still before a simulated clock starts."""
 
     def __init__(self, timeout, clock):
         self._clock = clock
@@ -131,7 +131,7 @@ class Deadline:
 
 
 def wait_until(condition, deadline, ending):
-    """True when the condition holds, False when time is over."""
+    """True if the condition holds, False after the time."""
     while not condition():
         if deadline.is_over():
             return False
@@ -149,7 +149,7 @@ def is_offered(service):
 
 
 def listens(service):
-    """Whether somebody is where the master says that the service is; without a word to anybody."""
+    """Whether a process accepts connections at the service's address; sends nothing."""
     try:
         uri = rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
         socket.create_connection(rospy.core.parse_rosrpc_uri(uri), POLL_PERIOD).close()
@@ -159,10 +159,10 @@ def listens(service):
 
 
 class Listener:
-    """Listens for a message that counts, and subscribes anew while nobody publishes there.
+    """Waits for a message that counts, and subscribes again while there is no publisher.
 
-    rospy misses a publisher for good when that registers in the same moment as the subscriber, and
-    the master's news of it overtakes the master's answer.
+    rospy permanently misses a publisher that registers at the same moment as the subscriber, if the
+    master's update overtakes the master's answer.
     """
 
     def __init__(self, topic, kind=Bool, counts=lambda message: message.data):
@@ -182,14 +182,14 @@ class Listener:
         self._heard = self._heard or self._counts(message)
 
     def heard(self):
-        """Whether such a message has come."""
+        """Whether such a message has arrived."""
         if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._doubt:
             self.close()
             self._subscribe()
         return self._heard
 
     def account(self):
-        """What has come instead of such a message, as the end of a sentence."""
+        """What has arrived instead of such a message, as the end of a sentence."""
         if self._has_news:
             return "has only said false so far (a simulation says true once it is no longer paused)"
         if self._subscriber.get_num_connections() > 0:
@@ -201,7 +201,7 @@ class Listener:
 
 
 def wait_for_true(topic, ending):
-    """Without limit. Raises Ended if told to end meanwhile."""
+    """Waits without limit. Raises Ended on a request to exit."""
     name = rospy.resolve_name(topic)
     rospy.loginfo("Controller Spawner: Waiting for %s to say true", name)
     begin = time.monotonic()
@@ -232,7 +232,7 @@ def upload(path):
     except (rosparam.RosParamException, yaml.YAMLError, OSError, UnicodeDecodeError) as error:
         raise SpawnerError(f"'{path}' could not be read: {error}") from error
     except (TypeError, AttributeError) as error:
-        # rosparam takes it for granted that each document maps names to what XML-RPC can carry.
+        # rosparam expects documents that map names to values of XML-RPC types.
         raise SpawnerError(f"{not_controllers}: {error}") from error
     if not names:
         raise SpawnerError(f"'{path}' describes no controller")
@@ -240,7 +240,7 @@ def upload(path):
 
 
 def controller_names(arguments):
-    """Names as given, files replaced by what they describe, none twice."""
+    """Names as given, files replaced by their controllers, without duplicates."""
     names = []
     for argument in arguments:
         if os.path.isfile(argument):
@@ -279,7 +279,7 @@ class Spawner:
         load_controller = self._service("load_controller", LoadController)
         for name in names:
             rospy.loginfo("Loading controller: %s", name)
-            # Noted before the answer, so that it is taken away also if the end comes in between.
+            # Added before the answer, so that it is unloaded even after an exit in between.
             self.loaded.append(name)
             if not self._ending.call(load_controller, LoadControllerRequest(name)).ok:
                 self.loaded.remove(name)
@@ -298,7 +298,7 @@ class Spawner:
             rospy.logerr("Failed to start controllers: %s", names)
 
     def take_away(self):
-        """Stops what still runs and unloads what is still loaded; others may have done it."""
+        """Stops and unloads the rest of the controllers; others may have done so already."""
         if not self.loaded:
             return
         rospy.loginfo("Shutting down spawner. Stopping and unloading controllers...")
@@ -369,9 +369,9 @@ def spawn(options, spawner, ending):
 
 
 def main():
-    """Runs until it is told to end. Returns the exit status."""
+    """Runs until a request to exit. Returns the exit status."""
     options = parse_arguments(rospy.myargv()[1:])
-    # Without ROS time: nothing here is timed by it. See SimulatedClock.
+    # Without ROS time: nothing here uses it. See SimulatedClock.
     rospy.init_node("spawner", anonymous=True, disable_signals=True, disable_rostime=True)
     if options.shutdown_timeout is not None:
         rospy.logwarn("--shutdown-timeout has no effect any more")

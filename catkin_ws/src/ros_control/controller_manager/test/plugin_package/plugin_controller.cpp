@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <controller_interface/controller_base.h>
-// By the header's ROS 1 name, as users' controllers include it.
+// Tests the header's ROS 1 name, used in users' controllers.
 #include <pluginlib/class_list_macros.h>
 
 #include "../dummies.h"

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Finds controller managers and lists, and picks from, their controllers."""
+"""Finds controller managers, and lists and filters their controllers."""
 
 import rosgraph
 import rospy
@@ -40,8 +40,8 @@ def is_controller_manager(namespace):
 def get_controller_managers(namespace="/", initial_guess=None):
     """Namespaces of the controller managers at or below a namespace, sorted.
 
-    `initial_guess` is what an earlier call returned: those of them that are still there are not
-    asked for all their services again, which makes it cheap to look repeatedly.
+    `initial_guess` is the result of an earlier call: for managers that still exist the services are not
+    looked up again, which makes repeated calls cheap.
     """
     try:
         services = rosservice.get_service_list()
@@ -70,7 +70,7 @@ class ControllerManagerLister:
 
 
 class ControllerLister:
-    """Called, it returns the controllers of one manager; an empty list when that fails."""
+    """Called, it returns the controllers of one manager; an empty list on failure."""
 
     def __init__(self, namespace="/controller_manager"):
         self._name = _join(namespace, "list_controllers")
@@ -80,7 +80,7 @@ class ControllerLister:
         return rospy.ServiceProxy(self._name, ListControllers, persistent=True)
 
     def __call__(self):
-        # The manager may have been started anew since the last call: connect once more then.
+        # The manager may have been restarted since the last call: connect again.
         for _ in range(2):
             try:
                 return self._service().controller
@@ -122,7 +122,7 @@ def filter_by_hardware_interface(ctrl_list, hardware_interface, match_substring=
 
 
 def filter_by_resources(ctrl_list, resources, hardware_interface=None, match_any=False):
-    """Controllers that claim all, or any, of the resources, on one interface if it is given."""
+    """Controllers that claim all, or any, of the resources, on the given interface if any."""
     wanted = set(resources)
     result = []
     for one in ctrl_list:
@@ -136,7 +136,7 @@ def filter_by_resources(ctrl_list, resources, hardware_interface=None, match_any
 
 
 def get_rosparam_controller_names(namespace="/"):
-    """Names below a namespace that the parameter server describes a type for, sorted."""
+    """Names below a namespace that have a type on the parameter server, sorted."""
     root = namespace.rstrip("/") + "/"
     names = set()
     for parameter in rospy.get_param_names():

@@ -6,8 +6,8 @@
 
 namespace effort_controllers {
 
-/// Passes an effort from the topic `command` on to one joint; see ForwardCommandController. It
-/// starts with zero.
+/// Forwards an effort from the topic `command` to one joint; see ForwardCommandController. Starts
+/// with zero.
 typedef forward_command_controller::ForwardCommandController<
     hardware_interface::EffortJointInterface>
     JointEffortController;

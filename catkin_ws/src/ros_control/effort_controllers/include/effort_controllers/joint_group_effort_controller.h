@@ -6,8 +6,8 @@
 
 namespace effort_controllers {
 
-/// Passes efforts from the topic `command` on to several joints; see
-/// ForwardJointGroupCommandController. It starts with zero.
+/// Forwards efforts from the topic `command` to several joints; see
+/// ForwardJointGroupCommandController. Starts with zero.
 typedef forward_command_controller::ForwardJointGroupCommandController<
     hardware_interface::EffortJointInterface>
     JointGroupEffortController;

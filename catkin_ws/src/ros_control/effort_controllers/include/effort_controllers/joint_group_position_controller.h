@@ -19,19 +19,19 @@ namespace effort_controllers {
 /// Holds several joints at positions, each by a Pid whose command is an effort.
 ///
 /// Parameters: `joints` (names), gains in `<joint>/pid` (see control_toolbox::Pid::init), and the
-/// robot's description, whose limits bound the targets. Topic `command`
-/// (std_msgs/Float64MultiArray) in the controller's namespace: one target a joint in [rad] or [m];
-/// a message of another size, or with a target that is not finite, is refused as a whole with an
-/// error. It starts at the measured positions, and stops with efforts of zero.
+/// robot's description, whose limits apply to the targets. Topic `command`
+/// (std_msgs/Float64MultiArray) in the controller's namespace: one target per joint in [rad] or
+/// [m]; a message of another size, or with a target that is not finite, is refused as a whole with
+/// an error. Starts at the measured positions, and stops with efforts of zero.
 ///
-/// Threads: update(), starting() and stopping() belong to the control loop and are real-time safe;
-/// the subscriber's callback runs elsewhere.
+/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe; the
+/// subscriber's callback runs elsewhere.
 class JointGroupPositionController
     : public controller_interface::Controller<hardware_interface::EffortJointInterface> {
  public:
   ~JointGroupPositionController() override;
 
-  /// @return false, with an error in the log, when a parameter or a joint of the description is
+  /// @return false, with an error in the log, if a parameter or a joint of the description is
   /// missing.
   bool init(hardware_interface::EffortJointInterface* hw, ros::NodeHandle& n) override;
 

@@ -6,8 +6,8 @@
 
 namespace effort_controllers {
 
-/// Holds one joint at the position of the topic `command`, by a Pid that commands its effort; all
-/// about it stands with the class it derives from.
+/// Holds one joint at the position of the topic `command`, by a Pid that commands its effort; see
+/// its base class.
 class JointPositionController : public forward_command_controller::detail::JointPositionController<
                                     hardware_interface::EffortJointInterface> {};
 

@@ -11,14 +11,14 @@
 
 namespace effort_controllers {
 
-/// Moves one joint with a velocity by a Pid whose command is an effort.
+/// Controls the velocity of one joint by a Pid whose command is an effort.
 ///
 /// Parameters: `joint`, and gains in `pid` (see control_toolbox::Pid::init). Topics in the
-/// controller's namespace: `command` (std_msgs/Float64, [rad/s] or [m/s]; refused with an error
-/// when not finite) and `state` (control_msgs/JointControllerState, every tenth update). It starts
-/// with a velocity of zero, and stops with an effort of zero.
+/// controller's namespace: `command` (std_msgs/Float64, [rad/s] or [m/s]; refused with an error if
+/// not finite) and `state` (control_msgs/JointControllerState, every tenth update). Starts with a
+/// velocity of zero, and stops with an effort of zero.
 ///
-/// Threads: update(), starting() and stopping() belong to the control loop and are real-time safe;
+/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe;
 /// setCommand() and getCommand() may be called by one other thread.
 class JointVelocityController
     : public controller_interface::Controller<hardware_interface::EffortJointInterface>,
@@ -26,12 +26,12 @@ class JointVelocityController
  public:
   ~JointVelocityController() override;
 
-  /// @return false, with an error in the log, when a parameter is missing.
+  /// @return false, with an error in the log, if a parameter is missing.
   bool init(hardware_interface::EffortJointInterface* robot, ros::NodeHandle& n) override;
 
-  /// @param cmd velocity to have, [rad/s] or [m/s].
+  /// @param cmd target velocity, [rad/s] or [m/s].
   void setCommand(double cmd);
-  /// @param[out] cmd the velocity asked for last; after a start, zero.
+  /// @param[out] cmd the last target velocity; after a start, zero.
   void getCommand(double& cmd);
 
   void starting(const ros::Time& time) override;

@@ -16,19 +16,19 @@
 
 namespace forward_command_controller {
 
-/// Passes the newest number from a topic on to one joint.
+/// Forwards the newest number from a topic to one joint.
 ///
 /// Parameter `joint`: the joint's name. Topic `command` (std_msgs/Float64) in the controller's
-/// namespace: the command in the unit of the interface ([rad], [rad/s], [Nm]; m and N for sliding
-/// joints). A command that is not finite is refused with an error, and the last good one stays.
+/// namespace: the command in the unit of the interface ([rad], [rad/s], [Nm]; m and N for prismatic
+/// joints). A command that is not finite is refused with an error, and the last valid one stays.
 ///
-/// starting() is left to each kind of joint, which specialises it. When the controller stops, a
-/// velocity or an effort is set to zero instead of acting on.
+/// starting() is specialised for each kind of joint. When the controller stops, a velocity or an
+/// effort is set to zero.
 ///
-/// Threads: update(), starting() and stopping() belong to the control loop and are real-time safe;
-/// the subscriber's callback runs elsewhere.
+/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe; the
+/// subscriber's callback runs elsewhere.
 ///
-/// @tparam T an interface of joints with one command, for instance
+/// @tparam T a joint interface with one command, for instance
 /// hardware_interface::EffortJointInterface.
 template <class T>
 class ForwardCommandController : public controller_interface::Controller<T> {
@@ -36,9 +36,9 @@ class ForwardCommandController : public controller_interface::Controller<T> {
   ForwardCommandController() = default;
   ~ForwardCommandController() override { sub_command_.shutdown(); }
 
-  /// Takes the joint and subscribes.
+  /// Gets the joint and subscribes.
   /// @return false, with an error in the log, without the parameter `joint`.
-  /// @throw hardware_interface::HardwareInterfaceException for a joint that the robot lacks.
+  /// @throw hardware_interface::HardwareInterfaceException for an unknown joint.
   bool init(T* hw, ros::NodeHandle& n) override {
     std::string joint_name;
     if (!n.getParam("joint", joint_name)) {

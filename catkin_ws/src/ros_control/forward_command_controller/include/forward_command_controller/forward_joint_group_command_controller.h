@@ -17,29 +17,29 @@
 
 namespace forward_command_controller {
 
-/// Passes the newest numbers from a topic on to several joints.
+/// Forwards the newest numbers from a topic to several joints.
 ///
 /// Parameter `joints`: their names. Topic `command` (std_msgs/Float64MultiArray) in the
-/// controller's namespace: one command a joint, in that order, in the unit of the interface. A
+/// controller's namespace: one command per joint, in that order, in the unit of the interface. A
 /// message of another size, or with a command that is not finite, is refused as a whole with an
-/// error, and the last good one stays.
+/// error, and the last valid one stays.
 ///
-/// starting() is left to each kind of joint, which specialises it. When the controller stops,
-/// velocities and efforts are set to zero instead of acting on.
+/// starting() is specialised for each kind of joint. When the controller stops, velocities and
+/// efforts are set to zero.
 ///
-/// Threads: update(), starting() and stopping() belong to the control loop and are real-time safe;
-/// the subscriber's callback runs elsewhere.
+/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe; the
+/// subscriber's callback runs elsewhere.
 ///
-/// @tparam T an interface of joints with one command.
+/// @tparam T a joint interface with one command.
 template <class T>
 class ForwardJointGroupCommandController : public controller_interface::Controller<T> {
  public:
   ForwardJointGroupCommandController() = default;
   ~ForwardJointGroupCommandController() override { sub_command_.shutdown(); }
 
-  /// Takes the joints and subscribes.
-  /// @return false, with an error in the log, without a list of different names.
-  /// @throw hardware_interface::HardwareInterfaceException for a joint that the robot lacks.
+  /// Gets the joints and subscribes.
+  /// @return false, with an error in the log, without a list of unique names.
+  /// @throw hardware_interface::HardwareInterfaceException for an unknown joint.
   bool init(T* hw, ros::NodeHandle& n) override {
     if (!detail::readJointNames(n, joint_names_)) {
       return false;

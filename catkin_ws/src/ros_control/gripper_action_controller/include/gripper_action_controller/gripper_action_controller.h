@@ -23,19 +23,19 @@ namespace gripper_action_controller {
 
 /// Moves a gripper of one joint to positions given as goals of the action `gripper_cmd`.
 ///
-/// A goal is reached within `goal_tolerance` of its position, and aborted as stalled when the joint
+/// A goal is reached within `goal_tolerance` of its position, and aborted as stalled if the joint
 /// is slower than `stall_velocity_threshold` for `stall_timeout`. Parameters (namespace of the
 /// controller): `joint` (required), `action_monitor_rate` 20 [Hz], `goal_tolerance` 0.01 [m or
 /// rad], `max_effort` 0 [N or Nm], `stall_velocity_threshold` 0.001 [m/s or rad/s], `stall_timeout`
 /// 1 [s].
 ///
 /// The control loop calls update(), starting(), stopping(), waiting() and aborting(): they neither
-/// allocate nor lock. The rest runs in callbacks under one mutex the loop never touches.
+/// allocate nor lock. All others run in callbacks under one mutex that the loop never takes.
 /// @tparam HardwareInterface one with a HardwareInterfaceAdapter
 template <class HardwareInterface>
 class GripperActionController : public controller_interface::Controller<HardwareInterface> {
  public:
-  /// What to do, from one goal or from starting().
+  /// Target of a goal or of starting().
   struct Commands {
     double position_{0.0};    ///< [m] or [rad]
     double max_effort_{0.0};  ///< [N] or [Nm]
@@ -44,12 +44,12 @@ class GripperActionController : public controller_interface::Controller<Hardware
   GripperActionController() = default;
   ~GripperActionController() override;
 
-  /// @returns false, with the reason in the log, when a parameter or the joint is missing or wrong.
+  /// @returns false, after logging the reason, if a parameter or the joint is missing or wrong.
   bool init(HardwareInterface* hw, ros::NodeHandle& root_nh,
             ros::NodeHandle& controller_nh) override;
   /// Holds the present position.
   void starting(const ros::Time& time) override;
-  /// Gives up; a goal under way is cancelled a moment later.
+  /// Stops; a running goal is cancelled shortly afterwards.
   void stopping(const ros::Time& time) override;
   void waiting(const ros::Time& time) override { stopping(time); }
   void aborting(const ros::Time& time) override { stopping(time); }
@@ -66,7 +66,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
 
   virtual void goalCB(GoalHandle gh);
   virtual void cancelCB(GoalHandle gh);
-  /// Cancels the goal under way, if any.
+  /// Cancels the running goal, if any.
   virtual void preemptActiveGoal();
 
   std::string name_;  ///< last part of the controller's namespace
@@ -75,7 +75,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
   HwIfaceAdapter hw_iface_adapter_;
 
  private:
-  /// What callbacks lay before the loop; without a goal: hold.
+  /// A command of the callbacks for the loop; without a goal: hold.
   struct Order {
     Commands commands;
     boost::shared_ptr<RealtimeGoal> goal;
@@ -83,7 +83,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
     Order* next{nullptr};
   };
 
-  /// What the loop tells callbacks after each update.
+  /// State of the loop for the callbacks, after each update.
   struct Snapshot {
     double position{0.0};
     double effort{0.0};
@@ -101,7 +101,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
 
   // In callbacks.
   void endGoal(const std::string& reason);
-  void tellResult(const std::string& reason);
+  void sendResult(const std::string& reason);
   void publishFeedback();
   void monitor(const ros::WallTimerEvent& event);
 
@@ -112,10 +112,10 @@ class GripperActionController : public controller_interface::Controller<Hardware
   double stall_timeout_{1.0};
 
   // Of the control loop.
-  Order* order_{nullptr};  ///< being followed; owned
+  Order* order_{nullptr};  ///< the present one; owned
   Commands commands_;
   double computed_effort_{0.0};
-  double still_for_{0.0};  ///< how long the joint has hardly moved [s]
+  double still_for_{0.0};  ///< time of standstill [s]
 
   // Shared.
   joint_trajectory_controller::internal::CommandExchange<Order> exchange_;

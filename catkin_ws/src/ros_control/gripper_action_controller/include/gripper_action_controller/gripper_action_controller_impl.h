@@ -14,7 +14,7 @@ namespace gripper_action_controller {
 
 template <class HardwareInterface>
 GripperActionController<HardwareInterface>::~GripperActionController() {
-  // First all callbacks end, then what they use.
+  // Callbacks must end before the objects that they use.
   monitor_timer_.stop();
   {
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
@@ -157,7 +157,7 @@ void GripperActionController<HardwareInterface>::judgeGoal(double error_position
   }
 }
 
-/// A gripper that stalls keeps pressing towards its target: it may hold something.
+/// A stalled gripper keeps pressing towards its target: it may hold an object.
 template <class HardwareInterface>
 void GripperActionController<HardwareInterface>::settle(RealtimeGoal& goal, bool reached) {
   if (!goal.claim()) {
@@ -228,7 +228,7 @@ void GripperActionController<HardwareInterface>::preemptActiveGoal() {
   endGoal("Another command replaced this goal.");
 }
 
-/// Cancels the goal unless the loop has just ended it, and tells the client either way.
+/// Cancels the goal unless the loop has just ended it, and reports the result to the client.
 template <class HardwareInterface>
 void GripperActionController<HardwareInterface>::endGoal(const std::string& reason) {
   if (!active_goal_) {
@@ -240,19 +240,18 @@ void GripperActionController<HardwareInterface>::endGoal(const std::string& reas
     active_goal_->handle()->preallocated_result_->effort = snapshot.effort;
     active_goal_->handle()->preallocated_result_->stalled = snapshot.stalled;
     active_goal_->settle(RealtimeGoal::Outcome::kCanceled);
-    tellResult(reason);
+    sendResult(reason);
     return;
   }
-  // While the loop is between claim() and settle() there is nothing to tell yet; it takes a
-  // microsecond.
+  // Between claim() and settle() of the loop there is no result yet; this takes a microsecond.
   while (!active_goal_->isSettled()) {
     std::this_thread::yield();
   }
-  tellResult("");
+  sendResult("");
 }
 
 template <class HardwareInterface>
-void GripperActionController<HardwareInterface>::tellResult(const std::string& reason) {
+void GripperActionController<HardwareInterface>::sendResult(const std::string& reason) {
   const control_msgs::GripperCommandResult& result = *active_goal_->handle()->preallocated_result_;
   std::string text = reason;
   if (text.empty()) {
@@ -282,7 +281,7 @@ void GripperActionController<HardwareInterface>::monitor(const ros::WallTimerEve
     return;
   }
   if (active_goal_->isSettled()) {
-    tellResult("");
+    sendResult("");
   } else if (active_goal_session_ != session_.load()) {
     endGoal("The controller '" + name_ + "' was stopped before the goal was reached.");
   } else {

@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <memory>
 
-/// Turns a gripper's target into commands of a hardware interface; ours serve position and effort.
-/// init() runs outside the control loop, everything else in it: no allocation, no lock.
+/// Converts a gripper's target into commands of a hardware interface; implemented for position and
+/// effort. init() runs outside the control loop, all others in it: no allocation, no lock.
 template <class HardwareInterface>
 class HardwareInterfaceAdapter {
  public:
@@ -30,7 +30,7 @@ class HardwareInterfaceAdapter {
   }
 };
 
-/// Commands the target position; the effort is the hardware's affair.
+/// Commands the target position; the hardware controls the effort.
 template <>
 class HardwareInterfaceAdapter<hardware_interface::PositionJointInterface> {
  public:
@@ -41,7 +41,7 @@ class HardwareInterfaceAdapter<hardware_interface::PositionJointInterface> {
   void starting(const ros::Time& /*time*/) { joint_->setCommand(joint_->getPosition()); }
   void stopping(const ros::Time& /*time*/) {}
 
-  /// @returns the effort the goal allows, since the real one is not known
+  /// @returns the effort that the goal allows, because the real one is unknown
   double updateCommand(const ros::Time& /*time*/, const ros::Duration& /*period*/,
                        double desired_position, double /*desired_velocity*/,
                        double /*error_position*/, double /*error_velocity*/,
@@ -54,8 +54,8 @@ class HardwareInterfaceAdapter<hardware_interface::PositionJointInterface> {
   hardware_interface::JointHandle* joint_{nullptr};
 };
 
-/// Commands a PID of the position error, limited to the effort the goal allows.
-/// Parameters: `gains/<joint>` as control_toolbox::Pid::init() reads them.
+/// Commands a PID of the position error, limited to the effort that the goal allows.
+/// Parameters: `gains/<joint>` as for control_toolbox::Pid::init().
 template <>
 class HardwareInterfaceAdapter<hardware_interface::EffortJointInterface> {
  public:
@@ -77,7 +77,7 @@ class HardwareInterfaceAdapter<hardware_interface::EffortJointInterface> {
   }
   void stopping(const ros::Time& /*time*/) {}
 
-  /// @returns the effort commanded [N] or [Nm]
+  /// @returns the commanded effort [N] or [Nm]
   double updateCommand(const ros::Time& /*time*/, const ros::Duration& period,
                        double /*desired_position*/, double /*desired_velocity*/,
                        double error_position, double error_velocity, double max_allowed_effort) {

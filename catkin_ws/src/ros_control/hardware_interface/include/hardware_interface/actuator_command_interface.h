@@ -10,13 +10,13 @@
 
 namespace hardware_interface {
 
-/// Reads the state of one actuator and commands it. The interface it was taken from gives the
-/// command its meaning and unit. All but the constructors and getName are safe in the control loop.
+/// Reads the state of one actuator and commands it. Its interface defines meaning and unit of the
+/// command. All but the constructors and getName are safe in the control loop.
 class ActuatorHandle : public ActuatorStateHandle {
  public:
   ActuatorHandle() = default;
 
-  /// @throws HardwareInterfaceException when `cmd` is null.
+  /// @throws HardwareInterfaceException if `cmd` is null.
   ActuatorHandle(const ActuatorStateHandle& as, double* cmd) : ActuatorStateHandle(as), cmd_(cmd) {
     if (cmd == nullptr) {
       throw HardwareInterfaceException("Cannot create handle '" + as.getName() +
@@ -32,7 +32,7 @@ class ActuatorHandle : public ActuatorStateHandle {
     assert(cmd_);
     return *cmd_;
   }
-  /// For transmissions, which write the command in place of a setter.
+  /// For transmissions, which write the command directly.
   double* getCommandPtr() {
     assert(cmd_);
     return cmd_;
@@ -42,7 +42,7 @@ class ActuatorHandle : public ActuatorStateHandle {
   double* cmd_{nullptr};
 };
 
-/// Commands of actuators. Nothing is claimed: it is the joints behind them that controllers claim.
+/// Commands of actuators. Nothing is claimed: controllers claim the joints.
 class ActuatorCommandInterface : public HardwareResourceManager<ActuatorHandle> {};
 
 /// Efforts: [Nm] for rotary actuators, [N] for linear ones.

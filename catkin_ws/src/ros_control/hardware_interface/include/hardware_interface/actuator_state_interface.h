@@ -10,15 +10,15 @@
 
 namespace hardware_interface {
 
-/// Reads the state of one actuator, the motor's side of a transmission. It points at values that
-/// the robot writes in `read()`; copies point at the same values. Units: position [rad] or [m],
+/// Reads the state of one actuator, the motor's side of a transmission. It points to values that
+/// the robot writes in `read()`; copies point to the same values. Units: position [rad] or [m],
 /// velocity [rad/s] or [m/s], effort [Nm] or [N]. The getters of position, velocity and effort are
 /// safe in the control loop.
 class ActuatorStateHandle {
  public:
   ActuatorStateHandle() = default;
 
-  /// @throws HardwareInterfaceException when a pointer is null; so do all constructors.
+  /// All constructors: @throws HardwareInterfaceException if a pointer is null.
   ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
                       const double* eff)
       : name_(name),
@@ -41,7 +41,7 @@ class ActuatorStateHandle {
     absolute_pos_ = require(absolute_pos, "Absolute");
   }
 
-  /// With a torque sensor; the bool only tells this constructor from the one before.
+  /// With a torque sensor; the bool only distinguishes this constructor from the previous one.
   ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
                       const double* eff, const double* torque_sensor, bool /*tag*/)
       : ActuatorStateHandle(name, pos, vel, eff) {
@@ -105,7 +105,7 @@ class ActuatorStateHandle {
   const double* torque_sensor_{nullptr};
 };
 
-/// States of actuators; any number of users may read them.
+/// States of actuators, for any number of readers.
 class ActuatorStateInterface : public HardwareResourceManager<ActuatorStateHandle> {};
 
 }  // namespace hardware_interface

@@ -9,7 +9,7 @@
 
 namespace hardware_interface {
 
-/// What a robot gets to know about a controller.
+/// Description of a controller for the robot.
 struct ControllerInfo {
   std::string name;  ///< unique within its controller manager
   std::string type;  ///< plugin name

@@ -9,8 +9,8 @@
 namespace hardware_interface {
 
 /// Reads one force-torque sensor. Force [N] and torque [Nm] are vectors of three (x, y, z) in the
-/// sensor's frame, written by the robot in `read()`; a sensor may have only one of the two, the
-/// other pointer then is null. getForce and getTorque are safe in the control loop.
+/// sensor's frame, written by the robot in `read()`; for a missing quantity the pointer is null.
+/// getForce and getTorque are safe in the control loop.
 class ForceTorqueSensorHandle {
  public:
   ForceTorqueSensorHandle() = default;
@@ -30,7 +30,7 @@ class ForceTorqueSensorHandle {
   const double* torque_{nullptr};
 };
 
-/// Force-torque sensors; any number of controllers may read them.
+/// Force-torque sensors, for any number of readers.
 class ForceTorqueSensorInterface : public HardwareResourceManager<ForceTorqueSensorHandle> {};
 
 }  // namespace hardware_interface

@@ -10,16 +10,16 @@
 
 namespace hardware_interface {
 
-/// What every hardware interface shares: a list of the resources that its users claim exclusively.
-/// Claims are made while controllers are initialised, never in the control loop. Not thread-safe.
+/// Base of hardware interfaces: the resources that controllers claim exclusively. Claims are made
+/// while controllers are initialised, never in the control loop. Not thread-safe.
 class HardwareInterface {
  public:
   virtual ~HardwareInterface() = default;
 
-  /// Notes that somebody wants the named resource for itself. Claiming twice equals claiming once.
+  /// Claims the named resource. Claiming twice equals claiming once.
   virtual void claim(std::string resource) { claims_.insert(resource); }
 
-  /// Forgets all claims.
+  /// Removes all claims.
   void clearClaims() { claims_.clear(); }
 
   /// The claimed resources, sorted.
@@ -29,7 +29,7 @@ class HardwareInterface {
   std::set<std::string> claims_;
 };
 
-/// Something is wrong with a hardware interface or with one of its resources.
+/// An error of a hardware interface or of one of its resources.
 class HardwareInterfaceException : public std::exception {
  public:
   HardwareInterfaceException(const std::string& message) : message_(message) {}

@@ -8,12 +8,12 @@
 
 namespace hardware_interface {
 
-/// Reads one inertial measurement unit. What the unit does not measure is null. All but the
+/// Reads one inertial measurement unit. Pointers of missing quantities are null. All but the
 /// constructors, getName and getFrameId are safe in the control loop.
 class ImuSensorHandle {
  public:
-  /// Where the robot writes, in the sensor's frame. Vectors are (x, y, z); covariances are 3x3, row
-  /// by row, as in sensor_msgs/Imu.
+  /// Values that the robot writes, in the sensor's frame. Vectors are (x, y, z); covariances are
+  /// 3x3, row by row, as in sensor_msgs/Imu.
   struct Data {
     std::string name;
     std::string frame_id;
@@ -63,7 +63,7 @@ class ImuSensorHandle {
   const double* linear_acceleration_covariance_{nullptr};
 };
 
-/// Inertial measurement units; any number of controllers may read them.
+/// Inertial measurement units, for any number of readers.
 class ImuSensorInterface : public HardwareResourceManager<ImuSensorHandle> {};
 
 }  // namespace hardware_interface

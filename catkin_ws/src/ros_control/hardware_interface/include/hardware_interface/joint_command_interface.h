@@ -10,13 +10,13 @@
 
 namespace hardware_interface {
 
-/// Reads the state of one joint and commands it. The interface it was taken from gives the command
-/// its meaning and unit. All but the constructors and getName are safe in the control loop.
+/// Reads the state of one joint and commands it. Its interface defines meaning and unit of the
+/// command. All but the constructors and getName are safe in the control loop.
 class JointHandle : public JointStateHandle {
  public:
   JointHandle() = default;
 
-  /// @throws HardwareInterfaceException when `cmd` is null.
+  /// @throws HardwareInterfaceException if `cmd` is null.
   JointHandle(const JointStateHandle& js, double* cmd) : JointStateHandle(js), cmd_(cmd) {
     if (cmd == nullptr) {
       throw HardwareInterfaceException("Cannot create handle '" + js.getName() +

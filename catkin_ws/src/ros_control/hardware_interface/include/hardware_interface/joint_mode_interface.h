@@ -9,7 +9,7 @@
 
 namespace hardware_interface {
 
-/// What a joint's drive takes as its command. The values are fixed: drivers exchange them as ints.
+/// Command mode of a joint's drive. The values are fixed: drivers exchange them as ints.
 enum class JointCommandModes {
   BEGIN = -1,
   MODE_POSITION = 0,
@@ -21,13 +21,13 @@ enum class JointCommandModes {
   ERROR = 6
 };
 
-/// Reads and asks for the mode of one joint's drive. Setting and getting the mode are safe in the
+/// Reads and requests the mode of one joint's drive. Setting and getting the mode are safe in the
 /// control loop; the rest allocates.
 class JointModeHandle {
  public:
   JointModeHandle() = default;
 
-  /// @throws HardwareInterfaceException when `mode` is null.
+  /// @throws HardwareInterfaceException if `mode` is null.
   JointModeHandle(std::string name, JointCommandModes* mode) : name_(name), mode_(mode) {
     if (mode == nullptr) {
       throw HardwareInterfaceException("Cannot create mode interface. Mode data pointer is null.");
@@ -49,7 +49,7 @@ class JointModeHandle {
     return mode_;
   }
 
-  /// A word for a mode, for messages; "unknown" for a value that is none of the enumeration.
+  /// Name of a mode for messages; "unknown" for an invalid value.
   static std::string getModeName(JointCommandModes mode) {
     switch (mode) {
       case JointCommandModes::BEGIN:
@@ -77,7 +77,7 @@ class JointModeHandle {
   JointCommandModes* mode_{nullptr};
 };
 
-/// Modes of joints; taking a handle claims nothing.
+/// Modes of joints; getHandle claims nothing.
 class JointModeInterface : public HardwareResourceManager<JointModeHandle> {};
 
 }  // namespace hardware_interface

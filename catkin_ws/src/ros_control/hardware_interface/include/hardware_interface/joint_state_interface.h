@@ -10,14 +10,14 @@
 
 namespace hardware_interface {
 
-/// Reads the state of one joint. It points at values that the robot writes in `read()`; copies
-/// point at the same values. Units: position [rad] or [m], velocity [rad/s] or [m/s], effort [Nm]
+/// Reads the state of one joint. It points to values that the robot writes in `read()`; copies
+/// point to the same values. Units: position [rad] or [m], velocity [rad/s] or [m/s], effort [Nm]
 /// or [N]. The getters of position, velocity and effort are safe in the control loop.
 class JointStateHandle {
  public:
   JointStateHandle() = default;
 
-  /// @throws HardwareInterfaceException when a pointer is null; so do all constructors.
+  /// All constructors: @throws HardwareInterfaceException if a pointer is null.
   JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff)
       : name_(name), pos_(pos), vel_(vel), eff_(eff) {
     require(pos, "Position");
@@ -40,7 +40,7 @@ class JointStateHandle {
     absolute_pos_ = require(absolute_pos, "Absolute");
   }
 
-  /// With a torque sensor; the bool only tells this constructor from the one before.
+  /// With a torque sensor; the bool only distinguishes this constructor from the previous one.
   JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
                    const double* torque_sensor, bool /*tag*/)
       : JointStateHandle(name, pos, vel, eff) {
@@ -116,7 +116,7 @@ class JointStateHandle {
   const double* torque_sensor_{nullptr};
 };
 
-/// States of joints; any number of controllers may read them.
+/// States of joints, for any number of readers.
 class JointStateInterface : public HardwareResourceManager<JointStateHandle> {};
 
 }  // namespace hardware_interface

@@ -17,8 +17,8 @@
 
 namespace hardware_interface {
 
-/// A robot, as controllers see it: a set of hardware interfaces, refreshed by read() and taken over
-/// by write() once per control cycle.
+/// A robot as controllers see it: a set of hardware interfaces, updated by read() and applied by
+/// write() once per control cycle.
 class RobotHW : public InterfaceManager {
  public:
   RobotHW() = default;
@@ -28,8 +28,8 @@ class RobotHW : public InterfaceManager {
   /// @returns false if the robot cannot be used.
   virtual bool init(ros::NodeHandle& /*root_nh*/, ros::NodeHandle& /*robot_hw_nh*/) { return true; }
 
-  /// Whether the controllers cannot run together. Here: some resource is claimed more than once,
-  /// on whatever interface; each conflict is logged. Runs outside the control loop.
+  /// Whether the controllers conflict. Default: a resource is claimed more than once, on any
+  /// interface; each conflict is logged. Runs outside the control loop.
   virtual bool checkForConflict(const std::list<ControllerInfo>& info) const {
     typedef std::map<std::string, std::vector<std::string>> Claimants;
     Claimants claimants;
@@ -57,32 +57,31 @@ class RobotHW : public InterfaceManager {
   }
 
   /// Called before a switch, outside the control loop, with the controllers that will be started
-  /// and stopped (not those restarted). Slow preparations belong here.
-  /// @returns false to refuse the switch.
+  /// and stopped (not those restarted). For slow preparations. @returns false to refuse the switch.
   virtual bool prepareSwitch(const std::list<ControllerInfo>& /*start_list*/,
                              const std::list<ControllerInfo>& /*stop_list*/) {
     return true;
   }
 
-  /// Called once at the beginning of a switch, in the control loop: must be real-time safe.
+  /// Called once at the start of a switch, in the control loop: must be real-time safe.
   virtual void doSwitch(const std::list<ControllerInfo>& /*start_list*/,
                         const std::list<ControllerInfo>& /*stop_list*/) {}
 
   enum class SwitchState { DONE, ONGOING, ERROR };
 
-  /// How far the switch is for all controllers. In the control loop: must be real-time safe.
+  /// Progress of the switch for all controllers. In the control loop: must be real-time safe.
   virtual SwitchState switchResult() const { return SwitchState::DONE; }
 
-  /// How far the switch is for one controller. In the control loop: must be real-time safe.
+  /// Progress of the switch for one controller. In the control loop: must be real-time safe.
   virtual SwitchState switchResult(const ControllerInfo& /*controller*/) const {
     return SwitchState::DONE;
   }
 
-  /// Takes the robot's state over. In the control loop: must be real-time safe.
+  /// Reads the robot's state. In the control loop: must be real-time safe.
   /// @param time of this cycle @param period since the one before
   virtual void read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {}
 
-  /// Hands the controllers' commands over. In the control loop: must be real-time safe.
+  /// Sends the controllers' commands. In the control loop: must be real-time safe.
   /// @param time of this cycle @param period since the one before
   virtual void write(const ros::Time& /*time*/, const ros::Duration& /*period*/) {}
 };

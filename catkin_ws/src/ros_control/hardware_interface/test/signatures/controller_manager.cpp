@@ -46,7 +46,7 @@ EXPECT_TYPE(bool, of<ControllerManager>().switchController(Names(), Names(), 2))
 EXPECT_TYPE(bool, of<ControllerManager>().switchController(Names(), Names(), 2, true, 1.0));
 EXPECT_TYPE(void,
             of<ControllerManager>().registerControllerLoader(ControllerLoaderInterfaceSharedPtr()));
-// What the original's header brings along.
+// Includes that users of the original's header rely on.
 EXPECT_TYPE(bool, static_cast<bool>(of<controller_manager_msgs::LoadController>().response.ok));
 EXPECT_TYPE(bool, static_cast<bool>(of<controller_manager_msgs::UnloadController>().response.ok));
 EXPECT_TYPE(bool, static_cast<bool>(of<controller_manager_msgs::SwitchController>().response.ok));

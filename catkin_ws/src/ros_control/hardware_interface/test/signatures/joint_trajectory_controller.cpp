@@ -37,7 +37,7 @@ EXPECT_BASE(TrajectoryBuilder<Spline>, Hold);
 static_assert(
     std::is_constructible<Hold, const std::vector<hardware_interface::JointHandle>&>::value, "");
 
-/// A builder as others write it on top of the base class.
+/// A user's builder derived from the base class.
 class OwnBuilder : public TrajectoryBuilder<Spline> {
  public:
   bool buildTrajectory(Trajectory* trajectory) override {
@@ -64,7 +64,7 @@ EXPECT_TYPE(boost::shared_ptr<Goal>, of<Options>().rt_goal_handle);
 EXPECT_TYPE(Trajectory, initJointTrajectory<Trajectory>(trajectory_msgs::JointTrajectory(),
                                                         ros::Time(), Options()));
 
-/// A controller as others derive it.
+/// A user's derived controller.
 class OwnController : public JointTrajectoryController<Spline, Effort> {
  protected:
   typedef JointTrajectoryController<Spline, Effort> Base;
@@ -79,7 +79,7 @@ class OwnController : public JointTrajectoryController<Spline, Effort> {
 EXPECT_BASE(controller_interface::Controller<Effort>, OwnController);
 OwnController* make() { return new OwnController; }
 
-// What the original's headers bring along.
+// Includes that users of the original's headers rely on.
 EXPECT_TYPE(double, angles::shortest_angular_distance(0.0, 1.0));
 EXPECT_TYPE(urdf::Model&, of<urdf::Model>());
 EXPECT_TYPE(void, of<realtime_tools::RealtimeBox<int>>().set(1));

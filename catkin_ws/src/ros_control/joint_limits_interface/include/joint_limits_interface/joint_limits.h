@@ -4,8 +4,8 @@
 
 namespace joint_limits_interface {
 
-/// What the mechanics of a joint allow. A number counts only where its flag is set. Units are those
-/// of a revolute joint; read [m] for [rad] and [N] for [Nm] with a prismatic one.
+/// Mechanical limits of a joint. A number is valid only if its flag is set. Units are those of a
+/// revolute joint; for a prismatic one [m] replaces [rad] and [N] replaces [Nm].
 struct JointLimits {
   double min_position{0.0};      ///< [rad]
   double max_position{0.0};      ///< [rad]
@@ -19,11 +19,11 @@ struct JointLimits {
   bool has_acceleration_limits{false};
   bool has_jerk_limits{false};
   bool has_effort_limits{false};
-  bool angle_wraparound{false};  ///< turns without end
+  bool angle_wraparound{false};  ///< continuous
 };
 
-/// Limits that begin to act before the hard ones: springs of velocity around the position limits
-/// and springs of effort around those velocities, as the safety controller of URDF describes them.
+/// Limits that act before the hard ones: velocity springs around the position limits and effort
+/// springs around those velocities, as in the safety controller of URDF.
 struct SoftJointLimits {
   double min_position{0.0};  ///< [rad]
   double max_position{0.0};  ///< [rad]

@@ -22,7 +22,7 @@ template <class HandleType>
 class JointLimitsInterface : public hardware_interface::ResourceManager<HandleType> {
  public:
   /// A copy of the named handle.
-  /// @throws JointLimitsInterfaceException when there is none of that name.
+  /// @throws JointLimitsInterfaceException for an unknown name.
   HandleType getHandle(const std::string& name) {
     try {
       return hardware_interface::ResourceManager<HandleType>::getHandle(name);
@@ -32,7 +32,7 @@ class JointLimitsInterface : public hardware_interface::ResourceManager<HandleTy
   }
 
   /// Enforces the limits of all joints, in the order of their names. Safe in the control loop.
-  /// @param period since the commands before [s]
+  /// @param period since the previous commands [s]
   void enforceLimits(const ros::Duration& period) {
     for (auto& resource : this->resource_map_) {
       resource.second.enforceLimits(period);
@@ -40,12 +40,12 @@ class JointLimitsInterface : public hardware_interface::ResourceManager<HandleTy
   }
 };
 
-/// The limits of joints that are commanded in position; they depend on the commands before.
+/// The limits of joints with position commands; they depend on the previous commands.
 template <class HandleType>
 class PositionLimitsInterface : public JointLimitsInterface<HandleType> {
  public:
-  /// Forgets the commands before, of all joints. To be called when controllers are switched. Safe
-  /// in the control loop.
+  /// Resets the previous commands of all joints. Call it when controllers are switched. Safe in the
+  /// control loop.
   void reset() {
     for (auto& resource : this->resource_map_) {
       resource.second.reset();

@@ -7,7 +7,7 @@
 
 namespace joint_limits_interface {
 
-/// Limits cannot be enforced: they lack a value, or there is no handle of that name.
+/// Limits cannot be enforced: a value is missing, or there is no handle of that name.
 class JointLimitsInterfaceException : public std::exception {
  public:
   JointLimitsInterfaceException(const std::string& message) : message_(message) {}

@@ -14,13 +14,13 @@
 namespace joint_limits_interface {
 namespace internal {
 
-/// A parameter and where its value belongs.
+/// A parameter and its destination.
 struct LimitParam {
   const char* name;
   double* value;
 };
 
-/// Reads a parameter; a value of a wrong type is as good as none, but gets a sentence.
+/// Reads a parameter; a value of a wrong type is ignored with a warning.
 template <class T>
 bool readLimit(const ros::NodeHandle& nh, const std::string& name, T& value, const char* kind) {
   if (!nh.hasParam(name)) {
@@ -34,8 +34,7 @@ bool readLimit(const ros::NodeHandle& nh, const std::string& name, T& value, con
   return false;
 }
 
-/// All of the parameters or none.
-/// @returns false if one of them is missing; then no value has been touched.
+/// Reads all parameters or none. @returns false, without changes, if one of them is missing.
 inline bool readAll(const ros::NodeHandle& nh, std::initializer_list<LimitParam> params) {
   for (const LimitParam& param : params) {
     double value = 0.0;
@@ -49,7 +48,7 @@ inline bool readAll(const ros::NodeHandle& nh, std::initializer_list<LimitParam>
   return true;
 }
 
-/// One kind of limits: a flag `has_<kind>_limits` and the values it stands for.
+/// One kind of limits: a flag `has_<kind>_limits` and its values.
 inline void readKind(const ros::NodeHandle& nh, const std::string& kind, bool& has_limits,
                      std::initializer_list<LimitParam> params) {
   const std::string flag_name = "has_" + kind + "_limits";
@@ -68,8 +67,7 @@ inline void readKind(const ros::NodeHandle& nh, const std::string& kind, bool& h
   }
 }
 
-/// The handle of the namespace `joint_limits/<joint>`.
-/// @returns false if there is none.
+/// Opens the namespace `joint_limits/<joint>`. @returns false if there is none.
 inline bool openLimits(const std::string& joint_name, const ros::NodeHandle& nh,
                        ros::NodeHandle& limits_nh) {
   const std::string limits_namespace = "joint_limits/" + joint_name;
@@ -91,11 +89,10 @@ inline bool openLimits(const std::string& joint_name, const ros::NodeHandle& nh,
 
 }  // namespace internal
 
-/// Takes the limits over that the parameters `joint_limits/<joint_name>/...` of `nh` state. Each
-/// kind (position, velocity, acceleration, jerk, effort) whose flag `has_<kind>_limits` is absent
-/// stays untouched, so parameters can override a URDF in part. Asks the parameter server: not for
-/// the control loop.
-/// @returns false, with `limits` untouched, if there are no such parameters.
+/// Reads limits from the parameters `joint_limits/<joint_name>/...` of `nh`. Each kind (position,
+/// velocity, acceleration, jerk, effort) without the flag `has_<kind>_limits` is unchanged, so
+/// parameters can override a URDF in part. Accesses the parameter server: not for the control loop.
+/// @returns false, with `limits` unchanged, without such parameters.
 inline bool getJointLimits(const std::string& joint_name, const ros::NodeHandle& nh,
                            JointLimits& limits) {
   ros::NodeHandle limits_nh;
@@ -113,7 +110,7 @@ inline bool getJointLimits(const std::string& joint_name, const ros::NodeHandle&
   internal::readKind(limits_nh, "effort", limits.has_effort_limits,
                      {{"max_effort", &limits.max_effort}});
 
-  // Only a joint that is said to have no end can turn for ever.
+  // Only a joint explicitly without position limits can be continuous.
   bool has_position_limits = true;
   limits_nh.getParam("has_position_limits", has_position_limits);
   if (!has_position_limits) {
@@ -122,10 +119,10 @@ inline bool getJointLimits(const std::string& joint_name, const ros::NodeHandle&
   return true;
 }
 
-/// Takes the soft limits over that the parameters `joint_limits/<joint_name>/...` of `nh` state:
-/// has_soft_limits (true), k_position, k_velocity, soft_lower_limit and soft_upper_limit. Asks the
-/// parameter server: not for the control loop.
-/// @returns false, with `soft_limits` untouched, unless all of them are there.
+/// Reads soft limits from the parameters `joint_limits/<joint_name>/...` of `nh`: has_soft_limits
+/// (true), k_position, k_velocity, soft_lower_limit and soft_upper_limit. Accesses the parameter
+/// server: not for the control loop. @returns false, with `soft_limits` unchanged, unless all of
+/// them are set.
 inline bool getSoftJointLimits(const std::string& joint_name, const ros::NodeHandle& nh,
                                SoftJointLimits& soft_limits) {
   ros::NodeHandle limits_nh;

@@ -8,9 +8,9 @@
 
 namespace joint_limits_interface {
 
-/// Takes the limits over that a joint of a URDF states. URDF knows neither acceleration nor jerk:
-/// the flag of the former is cleared, the latter stays untouched.
-/// @returns false, with `limits` untouched, if there is no joint or it has no <limit>.
+/// Reads the limits of a URDF joint. URDF has neither acceleration nor jerk: the flag of the former
+/// is cleared, the latter is unchanged. @returns false, with `limits` unchanged, without a joint or
+/// its <limit>.
 inline bool getJointLimits(urdf::JointConstSharedPtr urdf_joint, JointLimits& limits) {
   if (!urdf_joint || !urdf_joint->limits) {
     return false;
@@ -32,8 +32,8 @@ inline bool getJointLimits(urdf::JointConstSharedPtr urdf_joint, JointLimits& li
   return true;
 }
 
-/// Takes the soft limits over that a joint of a URDF states in its <safety_controller>.
-/// @returns false, with `soft_limits` untouched, if there is no joint or it has no such element.
+/// Reads the soft limits from a URDF joint's <safety_controller>. @returns false, with
+/// `soft_limits` unchanged, without a joint or that element.
 inline bool getSoftJointLimits(urdf::JointConstSharedPtr urdf_joint, SoftJointLimits& soft_limits) {
   if (!urdf_joint || !urdf_joint->safety) {
     return false;

@@ -19,19 +19,19 @@ namespace joint_state_controller {
 ///
 /// Parameters, in the controller's namespace:
 ///   `publish_rate` [Hz], required; nothing is published unless it is positive.
-///   `joints`: which, and in which order; all of the robot, by name, without it.
-///   `extra_joints`: list of {name, position, velocity, effort}, the numbers 0 if left out, of
-///   joints without a handle; published with every message. A wrong entry is skipped with an error.
+///   `joints`: names, in the order of publishing; default: all of the robot, sorted by name.
+///   `extra_joints`: list of {name, position, velocity, effort}, numbers default to 0, of joints
+///   without a handle; published with every message. An invalid entry is skipped with an error.
 ///
-/// The first update publishes; later ones keep the rate's beat where the loop can follow it, and
-/// start afresh where it was late or time jumped back.
+/// The first update publishes; later ones keep the rate if the loop can follow it, and restart it
+/// after a delay or a jump back in time.
 ///
-/// Threads: update() and starting() belong to the control loop and are real-time safe.
+/// Threads: update() and starting() run in the control loop and are real-time safe.
 class JointStateController
     : public controller_interface::Controller<hardware_interface::JointStateInterface> {
  public:
   /// @return false, with an error in the log, without `publish_rate`.
-  /// @throw hardware_interface::HardwareInterfaceException for a joint that the robot lacks.
+  /// @throw hardware_interface::HardwareInterfaceException for an unknown joint.
   bool init(hardware_interface::JointStateInterface* hw, ros::NodeHandle& root_nh,
             ros::NodeHandle& controller_nh) override;
   void starting(const ros::Time& time) override;
@@ -45,8 +45,8 @@ class JointStateController
 
   std::vector<hardware_interface::JointStateHandle> joint_state_;
   std::unique_ptr<Publisher> realtime_pub_;
-  double period_{0.0};  ///< [s]; 0 to publish nothing
-  double next_{0.0};    ///< when to publish again [s]
+  double period_{0.0};  ///< [s]; 0: nothing is published
+  double next_{0.0};    ///< time of the next message [s]
 };
 
 }  // namespace joint_state_controller

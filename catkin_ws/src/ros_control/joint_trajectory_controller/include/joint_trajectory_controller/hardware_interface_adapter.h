@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-/// Turns desired states into commands of a hardware interface. Controllers specialise it for
-/// interfaces of their own; ours serve position, velocity, effort, posvel and posvelacc.
+/// Converts desired states into commands of a hardware interface. Controllers specialise it for
+/// their own interfaces; implemented for position, velocity, effort, posvel and posvelacc.
 ///
-/// init() runs outside the control loop, everything else in it: no allocation, no lock.
+/// init() runs outside the control loop, all others in it: no allocation, no lock.
 /// @tparam State of all joints: vectors position, velocity and acceleration
 template <class HardwareInterface, class State>
 class HardwareInterfaceAdapter {
@@ -35,7 +35,7 @@ class HardwareInterfaceAdapter {
 
 /// Velocity or effort = velocity_ff * desired velocity + PID of the position error.
 ///
-/// Parameters: `gains/<joint>` as control_toolbox::Pid::init() reads them (required),
+/// Parameters: `gains/<joint>` as for control_toolbox::Pid::init() (required),
 /// `velocity_ff/<joint>` (0).
 template <class State, class JointHandle>
 class ClosedLoopHardwareInterfaceAdapter {
@@ -93,7 +93,7 @@ template <class State>
 class HardwareInterfaceAdapter<hardware_interface::EffortJointInterface, State>
     : public ClosedLoopHardwareInterfaceAdapter<State, hardware_interface::JointHandle> {};
 
-/// Passes desired states on; at the start what is measured.
+/// Forwards desired states; at the start the measured ones.
 /// @tparam Derived has `static void command(JointHandle&, position, velocity, acceleration)`
 template <class Derived, class State, class JointHandle>
 class ForwardingHardwareInterfaceAdapter {

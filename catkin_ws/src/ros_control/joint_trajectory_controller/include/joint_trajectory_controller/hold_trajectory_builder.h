@@ -9,8 +9,8 @@
 namespace joint_trajectory_controller {
 namespace internal {
 
-/// Sets a segment without length, at rest. @param[in,out] state with one position, velocity and
-/// acceleration; gets the position. Real-time safe when the segment had as many before.
+/// Sets a segment of zero length, at rest. @param[in,out] state with one position, velocity and
+/// acceleration; gets the position. Real-time safe if the segment had the same size before.
 template <class Segment>
 void setHold(const typename Segment::Time& time, const typename Segment::Scalar& position,
              typename Segment::State& state, Segment& segment) {
@@ -20,8 +20,8 @@ void setHold(const typename Segment::Time& time, const typename Segment::Scalar&
 
 }  // namespace internal
 
-/// Holds the positions that joints have when the trajectory is built: one segment a joint, without
-/// length and at rest.
+/// Holds the joints' positions at the time of building: one segment per joint, of zero length and
+/// at rest.
 /// @tparam HardwareInterface of the joints, whose handles have getPosition()
 template <class SegmentImpl, class HardwareInterface>
 class HoldTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
@@ -34,7 +34,7 @@ class HoldTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
   /// @param joints must outlive the builder.
   HoldTrajectoryBuilder(const std::vector<JointHandle>& joints) : joints_(joints), state_(1) {}
 
-  /// As of TrajectoryBuilder; by a thread that may read the joints.
+  /// As for TrajectoryBuilder; in a thread that may read the joints.
   bool buildTrajectory(Trajectory* trajectory) override {
     if (trajectory == nullptr || !this->getStartTime()) {
       return false;

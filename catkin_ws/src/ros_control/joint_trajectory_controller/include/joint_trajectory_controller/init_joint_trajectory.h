@@ -17,7 +17,7 @@
 
 namespace joint_trajectory_controller {
 
-/// What initJointTrajectory() may take into account; null pointers switch the matter off.
+/// Options of initJointTrajectory(); null pointers disable an option.
 /// @tparam Trajectory a vector (joints) of vectors (time) of segments of one joint
 template <class Trajectory>
 struct InitJointTrajectoryOptions {
@@ -26,14 +26,14 @@ struct InitJointTrajectoryOptions {
   typedef typename Segment::Scalar Scalar;
   typedef typename Segment::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
 
-  Trajectory* current_trajectory{nullptr};                 ///< what the message continues
+  Trajectory* current_trajectory{nullptr};                 ///< continued by the message
   std::vector<std::string>* joint_names{nullptr};          ///< order of joints in the result
   std::vector<bool>* angle_wraparound{nullptr};            ///< which joints are continuous
   RealtimeGoalHandlePtr rt_goal_handle;                    ///< goal of the new segments
-  SegmentTolerances<Scalar>* default_tolerances{nullptr};  ///< of the goal, before its own
-  ros::Time* other_time_base{nullptr};  ///< what `time` is called in the trajectories
+  SegmentTolerances<Scalar>* default_tolerances{nullptr};  ///< defaults for the goal
+  ros::Time* other_time_base{nullptr};  ///< `time` in the time base of the trajectories
   bool allow_partial_joints_goal{false};
-  std::string* error_string{nullptr};  ///< gets the reason of an empty result
+  std::string* error_string{nullptr};  ///< gets the reason for an empty result
 
   void setErrorString(const std::string& text) const {
     if (error_string != nullptr) {
@@ -96,7 +96,7 @@ class TrajectoryInitializer {
           "Trajectory message contains waypoints that are not strictly increasing in time.");
     }
     for (const trajectory_msgs::JointTrajectoryPoint& point : msg_.points) {
-      // Where the message names no joints, a point's positions tell how many there are.
+      // If the message names no joints, a point's positions define their number.
       const std::size_t size =
           msg_.joint_names.empty() ? msg_.points[0].positions.size() : msg_.joint_names.size();
       if (point.positions.size() != size || !isValid(point, static_cast<unsigned int>(size))) {
@@ -149,7 +149,7 @@ class TrajectoryInitializer {
     return true;
   }
 
-  /// Drops the points that lie in the past.
+  /// Drops past points.
   bool selectPoints() {
     const PointIterator past = findPoint(msg_, time_);
     first_point_ = past == msg_.points.end() ? msg_.points.begin() : past + 1;
@@ -171,7 +171,7 @@ class TrajectoryInitializer {
           "Cannot create trajectory from message. One point that is not in the past makes no "
           "trajectory without a current one that leads to it.");
     }
-    // Planners begin with the present state; dropping that alone is nobody's mistake.
+    // Planners start with the present state; dropping only that one is normal.
     const bool expected =
         dropped == 1 && msg_.header.stamp.isZero() && msg_.points[0].time_from_start.isZero();
     if (dropped > 0 && !expected) {
@@ -182,7 +182,7 @@ class TrajectoryInitializer {
     return true;
   }
 
-  /// A joint the message does not name goes on as before, now for the new goal.
+  /// A joint that the message does not name continues as before, now for the new goal.
   TrajectoryPerJoint continued(std::size_t joint) const {
     const TrajectoryPerJoint& current = (*options_.current_trajectory)[joint];
     auto first = trajectory_interface::findSegment(current, now_);
@@ -210,7 +210,7 @@ class TrajectoryInitializer {
     return result;
   }
 
-  /// Keeps the current trajectory until the message starts and leads from there to its first point.
+  /// Keeps the current trajectory until the message starts and moves from there to its first point.
   /// @return the wraparound offset of the positions in the message
   Scalar bridge(std::size_t joint, std::size_t index,
                 const SegmentTolerancesPerJoint<Scalar>& tolerances,
@@ -221,9 +221,8 @@ class TrajectoryInitializer {
     Scalar departure = std::max(start_, now_);
     State from = stateAt(current, departure);
     Scalar offset = offsetOf(from, index, wraps);
-    // A first point at the very start of a later message leaves no time for the way to it. Where
-    // the current trajectory does not come by there, the way is taken from now on, instead of in
-    // one jump.
+    // A first point at the start of a later message leaves no time to reach it. Unless the current
+    // trajectory passes through it, the motion to it starts now, instead of a jump.
     if (departure >= arrival && jumps(from, stateOf(*first_point_, index, offset))) {
       departure = now_;
       from = stateAt(current, departure);
@@ -250,11 +249,11 @@ class TrajectoryInitializer {
     return wraparoundJointOffset(from.position[0], Scalar(first_point_->positions[index]), wraps);
   }
 
-  /// Whether going on from one state to the other without time in between can be noticed.
+  /// Whether continuing from one state to the other without time in between is noticeable.
   ///
-  /// At 1 kHz, steps of this size are accelerations of 1 rad/s^2 each, and jerks of at most
-  /// 3000 rad/s^3 together: less than the least limits of a Panda's joints, 7.5 rad/s^2 and
-  /// 3750 rad/s^3. Rounding in what a planner took from our own states is far smaller.
+  /// At 1 kHz, steps of this size are accelerations of 1 rad/s^2 each, and jerks of at most 3000
+  /// rad/s^3 together: below the smallest limits of a Panda's joints, 7.5 rad/s^2 and 3750 rad/s^3.
+  /// Rounding in a planner's copy of our own states is far smaller.
   static bool jumps(const State& from, const State& to) {
     constexpr Scalar kPositionStep = 1e-6;  // [rad]
     constexpr Scalar kVelocityStep = 1e-3;  // [rad/s]
@@ -313,24 +312,25 @@ class TrajectoryInitializer {
   std::size_t joint_count_{0};
   std::vector<unsigned int> mapping_;  ///< from joints of the message to those of the result
   PointIterator first_point_;
-  Scalar now_{0};    ///< `time_` in the trajectories' time base [s]
-  Scalar start_{0};  ///< when the message starts, likewise
+  Scalar now_{0};    ///< `time_` in the time base of the trajectories [s]
+  Scalar start_{0};  ///< start of the message, likewise
 };
 
 }  // namespace internal
 
-/// Turns a message into a trajectory, spliced to the current one.
+/// Converts a message into a trajectory, spliced to the current one.
 ///
-/// Points at or before `time` are dropped. Without a current trajectory the result begins at the
-/// first point left, and two of them are needed. With one, each joint keeps its current trajectory
-/// until the message starts, then goes in one segment to the first point left. A first point at the
-/// very start of a later message is where the joint must be by then: a joint whose current
-/// trajectory comes by there keeps it; another one leaves it at once, instead of jumping.
+/// Points at or before `time` are dropped. Without a current trajectory the result starts at the
+/// first remaining point, and two of them are needed. With one, each joint keeps its current
+/// trajectory until the message starts, then moves in one segment to the first remaining point. A
+/// first point at the very start of a later message is the joint's position at that time: a joint
+/// whose current trajectory passes through it keeps that trajectory; otherwise it leaves it at
+/// once, instead of jumping.
 ///
 /// @param time now, in the time base of the message
-/// @returns an empty trajectory, with a reason in the log and in the options' error string, when
-/// there is nothing to do or the message is not usable.
-/// @throws std::invalid_argument when a point has not as many elements as there are joints.
+/// @returns an empty trajectory, with a reason in the log and in the options' error string, if
+/// there is nothing to do or the message is invalid. @throws std::invalid_argument if a point does
+/// not have one element per joint.
 /// Not real-time safe.
 template <class Trajectory>
 Trajectory initJointTrajectory(const trajectory_msgs::JointTrajectory& msg, const ros::Time& time,

@@ -32,20 +32,20 @@
 
 namespace joint_trajectory_controller {
 
-/// Room for the reason of a goal's end that the control loop writes [characters].
+/// Capacity for the reason of a goal's end, written by the control loop [characters].
 constexpr std::size_t kReasonCapacity = 512;
 
-/// Moves joints along trajectories that come as messages or as goals of an action.
+/// Moves joints along trajectories from messages or from goals of an action.
 ///
 /// Topics: `command` (in), `state` (out); action `follow_joint_trajectory`; service `query_state`;
 /// all in the controller's namespace. [rad] or [m], and their derivatives.
 ///
 /// The control loop calls update(), starting(), stopping(), waiting() and aborting(): they neither
-/// allocate nor lock. Everything else runs in callbacks under one mutex the loop never touches;
-/// commands pass to the loop through a CommandExchange and what the loop does comes back as a
-/// Snapshot. When the loop overrides what it was told (it starts, or holds after a violated
-/// tolerance) it counts an *epoch*; a command computed for an earlier epoch is not followed but
-/// computed again, so nothing ever continues from where the robot is not.
+/// allocate nor lock. All others run in callbacks under one mutex that the loop never takes;
+/// commands are passed to the loop through a CommandExchange and the loop's state comes back as a
+/// Snapshot. When the loop overrides a command (it starts, or holds after a violated tolerance) it
+/// increments an *epoch*; a command computed for an earlier epoch is not followed but computed
+/// again, so that motions always start at the robot's position.
 ///
 /// @tparam SegmentImpl such as trajectory_interface::QuinticSplineSegment<double>
 /// @tparam HardwareInterface one with a HardwareInterfaceAdapter
@@ -55,14 +55,14 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   JointTrajectoryController();
   ~JointTrajectoryController() override;
 
-  /// Reads the parameters, takes the joints and opens topics, action and service.
-  /// @returns false, with the reason in the log, when a parameter or a joint is missing or wrong.
+  /// Reads the parameters, gets the joints and opens topics, action and service.
+  /// @returns false, after logging the reason, if a parameter or a joint is missing or wrong.
   bool init(HardwareInterface* hw, ros::NodeHandle& root_nh,
             ros::NodeHandle& controller_nh) override;
 
   /// Holds the present position.
   void starting(const ros::Time& time) override;
-  /// Gives up; a goal under way is cancelled a moment later.
+  /// Stops; a running goal is cancelled shortly afterwards.
   void stopping(const ros::Time& time) override;
   void waiting(const ros::Time& time) override { stopping(time); }
   void aborting(const ros::Time& time) override { stopping(time); }
@@ -93,9 +93,9 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   typedef typename HardwareInterface::ResourceHandleType JointHandle;
   typedef HardwareInterfaceAdapter<HardwareInterface, typename Segment::State> HwIfaceAdapter;
 
-  /// Lays a new trajectory before the control loop, spliced to the current one; a message without
-  /// points asks to hold.
-  /// @param gh goal it belongs to, or null. Its preallocated result gets the end of the goal.
+  /// Passes a new trajectory to the control loop, spliced to the current one; a message without
+  /// points means hold.
+  /// @param gh its goal, or null. Its preallocated result gets the end of the goal.
   /// @param[out] error_string why it was refused; may be null
   /// @returns whether it was accepted. Thread-safe, not real-time safe.
   virtual bool updateTrajectoryCommand(const JointTrajectoryConstPtr& msg, RealtimeGoalHandlePtr gh,
@@ -103,7 +103,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   virtual void trajectoryCommandCB(const JointTrajectoryConstPtr& msg);
   virtual void goalCB(GoalHandle gh);
   virtual void cancelCB(GoalHandle gh);
-  /// Cancels the goal under way, if any, because another command replaces it.
+  /// Cancels the running goal, if any, because another command replaces it.
   virtual void preemptActiveGoal();
   virtual bool queryStateService(control_msgs::QueryTrajectoryState::Request& req,
                                  control_msgs::QueryTrajectoryState::Response& resp);
@@ -134,24 +134,24 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   typedef internal::RealtimeGoal<RealtimeGoalHandle> RealtimeGoal;
   typedef std::shared_ptr<RealtimeGoal> RealtimeGoalPtr;
 
-  /// What callbacks lay before the loop.
+  /// A command of the callbacks for the loop.
   struct Command {
     TrajectoryPtr trajectory;  ///< null: hold
     RealtimeGoalPtr goal;
     JointTrajectoryConstPtr message;
     double start{0.0};         ///< of the message, in uptime [s]
     std::uint64_t epoch{0};    ///< for which the trajectory was computed
-    std::uint64_t session{0};  ///< during which it was given
+    std::uint64_t session{0};  ///< session in which it was given
     std::uint64_t number{0};   ///< counts commands
     bool outdated{false};      ///< the loop refused it because of its epoch
     Command* next{nullptr};
   };
 
-  /// What the loop tells callbacks after each update.
+  /// State of the loop for the callbacks, after each update.
   struct Snapshot {
     TimeData time;
     std::uint64_t epoch{0};
-    bool holding{true};  ///< of its own accord or when told to, since `hold_start`
+    bool holding{true};  ///< by itself or on command, since `hold_start`
     double hold_start{0.0};
     State hold_origin;
     State desired;
@@ -184,7 +184,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   double uptime() const { return time_data_.uptime.toSec(); }
   double timeFromStart() const { return uptime() - (holding_ ? hold_start_ : command_->start); }
   void sampleDesiredState();
-  /// @returns false when a violated tolerance ended the goal, and the joints hold from now on.
+  /// @returns false if a violated tolerance ended the goal, and the joints hold from now on.
   bool judgeGoal();
   bool judgeJoint(std::size_t joint, RealtimeGoal& goal);
   void failGoal(RealtimeGoal& goal, int code, std::size_t joint, const char* kind,
@@ -210,7 +210,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   double action_monitor_rate_{20.0};
 
   // Of the control loop.
-  Command* command_{nullptr};  ///< being followed; owned
+  Command* command_{nullptr};  ///< the present one; owned
   bool holding_{true};
   double hold_start_{0.0};
   State hold_origin_;
@@ -218,7 +218,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   Trajectory hold_trajectory_;
   std::uint64_t epoch_{0};
   State joint_state_;
-  std::vector<const Segment*> segments_;  ///< in which the joints are
+  std::vector<const Segment*> segments_;  ///< present segment of each joint
   std::vector<char> joint_succeeded_;
   ros::Time last_state_publish_time_;
 
@@ -231,9 +231,9 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   // Of callbacks, under mutex_.
   std::recursive_mutex mutex_;
   RealtimeGoalPtr active_goal_;
-  RealtimeGoalPtr latest_goal_;  ///< of the last command that was accepted; null: it had none
+  RealtimeGoalPtr latest_goal_;  ///< of the last accepted command; null: it had none
   std::uint64_t active_goal_session_{0};
-  TrajectoryPtr latest_trajectory_;  ///< last laid before the loop; null: hold
+  TrajectoryPtr latest_trajectory_;  ///< last one passed to the loop; null: hold
   std::uint64_t latest_epoch_{0};
   std::uint64_t number_{0};
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Bodies of JointTrajectoryController that run in callbacks, under its mutex.
+// Functions of JointTrajectoryController that run in callbacks, under its mutex.
 
 #include <joint_trajectory_controller/joint_trajectory_controller.h>
 
@@ -34,7 +34,7 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::updateTrajectory
   }
 
   const Snapshot& snapshot = snapshot_.read();
-  // The loop will see the command in its next update at the earliest.
+  // The loop will get the command in its next update at the earliest.
   const ros::Time next_time = snapshot.time.time + snapshot.time.period;
   ros::Time next_uptime = snapshot.time.uptime + snapshot.time.period;
   Trajectory current = callbackTrajectory(snapshot);
@@ -85,7 +85,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::putHold(
   exchange_.put(std::move(command));
 }
 
-/// The goal of a handle: the one that is known already, since a command may be computed anew.
+/// The goal of a handle: an existing one is reused, because a command may be computed again.
 template <class SegmentImpl, class HardwareInterface>
 typename JointTrajectoryController<SegmentImpl, HardwareInterface>::RealtimeGoalPtr
 JointTrajectoryController<SegmentImpl, HardwareInterface>::goalOf(
@@ -100,8 +100,8 @@ JointTrajectoryController<SegmentImpl, HardwareInterface>::goalOf(
   return std::make_shared<RealtimeGoal>(handle);
 }
 
-/// What the loop follows, or will as soon as it takes the last command: what a new trajectory
-/// continues.
+/// The trajectory that the loop follows, or will follow after the last command: a new trajectory
+/// continues it.
 template <class SegmentImpl, class HardwareInterface>
 typename JointTrajectoryController<SegmentImpl, HardwareInterface>::Trajectory
 JointTrajectoryController<SegmentImpl, HardwareInterface>::callbackTrajectory(
@@ -112,12 +112,12 @@ JointTrajectoryController<SegmentImpl, HardwareInterface>::callbackTrajectory(
   if (snapshot.holding) {
     return holdTrajectory(snapshot.hold_start, snapshot.hold_origin);
   }
-  // Told to hold, but the loop has not come to it.
+  // The last command is hold, but the loop has not executed it yet.
   return holdTrajectory(snapshot.time.uptime.toSec(),
                         stop_trajectory_duration_ > 0 ? snapshot.desired : snapshot.actual);
 }
 
-/// What the hold builder of the loop builds at `start` [s] for a state, without reading the joints.
+/// The result of the loop's hold builder at `start` [s] for a state, without reading the joints.
 template <class SegmentImpl, class HardwareInterface>
 typename JointTrajectoryController<SegmentImpl, HardwareInterface>::Trajectory
 JointTrajectoryController<SegmentImpl, HardwareInterface>::holdTrajectory(
@@ -226,7 +226,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::cancelActiveGoal
   }
 }
 
-/// Ends a goal unless the loop has just ended it, and tells the client either way.
+/// Ends a goal unless the loop has just ended it, and reports the result to the client.
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::endGoal(
     RealtimeGoal& goal, typename RealtimeGoal::Outcome outcome, int code,
@@ -237,8 +237,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::endGoal(
     result.error_string = reason;
     goal.settle(outcome);
   }
-  // While the loop is between claim() and settle() there is nothing to tell yet; it takes a
-  // microsecond.
+  // Between claim() and settle() of the loop there is no result yet; this takes a microsecond.
   while (!goal.isSettled()) {
     std::this_thread::yield();
   }
@@ -267,7 +266,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::monitor(
   }
 }
 
-/// Computes a command anew that the loop found outdated.
+/// Computes a command again that the loop found outdated.
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::reissue(const Command& command) {
   const bool replaced = command.number != number_ || command.session != session_.load();
@@ -313,7 +312,7 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::queryStateServic
     return false;
   }
   const Snapshot& snapshot = snapshot_.read();
-  // In seconds, since differences of ros::Time overflow for times far away.
+  // In seconds, because differences of ros::Time overflow for distant times.
   const double time =
       snapshot.time.uptime.toSec() + (req.time.toSec() - snapshot.time.time.toSec());
   const Trajectory trajectory = callbackTrajectory(snapshot);

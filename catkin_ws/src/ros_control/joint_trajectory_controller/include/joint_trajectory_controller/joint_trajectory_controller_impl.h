@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Bodies of JointTrajectoryController that run in the control loop.
+// Functions of JointTrajectoryController that run in the control loop.
 
 #include <joint_trajectory_controller/joint_trajectory_controller.h>
 
@@ -13,7 +13,7 @@ namespace joint_trajectory_controller {
 
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::starting(const ros::Time& time) {
-  // Whatever was meant for an earlier life of the controller is not for this one.
+  // Commands for an earlier session are dropped.
   exchange_.giveBack(exchange_.take());
   exchange_.giveBack(command_);
   command_ = nullptr;
@@ -190,7 +190,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::failGoal(
       joint_names_[joint].c_str(), kind, double(state_error_.position[joint]),
       double(state_error_.velocity[joint]), kind, double(tolerance.position),
       double(tolerance.velocity));
-  // The string has this capacity already: see goalOf().
+  // The string has sufficient capacity: see goalOf().
   control_msgs::FollowJointTrajectoryResult& result = *goal.handle()->preallocated_result_;
   result.error_string.assign(text, std::min<std::size_t>(std::max(length, 0), sizeof(text) - 1));
   result.error_code = code;

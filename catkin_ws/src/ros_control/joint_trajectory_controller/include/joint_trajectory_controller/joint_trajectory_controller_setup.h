@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Bodies of JointTrajectoryController that set it up and take it down.
+// Functions of JointTrajectoryController for set-up and destruction.
 
 #include <joint_trajectory_controller/joint_trajectory_controller.h>
 #include <urdf/model.h>
@@ -13,7 +13,7 @@
 namespace joint_trajectory_controller {
 namespace internal {
 
-/// The names in the parameter `joints`; empty after logging what is wrong.
+/// The names in the parameter `joints`; empty after logging an error.
 inline std::vector<std::string> readJointNames(const ros::NodeHandle& nh) {
   const std::string place = nh.getNamespace() + "/joints";
   XmlRpc::XmlRpcValue value;
@@ -41,7 +41,7 @@ inline std::vector<std::string> readJointNames(const ros::NodeHandle& nh) {
 }
 
 /// The robot's URDF from `robot_description` in a namespace or the nearest one above it.
-/// @returns false after logging what is wrong.
+/// @returns false after logging an error.
 inline bool readUrdf(const ros::NodeHandle& root_nh, urdf::Model& model) {
   std::string text;
   std::string place = "robot_description";
@@ -60,7 +60,7 @@ inline bool readUrdf(const ros::NodeHandle& root_nh, urdf::Model& model) {
   return true;
 }
 
-/// A number that is finite and not negative. @returns false after logging what is wrong.
+/// A number that is finite and not negative. @returns false after logging an error.
 inline bool readNumber(const ros::NodeHandle& nh, const std::string& name, double& value) {
   nh.param(name, value, value);
   if (!std::isfinite(value) || value < 0.0) {
@@ -78,7 +78,7 @@ JointTrajectoryController<SegmentImpl, HardwareInterface>::JointTrajectoryContro
 
 template <class SegmentImpl, class HardwareInterface>
 JointTrajectoryController<SegmentImpl, HardwareInterface>::~JointTrajectoryController() {
-  // First all callbacks end, then what they use.
+  // Callbacks must end before the objects that they use.
   monitor_timer_.stop();
   trajectory_command_sub_.shutdown();
   query_state_service_.shutdown();
@@ -173,7 +173,7 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::takeJoints(
   return true;
 }
 
-/// Gives everything the loop uses its final size, so that it never allocates.
+/// Gives all data of the loop their final size, so that it never allocates.
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::sizeStates() {
   const State zero(static_cast<unsigned int>(joints_.size()));
@@ -181,7 +181,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::sizeStates() {
   joint_state_ = State(1);
   segments_.assign(joints_.size(), nullptr);
   joint_succeeded_.assign(joints_.size(), 0);
-  // The loop may be moving the joints already: the builder reads them from starting() on.
+  // The loop may already move the joints: the builder reads them from starting() on.
   hold_trajectory_ = holdTrajectory(0.0, zero);
   if (stop_trajectory_duration_ > 0) {
     hold_builder_ = std::make_unique<StopBuilder>(stop_trajectory_duration_, hold_origin_);
@@ -213,8 +213,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::openInterfaces(
       controller_nh, "follow_joint_trajectory", [this](GoalHandle gh) { goalCB(gh); },
       [this](GoalHandle gh) { cancelCB(gh); }, false);
   action_server_->start();
-  // By the wall's clock: clients learn how their goals ended also while simulated time stands
-  // still.
+  // Wall time: clients get the result of their goals also while simulated time stands still.
   monitor_timer_ = controller_nh.createWallTimer(ros::WallDuration(1.0 / action_monitor_rate_),
                                                  &Self::monitor, this);
 }

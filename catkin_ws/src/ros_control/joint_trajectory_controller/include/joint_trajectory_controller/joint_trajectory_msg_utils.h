@@ -14,12 +14,12 @@
 namespace joint_trajectory_controller {
 namespace internal {
 
-/// When a message begins: its stamp, or `time` if it has none.
+/// Start of a message: its stamp, or `time` if it has none.
 inline ros::Time startTime(const trajectory_msgs::JointTrajectory& msg, const ros::Time& time) {
   return msg.header.stamp.isZero() ? time : msg.header.stamp;
 }
 
-/// Where each element of t1 stands in t2; empty unless each is there, and none twice.
+/// Index of each element of t1 in t2; empty unless each exists, without duplicates.
 template <class T>
 std::vector<unsigned int> mapping(const T& t1, const T& t2) {
   std::vector<unsigned int> result;
@@ -41,7 +41,7 @@ inline bool isFinite(const std::vector<double>& values) {
 
 }  // namespace internal
 
-/// Whether each quantity of a point is absent or has `joint_dim` elements.
+/// Whether each quantity of a point is empty or has `joint_dim` elements.
 inline bool isValid(const trajectory_msgs::JointTrajectoryPoint& point, unsigned int joint_dim) {
   const auto fits = [joint_dim](const std::vector<double>& values) {
     return values.empty() || values.size() == joint_dim;
@@ -49,7 +49,7 @@ inline bool isValid(const trajectory_msgs::JointTrajectoryPoint& point, unsigned
   return fits(point.positions) && fits(point.velocities) && fits(point.accelerations);
 }
 
-/// Whether that holds for all points of a message and the joints it names.
+/// Whether that holds for all points of a message and its joints.
 inline bool isValid(const trajectory_msgs::JointTrajectory& msg) {
   const auto joint_dim = static_cast<unsigned int>(msg.joint_names.size());
   return std::all_of(msg.points.begin(), msg.points.end(),
@@ -58,7 +58,7 @@ inline bool isValid(const trajectory_msgs::JointTrajectory& msg) {
                      });
 }
 
-/// Whether each point comes later than the one before.
+/// Whether each point is later than the one before.
 inline bool isTimeStrictlyIncreasing(const trajectory_msgs::JointTrajectory& msg) {
   return std::adjacent_find(msg.points.begin(), msg.points.end(),
                             [](const trajectory_msgs::JointTrajectoryPoint& a,
@@ -67,7 +67,7 @@ inline bool isTimeStrictlyIncreasing(const trajectory_msgs::JointTrajectory& msg
                             }) == msg.points.end();
 }
 
-/// The last point at or before a time; the end when all come later.
+/// The last point at or before a time; the end if all are later.
 inline std::vector<trajectory_msgs::JointTrajectoryPoint>::const_iterator findPoint(
     const trajectory_msgs::JointTrajectory& msg, const ros::Time& time) {
   const ros::Duration elapsed = time - internal::startTime(msg, time);

@@ -16,7 +16,7 @@
 
 namespace joint_trajectory_controller {
 
-/// A segment of a trajectory, with the goal it belongs to and that goal's tolerances.
+/// A segment of a trajectory, with its goal and that goal's tolerances.
 /// @tparam Segment a segment type such as trajectory_interface::QuinticSplineSegment
 template <class Segment>
 class JointTrajectorySegment : public Segment {
@@ -31,15 +31,15 @@ class JointTrajectorySegment : public Segment {
     typedef typename Segment::State::Scalar Scalar;
     State() = default;
     State(unsigned int size) : Segment::State(size) {}
-    /// As init().
+    /// Like init().
     State(const trajectory_msgs::JointTrajectoryPoint& point,
           const std::vector<Scalar>& position_offset = {}) {
       init(point, position_offset);
     }
 
-    /// Takes over a point of a message, in the order of its joints.
+    /// Copies a point of a message, in the order of its joints.
     /// @param position_offset added to the positions, one per joint; empty: none.
-    /// @throws std::invalid_argument when sizes do not fit.
+    /// @throws std::invalid_argument if sizes do not match.
     void init(const trajectory_msgs::JointTrajectoryPoint& point,
               const std::vector<Scalar>& position_offset = {}) {
       const std::size_t size = point.positions.size();
@@ -66,10 +66,10 @@ class JointTrajectorySegment : public Segment {
                          const State& end_state)
       : Segment(start_time, start_state, end_time, end_state) {}
   /// Between two points of a message.
-  /// @param traj_start_time when the message begins: the points count their times from there. The
-  /// segment lies in the same time base.
+  /// @param traj_start_time start of the message, to which the points' times refer. The segment has
+  /// the same time base.
   /// @param position_offset added to the positions of both points; empty: none.
-  /// @throws std::invalid_argument as State::init() and Segment do.
+  /// @throws std::invalid_argument like State::init() and Segment.
   JointTrajectorySegment(const ros::Time& traj_start_time,
                          const trajectory_msgs::JointTrajectoryPoint& start_point,
                          const trajectory_msgs::JointTrajectoryPoint& end_point,
@@ -80,7 +80,7 @@ class JointTrajectorySegment : public Segment {
                 State(end_point, position_offset)) {}
 
   RealtimeGoalHandlePtr getGoalHandle() const { return goal_handle_; }
-  /// The same without taking part in its ownership, for the control loop.
+  /// The same without shared ownership, for the control loop.
   RealtimeGoalHandle* goalHandle() const noexcept { return goal_handle_.get(); }
   void setGoalHandle(const RealtimeGoalHandlePtr& goal_handle) { goal_handle_ = goal_handle; }
 
@@ -94,14 +94,14 @@ class JointTrajectorySegment : public Segment {
   SegmentTolerancesPerJoint<Scalar> tolerances_;
 };
 
-/// From one angle to another on the shorter way, in [-pi, pi]. Real-time safe.
+/// Difference of two angles on the shorter turn, in [-pi, pi]. Real-time safe.
 template <class Scalar>
 Scalar shortestAngularDistance(Scalar from, Scalar to) {
   return std::remainder(to - from, Scalar(2 * M_PI));
 }
 
-/// What must be added to the next position of a joint so that it lies at most half a turn from the
-/// previous one [rad]; 0 unless `angle_wraparound`. A half turn goes the way the positions say.
+/// Offset for the next position of a joint so that it is at most half a turn from the previous one
+/// [rad]; 0 unless `angle_wraparound`. A half turn keeps the direction of the positions.
 template <class Scalar>
 Scalar wraparoundJointOffset(const Scalar& prev_position, const Scalar& next_position,
                              const bool& angle_wraparound) {

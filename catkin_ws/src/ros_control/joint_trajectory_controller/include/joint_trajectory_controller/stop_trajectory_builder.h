@@ -6,7 +6,7 @@
 
 namespace joint_trajectory_controller {
 
-/// Brings joints to rest within a given time: one segment a joint, ending where a motion that
+/// Brings joints to rest within a given time: one segment per joint, ending where a motion that
 /// reverses its velocity symmetrically has velocity zero.
 template <class SegmentImpl>
 class StopTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
@@ -18,8 +18,8 @@ class StopTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
   typedef typename Segment::State State;
 
   /// @param stop_trajectory_duration until rest [s], above 0
-  /// @param desired_state what to start from, with a position and a velocity for each joint; it
-  /// must outlive the builder.
+  /// @param desired_state start state, with a position and a velocity for each joint; it must
+  /// outlive the builder.
   StopTrajectoryBuilder(Time stop_trajectory_duration, const State& desired_state)
       : duration_(stop_trajectory_duration),
         desired_state_(desired_state),
@@ -28,7 +28,7 @@ class StopTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
         to_(1) {
     from_.acceleration.clear();
     mirrored_.acceleration.clear();
-    // Sampling here once makes the builder free of allocations.
+    // A sample at this point avoids later allocations.
     turn_.init(Time(0), from_, Time(1), mirrored_);
     turn_.sample(Time(0), to_);
   }

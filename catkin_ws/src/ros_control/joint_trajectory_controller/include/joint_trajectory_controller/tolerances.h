@@ -15,8 +15,8 @@
 
 namespace joint_trajectory_controller {
 
-/// The largest error allowed in each quantity of one joint ([rad] or [m] and derivatives); 0 leaves
-/// the quantity unchecked.
+/// The largest allowed error in each quantity of one joint ([rad] or [m] and derivatives); 0
+/// disables the check.
 template <class Scalar>
 struct StateTolerances {
   StateTolerances(Scalar position_tolerance = Scalar(0), Scalar velocity_tolerance = Scalar(0),
@@ -30,8 +30,8 @@ struct StateTolerances {
   Scalar acceleration;
 };
 
-/// Tolerances of a controller: along the way, at the end, and how long after the end the latter may
-/// take to be met [s].
+/// Tolerances of a controller: on the path, at the goal, and the time allowed after the end to meet
+/// the latter [s].
 template <class Scalar>
 struct SegmentTolerances {
   SegmentTolerances(std::vector<double>::size_type size = 0)
@@ -52,7 +52,7 @@ struct SegmentTolerancesPerJoint {
 
 namespace internal {
 
-/// Errors that are not numbers violate every tolerance that is set.
+/// NaN errors violate every tolerance that is set.
 template <class Scalar>
 bool isWithin(const std::vector<Scalar>& errors, std::size_t joint, Scalar tolerance) {
   return !(tolerance > 0) || joint >= errors.size() || std::abs(errors[joint]) <= tolerance;
@@ -60,7 +60,7 @@ bool isWithin(const std::vector<Scalar>& errors, std::size_t joint, Scalar toler
 
 }  // namespace internal
 
-/// Whether the errors of joint `joint` in a state are tolerated. Real-time safe.
+/// Whether the errors of joint `joint` in a state are within the tolerances. Real-time safe.
 template <class State>
 bool isWithinTolerance(const State& error, std::size_t joint,
                        const StateTolerances<typename State::Scalar>& tolerance) {
@@ -69,8 +69,8 @@ bool isWithinTolerance(const State& error, std::size_t joint,
          internal::isWithin(error.acceleration, joint, tolerance.acceleration);
 }
 
-/// Whether the error of a single joint is tolerated. Real-time safe without `show_errors`, which
-/// logs a violation.
+/// Whether the error of a single joint is within the tolerances. Real-time safe without
+/// `show_errors`, which logs a violation.
 template <class State>
 bool checkStateTolerancePerJoint(const State& state_error,
                                  const StateTolerances<typename State::Scalar>& state_tolerance,
@@ -84,7 +84,7 @@ bool checkStateTolerancePerJoint(const State& state_error,
   return within;
 }
 
-/// Whether the errors of all joints are tolerated; see checkStateTolerancePerJoint().
+/// Whether the errors of all joints are within the tolerances; see checkStateTolerancePerJoint().
 template <class State>
 bool checkStateTolerance(
     const State& state_error,
@@ -103,8 +103,8 @@ bool checkStateTolerance(
   return true;
 }
 
-/// Overrides tolerances with those of a message: positive values replace, negative ones switch the
-/// check off, 0 changes nothing.
+/// Overrides tolerances with those of a message: positive values replace, negative ones disable the
+/// check, 0 changes nothing.
 template <class Scalar>
 void updateStateTolerances(const control_msgs::JointTolerance& message,
                            StateTolerances<Scalar>& tolerances) {

@@ -9,7 +9,7 @@
 
 namespace joint_trajectory_controller {
 
-/// Builds trajectories of one kind. Before each, the start time has to be set.
+/// Builds trajectories of one kind. Set the start time before each.
 ///
 ///     builder.setStartTime(time)->setGoalHandle(goal)->buildTrajectory(&trajectory);
 template <class SegmentImpl>
@@ -34,18 +34,18 @@ class TrajectoryBuilder {
     goal_handle_ = goal_handle;
     return this;
   }
-  /// Forgets the start time and the goal handle. Real-time safe.
+  /// Resets the start time and the goal handle. Real-time safe.
   virtual void reset() {
     start_time_ = boost::none;
     goal_handle_ = boost::none;
   }
 
-  /// Overwrites a trajectory. Real-time safe when it was built by the same builder before.
-  /// @returns false, and leaves the trajectory as it is, where it is null or no start time is set.
+  /// Overwrites a trajectory. Real-time safe if the same builder built it before. @returns false,
+  /// without changes, if it is null or no start time is set.
   virtual bool buildTrajectory(Trajectory* trajectory) = 0;
 
  protected:
-  /// Empty unless it was set.
+  /// Empty unless set.
   const boost::optional<Time>& getStartTime() const { return start_time_; }
   /// The goal handle that was set, else the default one.
   RealtimeGoalHandlePtr createGoalHandlePtr() const {

@@ -7,7 +7,7 @@
 namespace trajectory_interface {
 
 /// Position, velocity and acceleration of one or more degrees of freedom; [rad] or [m] and their
-/// derivatives. A vector is empty when its quantity is not specified.
+/// derivatives. A vector is empty if its quantity is not specified.
 /// @tparam ScalarType a floating point type
 template <class ScalarType>
 struct PosVelAccState {

@@ -12,12 +12,12 @@
 
 namespace trajectory_interface {
 
-/// A polynomial of time between two states, one per degree of freedom: linear where only positions
-/// are known at both ends, cubic with velocities, quintic with accelerations as well. Before its
-/// start and after its end the state is that of the nearer end, at rest.
+/// A polynomial of time between two states, one per degree of freedom: linear if only positions are
+/// given at both ends, cubic with velocities, quintic with accelerations as well. Before its start
+/// and after its end the state is that of the nearer end, at rest.
 ///
-/// Real-time safe once the sizes have been seen: sample(), and init() for as many degrees of
-/// freedom as before, unless it throws.
+/// Real-time safe once the sizes have been used: sample(), and init() for the same number of
+/// degrees of freedom, unless it throws.
 template <class ScalarType>
 class QuinticSplineSegment {
  public:
@@ -26,15 +26,15 @@ class QuinticSplineSegment {
   typedef PosVelAccState<Scalar> State;
 
   QuinticSplineSegment() = default;
-  /// As init().
+  /// Like init().
   QuinticSplineSegment(const Time& start_time, const State& start_state, const Time& end_time,
                        const State& end_state) {
     init(start_time, start_state, end_time, end_state);
   }
 
-  /// @param start_time, end_time [s]; both may be the same, then the start state counts.
-  /// @throws std::invalid_argument when the end lies before the start, positions are missing, or
-  /// sizes differ; the segment is unchanged then.
+  /// @param start_time, end_time [s]; if equal, the start state counts.
+  /// @throws std::invalid_argument if the end is before the start, positions are missing, or sizes
+  /// differ; the segment is then unchanged.
   void init(const Time& start_time, const State& start_state, const Time& end_time,
             const State& end_state) {
     check(start_time, start_state, end_time, end_state);

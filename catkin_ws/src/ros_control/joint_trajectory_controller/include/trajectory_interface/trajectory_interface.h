@@ -7,8 +7,8 @@
 
 namespace trajectory_interface {
 
-/// The last segment that starts at or before a time; `last` when all start later.
-/// Segments are sorted by their starts. Real-time safe.
+/// The last segment that starts at or before a time; `last` if all start later. Segments are sorted
+/// by start. Real-time safe.
 template <class TrajectoryIterator, class Time>
 TrajectoryIterator findSegment(TrajectoryIterator first, TrajectoryIterator last,
                                const Time& time) {
@@ -30,9 +30,9 @@ typename Trajectory::iterator findSegment(Trajectory& trajectory, const Time& ti
 }
 
 /// The state of a trajectory at a time. Real-time safe.
-/// @param[out] state sized for the segment; before the trajectory begins its first state, at rest;
-/// untouched for an empty trajectory.
-/// @return the segment sampled, or the end when the trajectory begins later or is empty.
+/// @param[out] state sized for the segment; before the trajectory its first state, at rest;
+/// unchanged for an empty trajectory.
+/// @return the sampled segment, or the end if the trajectory starts later or is empty.
 template <class Trajectory>
 typename Trajectory::const_iterator sample(const Trajectory& trajectory,
                                            const typename Trajectory::value_type::Time& time,

@@ -2,5 +2,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Debian's pluginlib has this header under its newer name only.
+// Debian's pluginlib has this header only under its newer name.
 #include <pluginlib/class_list_macros.hpp>

@@ -6,8 +6,8 @@
 
 namespace position_controllers {
 
-/// Passes positions from the topic `command` on to several joints; see
-/// ForwardJointGroupCommandController. It starts with the measured position.
+/// Forwards positions from the topic `command` to several joints; see
+/// ForwardJointGroupCommandController. Starts with the measured positions.
 typedef forward_command_controller::ForwardJointGroupCommandController<
     hardware_interface::PositionJointInterface>
     JointGroupPositionController;

@@ -6,8 +6,8 @@
 
 namespace position_controllers {
 
-/// Passes a position from the topic `command` on to one joint; see ForwardCommandController. It
-/// starts with the measured position.
+/// Forwards a position from the topic `command` to one joint; see ForwardCommandController. Starts
+/// with the measured position.
 typedef forward_command_controller::ForwardCommandController<
     hardware_interface::PositionJointInterface>
     JointPositionController;

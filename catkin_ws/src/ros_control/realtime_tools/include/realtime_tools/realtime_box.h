@@ -8,7 +8,7 @@
 
 namespace realtime_tools {
 
-/// A value guarded by a mutex, for threads that may wait for each other as long as a copy takes.
+/// A value guarded by a mutex, for threads that may wait for each other during a copy.
 ///
 /// Thread-safe. Not real-time safe: both sides lock; a 1 kHz loop uses RealtimeBuffer.
 ///

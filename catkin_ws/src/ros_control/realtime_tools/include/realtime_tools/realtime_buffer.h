@@ -11,16 +11,16 @@
 
 namespace realtime_tools {
 
-/// Hands the newest value of other threads to one real-time thread.
+/// Passes the newest value of other threads to one real-time thread.
 ///
 /// Three copies of the value circulate: one belongs to the real-time thread, one to the writers,
-/// and one waits in between; the sides exchange theirs with the waiting one in a single atomic
-/// step. So readFromRT() always succeeds at once and never sees a half-written value.
+/// and one is in between; each side exchanges its copy with that one in a single atomic step. So
+/// readFromRT() always succeeds at once and never sees a half-written value.
 ///
-/// Threads: readFromRT() and initRT() one real-time thread; everything else any other thread.
-/// Real-time safe: readFromRT() (wait-free), initRT() (as far as assigning a T is). Not real-time
-/// safe: writeFromNonRT(), readFromNonRT(), copying; they take a mutex that the real-time thread
-/// never touches.
+/// Threads: readFromRT() and initRT() one real-time thread; all others any other thread. Real-time
+/// safe: readFromRT() (wait-free), initRT() (if assigning a T is). Not real-time safe:
+/// writeFromNonRT(), readFromNonRT(), copying; they take a mutex that the real-time thread never
+/// uses.
 ///
 /// @tparam T copyable; default-constructible only if the buffer is default-constructed.
 template <class T>
@@ -28,9 +28,9 @@ class RealtimeBuffer {
  public:
   RealtimeBuffer() = default;
   RealtimeBuffer(const T& data) : slots_{{data, data, data}}, latest_(data) {}
-  /// Copies the value last given to `source`.
+  /// Copies the last value of `source`.
   RealtimeBuffer(const RealtimeBuffer& source) : RealtimeBuffer(source.copyOfLatest()) {}
-  /// Likewise; no other thread may use this buffer meanwhile.
+  /// The same; no other thread may use this buffer meanwhile.
   RealtimeBuffer& operator=(const RealtimeBuffer& source) {
     if (this != &source) {
       initRT(source.copyOfLatest());
@@ -40,20 +40,20 @@ class RealtimeBuffer {
   ~RealtimeBuffer() = default;
 
   /// The newest value. It belongs to the real-time thread, which may also write through the
-  /// pointer, until its next call; without a new value the same one is returned again.
+  /// pointer, until its next call; without a new value it returns the same pointer.
   T* readFromRT() noexcept {
     takeFresh();
     return &slots_[real_time_];
   }
 
-  /// The value last given to writeFromNonRT(), initRT() or the constructor; valid until the next
-  /// of those. What the real-time thread wrote through its pointer does not show here.
+  /// The last value of writeFromNonRT(), initRT() or the constructor; valid until the next of these
+  /// calls. Excludes changes by the real-time thread through its pointer.
   T* readFromNonRT() const {
     std::lock_guard<std::mutex> lock(mutex_);
     return &latest_;
   }
 
-  /// Replaces the value; the real-time thread sees it with its next readFromRT().
+  /// Replaces the value; the real-time thread gets it in its next readFromRT().
   void writeFromNonRT(const T& data) {
     std::lock_guard<std::mutex> lock(mutex_);
     const LatestGuard guard(latest_busy_);
@@ -63,7 +63,7 @@ class RealtimeBuffer {
   }
 
   /// Sets the value from the real-time thread, as controllers do in starting(), or from any thread
-  /// before others use the buffer. A write going on at the same time counts as the later one.
+  /// before others use the buffer. A simultaneous write counts as the later one.
   void initRT(const T& data) {
     if (latest_busy_.test_and_set(std::memory_order_acquire)) {
       slots_[real_time_] = data;
@@ -79,8 +79,8 @@ class RealtimeBuffer {
   static constexpr unsigned kIndex = 3;
   static constexpr unsigned kFresh = 4;
 
-  /// Keeps initRT() away from `latest_`. Only initRT() can hold the flag against it, for the time
-  /// of two copies, so yielding is enough.
+  /// Excludes initRT() from `latest_`. Only initRT() can hold the flag, for the time of two copies,
+  /// so yielding is sufficient.
   class LatestGuard {
    public:
     explicit LatestGuard(std::atomic_flag& flag) : flag_(flag) {

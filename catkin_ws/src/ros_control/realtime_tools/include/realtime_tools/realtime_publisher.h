@@ -15,16 +15,16 @@
 
 namespace realtime_tools {
 
-/// Publishes messages of a real-time thread through another thread, which all publishers of the
-/// process share.
+/// Publishes messages of a real-time thread through another thread, shared by all publishers of the
+/// process.
 ///
-/// The real-time thread fills `msg_` between trylock() and unlockAndPublish(). Until the
-/// publishing thread has copied the message, less than a millisecond later in a stream of messages,
-/// trylock() returns false and the caller skips this cycle: messages are dropped, never queued. The
-/// first message after a silence waits as long as the silence at most, and never above 5 ms.
+/// The real-time thread fills `msg_` between trylock() and unlockAndPublish(). Until the publishing
+/// thread has copied the message, less than a millisecond later in a stream of messages, trylock()
+/// returns false and the caller skips this cycle: messages are dropped, never queued. The first
+/// message after a pause waits at most as long as the pause, and never above 5 ms.
 ///
 /// Threads: one real-time thread; any thread may lock() and unlock(). init(), stop() and the
-/// destructor belong to one non-real-time thread.
+/// destructor are for one non-real-time thread.
 /// Real-time safe: trylock(), unlock(), unlockAndPublish(): no mutex, no allocation, no waiting, no
 /// system call.
 ///
@@ -35,7 +35,7 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
   /// The message. Access it only while holding the lock.
   Msg msg_;
 
-  /// Advertises at once, as init() does.
+  /// Advertises at once, like init().
   RealtimePublisher(const ros::NodeHandle& node, const std::string& topic, int queue_size,
                     bool latched = false) {
     init(node, topic, queue_size, latched);
@@ -47,19 +47,19 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
   RealtimePublisher(const RealtimePublisher&) = delete;
   RealtimePublisher& operator=(const RealtimePublisher&) = delete;
 
-  /// Withdraws the topic. A message not yet taken is dropped.
+  /// Withdraws the topic. A pending message is dropped.
   ~RealtimePublisher() {
     stop();
     detail::PublishingThread::instance().remove(this);
     publisher_.shutdown();
   }
 
-  /// Advertises and has messages published from now on; afterwards trylock() succeeds at once. When
-  /// called again it ends what it had started before.
+  /// Advertises and starts publishing; afterwards trylock() succeeds at once. A second call ends
+  /// the earlier topic first.
   ///
-  /// @param node where the topic lives.
+  /// @param node namespace of the topic.
   /// @param topic name, resolved by `node`.
-  /// @param queue_size of the publisher towards its subscribers [messages].
+  /// @param queue_size for the subscribers [messages].
   /// @param latched whether late subscribers get the last message.
   /// @throw ros::InvalidNameException if the topic's name is not valid.
   void init(const ros::NodeHandle& node, const std::string& topic, int queue_size,
@@ -72,14 +72,14 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
     detail::PublishingThread::instance().add(this);
   }
 
-  /// Later messages are not sent. Does not wait for one on its way.
+  /// Stops sending. Does not wait for a message being sent.
   void stop() { turn_.stop(); }
 
-  /// Takes the lock if it is free and the previous message has been taken by the publishing
-  /// thread. @return whether msg_ may be filled now.
+  /// Takes the lock if it is free and the publishing thread has taken the previous message. @return
+  /// whether msg_ may be filled now.
   bool trylock() noexcept { return turn_.tryLock(); }
 
-  /// Releases the lock and has msg_ published.
+  /// Releases the lock and publishes msg_.
   void unlockAndPublish() noexcept { turn_.unlockAndHandOver(); }
 
   /// Waits for the lock, whether or not the previous message has been taken. Not real-time safe.
@@ -101,7 +101,7 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
 
   ros::Publisher publisher_;
   detail::TurnLock turn_;
-  Msg outgoing_;  ///< of the publishing thread; kept, so that copying reuses its memory
+  Msg outgoing_;  ///< used by the publishing thread; kept to reuse its memory
 };
 
 template <class Msg>

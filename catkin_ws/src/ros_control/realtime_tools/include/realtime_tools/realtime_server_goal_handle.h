@@ -12,16 +12,15 @@
 
 namespace realtime_tools {
 
-/// Lets a real-time thread end an action's goal and give feedback: it notes what it wants, and a
-/// timer outside the loop does it.
+/// Lets a real-time thread end an action's goal and give feedback: it stores the request, and a
+/// timer outside the loop executes it.
 ///
-/// Threads: setAborted(), setCanceled(), setSucceeded() and setFeedback() belong to one real-time
-/// thread and are real-time safe: no lock, no system call, no allocation. runNonRealtime() belongs
-/// to one other thread; the two may run at the same time.
+/// Threads: setAborted(), setCanceled(), setSucceeded() and setFeedback() are for one real-time
+/// thread and real-time safe: no lock, no system call, no allocation. runNonRealtime() is for one
+/// other thread; both may run at the same time.
 ///
-/// The messages that are handed over must live on elsewhere: the preallocated ones do, as long as
-/// this object. What a preallocated result holds must be written before it is handed over, and not
-/// be touched afterwards.
+/// Messages passed in must stay alive elsewhere: the preallocated ones do, as long as this object.
+/// A preallocated result must be filled before it is passed, and not changed afterwards.
 ///
 /// @tparam Action an action's type, for instance control_msgs::FollowJointTrajectoryAction.
 template <class Action>
@@ -48,15 +47,15 @@ class RealtimeServerGoalHandle {
   RealtimeServerGoalHandle(const RealtimeServerGoalHandle&) = delete;
   RealtimeServerGoalHandle& operator=(const RealtimeServerGoalHandle&) = delete;
 
-  /// Asks for an end of the goal. The first request of the three wins, later ones change nothing.
+  /// Requests an end of the goal. The first request of the three counts, later ones are ignored.
   /// @param result to send; none if null.
   void setAborted(ResultConstPtr result = ResultConstPtr()) { request(End::kAborted, result); }
   void setCanceled(ResultConstPtr result = ResultConstPtr()) { request(End::kCanceled, result); }
   void setSucceeded(ResultConstPtr result = ResultConstPtr()) { request(End::kSucceeded, result); }
 
-  /// Hands over the feedback that is sent from the next runNonRealtime() on, in every call while
-  /// the goal is active. When the timer is just taking the one before, this one is dropped; the
-  /// preallocated feedback may be filled and handed over in every cycle.
+  /// Sets the feedback that every runNonRealtime() sends while the goal is active. If the timer is
+  /// just reading the previous one, this one is dropped; the preallocated feedback may be filled
+  /// and passed in every cycle.
   void setFeedback(FeedbackConstPtr feedback = FeedbackConstPtr()) {
     if (feedback_busy_.test_and_set(std::memory_order_acquire)) {
       return;
@@ -68,9 +67,9 @@ class RealtimeServerGoalHandle {
   /// Whether there is a goal. Not real-time safe.
   bool valid() { return gh_.getGoal() != nullptr; }
 
-  /// Does what was asked for: ends the goal if its state allows (an abort or a success while it is
+  /// Executes the requests: ends the goal if its state allows (an abort or a success while it is
   /// active or preempting, a cancellation while preempting), and sends feedback if it was active.
-  /// Meant for a ros::Timer. Not real-time safe.
+  /// For a ros::Timer. Not real-time safe.
   void runNonRealtime(const ros::TimerEvent& /*event*/) {
     if (!valid()) {
       return;
@@ -121,7 +120,7 @@ class RealtimeServerGoalHandle {
   }
 
   std::atomic<End> end_{End::kNone};
-  ResultConstPtr result_;  ///< belongs to the real-time thread until `end_` names an end
+  ResultConstPtr result_;  ///< belongs to the real-time thread until `end_` is set
   std::atomic_flag feedback_busy_ = ATOMIC_FLAG_INIT;
   FeedbackConstPtr feedback_;  ///< guarded by feedback_busy_
 };

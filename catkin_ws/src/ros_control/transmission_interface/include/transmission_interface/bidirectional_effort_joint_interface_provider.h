@@ -6,8 +6,8 @@
 
 namespace transmission_interface {
 
-/// Provides what EffortJointInterfaceProvider does, and maps for the opposite direction: states
-/// from joints to actuators, effort commands from actuators to joints.
+/// Like EffortJointInterfaceProvider, with maps for the opposite direction too: states from joints
+/// to actuators, effort commands from actuators to joints.
 class BiDirectionalEffortJointInterfaceProvider
     : public internal::BiDirectionalInterfaceProvider<internal::EffortCommand> {};
 

@@ -6,8 +6,8 @@
 
 namespace transmission_interface {
 
-/// Provides what PositionJointInterfaceProvider does, and maps for the opposite direction: states
-/// from joints to actuators, position commands from actuators to joints.
+/// Like PositionJointInterfaceProvider, with maps for the opposite direction too: states from
+/// joints to actuators, position commands from actuators to joints.
 class BiDirectionalPositionJointInterfaceProvider
     : public internal::BiDirectionalInterfaceProvider<internal::PositionCommand> {};
 

@@ -6,8 +6,8 @@
 
 namespace transmission_interface {
 
-/// Provides what VelocityJointInterfaceProvider does, and maps for the opposite direction: states
-/// from joints to actuators, velocity commands from actuators to joints.
+/// Like VelocityJointInterfaceProvider, with maps for the opposite direction too: states from
+/// joints to actuators, velocity commands from actuators to joints.
 class BiDirectionalVelocityJointInterfaceProvider
     : public internal::BiDirectionalInterfaceProvider<internal::VelocityCommand> {};
 

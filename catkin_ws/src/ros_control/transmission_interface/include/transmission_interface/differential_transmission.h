@@ -8,8 +8,8 @@
 
 namespace transmission_interface {
 
-/// Two actuators on two joints: turned the same way, they move the first joint; turned against each
-/// other, the second. With the actuators' reductions ar and the joints' jr:
+/// Two actuators on two joints: equal rotation moves the first joint, opposite rotation the second.
+/// With the actuators' reductions ar and the joints' jr:
 ///
 ///     joint effort   1: jr1 (ar1 a1 + ar2 a2)         2: jr2 (ar1 a1 - ar2 a2)
 ///     joint velocity 1: (a1/ar1 + a2/ar2) / (2 jr1)   2: (a1/ar1 - a2/ar2) / (2 jr2)
@@ -17,16 +17,16 @@ namespace transmission_interface {
 class DifferentialTransmission : public internal::PairTransmission {
  public:
   /// @param actuator_reduction, joint_reduction two ratios each, none zero
-  /// @param joint_offset positions of the joints where those of the actuators are zero
+  /// @param joint_offset joint positions for actuator positions of zero
   /// @throws TransmissionInterfaceException for sizes other than two and reductions of zero.
   DifferentialTransmission(const std::vector<double>& actuator_reduction,
                            const std::vector<double>& joint_reduction,
                            const std::vector<double>& joint_offset = std::vector<double>(2, 0.0))
       : DifferentialTransmission(actuator_reduction, joint_reduction, false, joint_offset) {}
 
-  /// @param ignore_transmission_for_absolute_encoders true for absolute encoders that sit on the
-  /// joints' side: their values pass unchanged, the first actuator's to the second joint and the
-  /// second's to the first, as in the original
+  /// @param ignore_transmission_for_absolute_encoders true for absolute encoders on the joints'
+  /// side: their values pass unchanged, the first actuator's to the second joint and the second's
+  /// to the first, as in the original
   DifferentialTransmission(const std::vector<double>& actuator_reduction,
                            const std::vector<double>& joint_reduction,
                            bool ignore_transmission_for_absolute_encoders,

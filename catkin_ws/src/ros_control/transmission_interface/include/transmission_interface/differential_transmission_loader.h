@@ -7,7 +7,7 @@
 
 namespace transmission_interface {
 
-/// Makes a DifferentialTransmission; see PairTransmissionLoader for its elements. Both joints may
+/// Creates a DifferentialTransmission; see PairTransmissionLoader for its elements. Both joints may
 /// have the element <ignoreTransmissionAbsoluteEncoder/>.
 class DifferentialTransmissionLoader : public internal::PairTransmissionLoader {
  public:

@@ -8,20 +8,20 @@
 
 namespace transmission_interface {
 
-/// Two actuators on two joints by a four-bar linkage: the first actuator turns the first joint, the
-/// second turns the second joint against the robot's body. With the actuators' reductions ar and
-/// the joints' jr:
+/// Two actuators on two joints by a four-bar linkage: the first actuator rotates the first joint,
+/// the second rotates the second joint relative to the robot's body. With the actuators' reductions
+/// ar and the joints' jr:
 ///
 ///     joint effort   1: jr1 ar1 a1          2: jr2 (ar2 a2 - jr1 ar1 a1)
 ///     joint velocity 1: a1 / (jr1 ar1)      2: (a2/ar2 - a1/(jr1 ar1)) / jr2
 ///     joint position as velocity, plus the joint's offset
 ///
-/// These are the original's formulas, which robots are tuned with. Those of effort do not conserve
+/// These are the original's formulas, with which robots are tuned. Those of effort do not conserve
 /// power: the transpose of the velocities' map would give jr1 ar1 a1 + ar2 a2 and jr2 ar2 a2.
 class FourBarLinkageTransmission : public internal::PairTransmission {
  public:
   /// @param actuator_reduction, joint_reduction two ratios each, none zero
-  /// @param joint_offset positions of the joints where those of the actuators are zero
+  /// @param joint_offset joint positions for actuator positions of zero
   /// @throws TransmissionInterfaceException for sizes other than two and reductions of zero.
   FourBarLinkageTransmission(const std::vector<double>& actuator_reduction,
                              const std::vector<double>& joint_reduction,

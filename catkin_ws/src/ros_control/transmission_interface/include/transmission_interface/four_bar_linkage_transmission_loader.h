@@ -7,7 +7,7 @@
 
 namespace transmission_interface {
 
-/// Makes a FourBarLinkageTransmission; see PairTransmissionLoader for its elements.
+/// Creates a FourBarLinkageTransmission; see PairTransmissionLoader for its elements.
 class FourBarLinkageTransmissionLoader : public internal::PairTransmissionLoader {
  public:
   TransmissionSharedPtr load(const TransmissionInfo& transmission_info) override;

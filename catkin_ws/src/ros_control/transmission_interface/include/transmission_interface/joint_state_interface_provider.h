@@ -7,8 +7,8 @@
 namespace transmission_interface {
 
 /// Provides JointStateInterface: states of joints, mapped from those of the actuators. Joints have
-/// an absolute position or a torque sensor where all actuators have one and the transmission can
-/// map it.
+/// an absolute position or a torque sensor if all actuators have one and the transmission can map
+/// it.
 class JointStateInterfaceProvider : public RequisiteProvider {
  public:
   bool updateJointInterfaces(const TransmissionInfo& transmission_info,

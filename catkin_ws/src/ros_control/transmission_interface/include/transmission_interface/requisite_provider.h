@@ -18,8 +18,7 @@
 
 namespace transmission_interface {
 
-/// The values of one joint; not a number until something writes them. Units: [rad] or [m], [rad/s]
-/// or [m/s], [Nm] or [N].
+/// The values of one joint; NaN until written. Units: [rad] or [m], [rad/s] or [m/s], [Nm] or [N].
 struct RawJointData {
   double position{std::numeric_limits<double>::quiet_NaN()};
   double velocity{std::numeric_limits<double>::quiet_NaN()};
@@ -35,7 +34,7 @@ struct RawJointData {
 
 typedef std::map<std::string, RawJointData> RawJointDataMap;
 
-/// Interfaces of joints, for robots that have none of that type yet.
+/// Interfaces of joints, for robots without one of that type.
 struct JointInterfaces {
   hardware_interface::JointStateInterface joint_state_interface;
   hardware_interface::PositionJointInterface position_joint_interface;
@@ -43,7 +42,7 @@ struct JointInterfaces {
   hardware_interface::EffortJointInterface effort_joint_interface;
 };
 
-/// From the actuators' states to the joints, from the joints' commands to the actuators.
+/// From actuator states to joints, and from joint commands to actuators.
 struct ForwardTransmissionInterfaces {
   ActuatorToJointStateInterface act_to_jnt_state;
   JointToActuatorPositionInterface jnt_to_act_pos_cmd;
@@ -51,7 +50,7 @@ struct ForwardTransmissionInterfaces {
   JointToActuatorEffortInterface jnt_to_act_eff_cmd;
 };
 
-/// The opposite, as simulations need it that move joints and not actuators.
+/// The opposite, for simulations that move joints instead of actuators.
 struct InverseTransmissionInterfaces {
   JointToActuatorStateInterface jnt_to_act_state;
   ActuatorToJointPositionInterface act_to_jnt_pos_cmd;
@@ -59,7 +58,7 @@ struct InverseTransmissionInterfaces {
   ActuatorToJointEffortInterface act_to_jnt_eff_cmd;
 };
 
-/// All that a TransmissionInterfaceLoader makes. Addresses stay the same while it grows.
+/// All results of a TransmissionInterfaceLoader. Addresses are stable.
 struct TransmissionLoaderData {
   hardware_interface::RobotHW* robot_hw{nullptr};
   RobotTransmissions* robot_transmissions{nullptr};
@@ -67,38 +66,37 @@ struct TransmissionLoaderData {
   RawJointDataMap raw_joint_data_map;
   ForwardTransmissionInterfaces forward_transmission_interfaces;
   InverseTransmissionInterfaces inverse_transmission_interfaces;
-  /// In the order of loading, each once for every interface of its joints.
+  /// In the order of loading, once for each interface of its joints.
   std::vector<TransmissionSharedPtr> transmission_data;
 };
 
 /// Base of the plugins that provide one interface of the joints: the joints' handles, and the maps
-/// between these and the actuators. A provider keeps no state; it runs at start-up, and logs what
-/// it cannot do.
+/// between these and the actuators. A provider has no state; it runs at start-up, and logs errors.
 class RequisiteProvider {
  public:
   virtual ~RequisiteProvider() = default;
 
   /// Registers handles for the joints of a transmission with the robot.
-  /// @param[in,out] raw_joint_data_map gets the values that the handles point at
-  /// @returns false, with a sentence, if that fails.
+  /// @param[in,out] raw_joint_data_map gets the values of the handles
+  /// @returns false, with a sentence, on failure.
   virtual bool updateJointInterfaces(const TransmissionInfo& transmission_info,
                                      hardware_interface::RobotHW* robot_hw,
                                      JointInterfaces& joint_interfaces,
                                      RawJointDataMap& raw_joint_data_map) = 0;
 
-  /// Registers the maps of a transmission. After updateJointInterfaces.
-  /// @returns false, with a sentence, if that fails.
+  /// Registers the maps of a transmission. Call it after updateJointInterfaces.
+  /// @returns false, with a sentence, on failure.
   bool loadTransmissionMaps(const TransmissionInfo& transmission_info,
                             TransmissionLoaderData& loader_data,
                             TransmissionSharedPtr transmission);
 
-  /// Whether the robot has all the actuators that the provider would need; if not, a sentence.
-  /// Changes nothing.
+  /// Whether the robot has all actuators that the provider needs; if not, logs a sentence. Changes
+  /// nothing.
   bool findsActuators(const TransmissionInfo& transmission_info,
                       hardware_interface::RobotHW* robot_hw);
 
  protected:
-  /// What a handle on a transmission is made of.
+  /// Content of a handle on a transmission.
   struct TransmissionHandleData {
     std::string name;
     ActuatorData act_state_data;
@@ -120,7 +118,7 @@ class RequisiteProvider {
   virtual bool getActuatorCommandData(const TransmissionInfo& transmission_info,
                                       hardware_interface::RobotHW* robot_hw,
                                       ActuatorData& act_cmd_data) = 0;
-  /// @throws TransmissionInterfaceException for data that do not fit the transmission.
+  /// @throws TransmissionInterfaceException for data that do not match the transmission.
   virtual bool registerTransmission(TransmissionLoaderData& loader_data,
                                     TransmissionHandleData& handle_data) = 0;
 };

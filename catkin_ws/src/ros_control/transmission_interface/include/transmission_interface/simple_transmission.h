@@ -18,9 +18,9 @@ namespace transmission_interface {
 ///     joint position = actuator position / n + offset
 class SimpleTransmission : public Transmission {
  public:
-  /// @param reduction n, turns of the actuator for one of the joint
-  /// @param joint_offset position of the joint where the actuator's is zero [rad] or [m]
-  /// @throws TransmissionInterfaceException when the reduction is zero.
+  /// @param reduction n, turns of the actuator per turn of the joint
+  /// @param joint_offset joint position for the actuator position zero [rad] or [m]
+  /// @throws TransmissionInterfaceException if the reduction is zero.
   SimpleTransmission(const double reduction, const double joint_offset = 0.0)
       : reduction_(reduction), joint_offset_(joint_offset) {
     if (reduction == 0.0) {

@@ -7,7 +7,7 @@
 
 namespace transmission_interface {
 
-/// Makes a SimpleTransmission. The actuator has a <mechanicalReduction>, the joint may have an
+/// Creates a SimpleTransmission. The actuator has a <mechanicalReduction>, the joint optionally an
 /// <offset> [rad] or [m].
 class SimpleTransmissionLoader : public TransmissionLoader {
  public:

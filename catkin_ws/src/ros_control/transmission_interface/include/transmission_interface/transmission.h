@@ -9,8 +9,8 @@
 
 namespace transmission_interface {
 
-/// Where the values of a transmission's actuators are. Each vector has one pointer for each
-/// actuator or is empty. Units: [rad] or [m], [rad/s] or [m/s], [Nm] or [N].
+/// Pointers to the values of a transmission's actuators. Each vector is empty or has one pointer
+/// per actuator. Units: [rad] or [m], [rad/s] or [m/s], [Nm] or [N].
 struct ActuatorData {
   std::vector<double*> position;
   std::vector<double*> velocity;
@@ -19,7 +19,7 @@ struct ActuatorData {
   std::vector<double*> torque_sensor;
 };
 
-/// Where the values of a transmission's joints are, one pointer for each joint. Units as above.
+/// Pointers to the values of a transmission's joints, one per joint. Units as above.
 struct JointData {
   std::vector<double*> position;
   std::vector<double*> velocity;
@@ -30,7 +30,8 @@ struct JointData {
 
 /// The mechanics between actuators and joints: maps each kind of value from one side to the other.
 /// A map reads and writes only the vectors of its kind, which must have the transmission's size and
-/// hold no null pointer (asserted). All maps are safe in the control loop, and const in effect.
+/// no null pointer (asserted). All maps are safe in the control loop and do not change the
+/// transmission.
 class Transmission {
  public:
   virtual ~Transmission() = default;

@@ -7,22 +7,22 @@
 
 namespace transmission_interface {
 
-/// A joint of a transmission, as the URDF describes it.
+/// A joint of a transmission, from the URDF.
 struct JointInfo {
   std::string name_;
   std::vector<std::string> hardware_interfaces_;  ///< at least one
-  std::string role_;                              ///< empty if the URDF gives none
+  std::string role_;                              ///< empty if not in the URDF
   std::string xml_element_;                       ///< the whole <joint> element
 };
 
-/// An actuator of a transmission, as the URDF describes it.
+/// An actuator of a transmission, from the URDF.
 struct ActuatorInfo {
   std::string name_;
   std::vector<std::string> hardware_interfaces_;  ///< may be empty
   std::string xml_element_;                       ///< the whole <actuator> element
 };
 
-/// A transmission, as the URDF describes it.
+/// A transmission, from the URDF.
 struct TransmissionInfo {
   std::string name_;
   std::string type_;

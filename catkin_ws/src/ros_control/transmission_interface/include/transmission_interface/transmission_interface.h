@@ -13,10 +13,10 @@
 namespace transmission_interface {
 
 /// Maps positions, velocities and efforts of actuators to the joints; absolute positions and torque
-/// sensors as well where there are data and the transmission can.
+/// sensors too if data exist and the transmission supports them.
 class ActuatorToJointStateHandle : public TransmissionHandle {
  public:
-  /// @throws TransmissionInterfaceException when data are missing or do not fit; so do all handles.
+  /// All handles: @throws TransmissionInterfaceException for missing or mismatching data.
   ActuatorToJointStateHandle(const std::string& name, Transmission* transmission,
                              const ActuatorData& actuator_data, const JointData& joint_data)
       : TransmissionHandle(name, transmission, actuator_data, joint_data) {
@@ -137,7 +137,7 @@ class JointToActuatorEffortHandle : public TransmissionHandle {
   void propagate() { transmission_->jointToActuatorEffort(joint_data_, actuator_data_); }
 };
 
-/// Handles of one kind, those of a robot's transmissions. Filled at start-up; not thread-safe.
+/// Handles of one kind for a robot's transmissions. Filled at start-up; not thread-safe.
 /// @tparam HandleType one of the handles above
 template <class HandleType>
 class TransmissionInterface : public hardware_interface::ResourceManager<HandleType> {
@@ -145,7 +145,7 @@ class TransmissionInterface : public hardware_interface::ResourceManager<HandleT
   typedef HandleType ResourceHandleType;
 
   /// A copy of the named handle.
-  /// @throws TransmissionInterfaceException when there is none of that name.
+  /// @throws TransmissionInterfaceException for an unknown name.
   HandleType getHandle(const std::string& name) {
     try {
       return hardware_interface::ResourceManager<HandleType>::getHandle(name);
@@ -154,7 +154,7 @@ class TransmissionInterface : public hardware_interface::ResourceManager<HandleT
     }
   }
 
-  /// Lets all handles map, in the order of their names. Safe in the control loop.
+  /// Maps all handles, in the order of their names. Safe in the control loop.
   void propagate() {
     for (auto& resource : this->resource_map_) {
       resource.second.propagate();

@@ -7,7 +7,7 @@
 
 namespace transmission_interface {
 
-/// A transmission or a handle on one cannot be made as asked, or there is no handle of that name.
+/// A transmission or its handle cannot be created, or there is no handle of that name.
 class TransmissionInterfaceException : public std::exception {
  public:
   TransmissionInterfaceException(const std::string& message) : message_(message) {}

@@ -16,34 +16,34 @@
 
 namespace transmission_interface {
 
-/// Makes the transmissions of a robot description and all that belongs to them: handles of the
-/// joints, registered with the robot, and handles that map between joints and actuators, registered
-/// with the robot's transmissions. The robot must have registered its actuators before.
+/// Creates the transmissions of a robot description with their handles: those of the joints,
+/// registered with the robot, and those that map between joints and actuators, registered with the
+/// robot's transmissions. The robot must have registered its actuators before.
 ///
 /// Types of transmissions are plugins of base TransmissionLoader, interfaces of joints are plugins
-/// of base RequisiteProvider. Everything made belongs to the loader, which therefore must live as
-/// long as it is used. For start-up: not thread-safe, not for the control loop.
+/// of base RequisiteProvider. The loader owns all results and must outlive their use. For start-up:
+/// not thread-safe, not for the control loop.
 class TransmissionInterfaceLoader {
  public:
   /// @param robot_hw, robot_transmissions must outlive the loader
-  /// @throws std::invalid_argument when one of them is null
-  /// @throws pluginlib::PluginlibException when plugins cannot be searched for
+  /// @throws std::invalid_argument if one of them is null
+  /// @throws pluginlib::PluginlibException if plugins cannot be searched
   TransmissionInterfaceLoader(hardware_interface::RobotHW* robot_hw,
                               RobotTransmissions* robot_transmissions);
 
   /// Loads all transmissions of a robot description that TransmissionParser accepts. If one of them
-  /// cannot be made, none is. One whose name was loaded before replaces that one, with a warning.
+  /// cannot be created, none is. One with an earlier name replaces that one, with a warning.
   /// @param urdf_string the XML text itself
-  /// @returns false, with a sentence in the log, on errors and when there is no transmission.
+  /// @returns false, with a sentence in the log, on errors and without transmissions.
   bool load(const std::string& urdf_string);
   bool load(const std::vector<TransmissionInfo>& transmission_info_vec);
   bool load(const TransmissionInfo& transmission_info);
 
-  /// What has been made up to now: values and interfaces of the joints, and the transmissions.
+  /// The results so far: values and interfaces of the joints, and the transmissions.
   TransmissionLoaderData* getData() { return &loader_data_; }
 
  private:
-  /// A transmission that can be registered.
+  /// A transmission ready for registration.
   struct Plan {
     TransmissionInfo info;
     TransmissionSharedPtr transmission;
@@ -55,7 +55,7 @@ class TransmissionInterfaceLoader {
   bool createProviders(const TransmissionInfo& info, std::vector<RequisiteProviderPtr>& providers);
   bool carryOut(const Plan& plan);
 
-  // Before all that they made the code of.
+  // Declared before the objects whose code it loaded.
   pluginlib::ClassLoader<TransmissionLoader> transmission_class_loader_;
   pluginlib::ClassLoader<RequisiteProvider> req_provider_loader_;
   hardware_interface::RobotHW* robot_hw_ptr_;

@@ -12,34 +12,34 @@
 
 namespace transmission_interface {
 
-/// Base of the plugins that make a transmission of one type from its description. Loaders keep no
-/// state; they run at start-up and log what they cannot use.
+/// Base of the plugins that create a transmission of one type from its description. Loaders have no
+/// state; they run at start-up and log errors.
 class TransmissionLoader {
  public:
   virtual ~TransmissionLoader() = default;
 
-  /// @returns nullptr, with a sentence in the log, if the description is not usable.
+  /// @returns nullptr, with a sentence in the log, if the description is invalid.
   virtual TransmissionSharedPtr load(const TransmissionInfo& transmission_info) = 0;
 
  protected:
   enum ParseStatus {
     SUCCESS,
     NO_DATA,  ///< the element is missing
-    BAD_TYPE  ///< its text is not what it should be
+    BAD_TYPE  ///< its text is invalid
   };
 
-  /// Whether the transmission has that many actuators; if not, a sentence.
+  /// Whether the transmission has that number of actuators; if not, logs a sentence.
   static bool checkActuatorDimension(const TransmissionInfo& transmission_info,
                                      const unsigned int expected_dim);
-  /// Whether the transmission has that many joints; if not, a sentence.
+  /// Whether the transmission has that number of joints; if not, logs a sentence.
   static bool checkJointDimension(const TransmissionInfo& transmission_info,
                                   const unsigned int expected_dim);
 
-  /// The root element of an XML text; an element without a name if it is no XML.
+  /// The root element of an XML text; an element without a name if it is not XML.
   static TiXmlElement loadXmlElement(const std::string& element_str);
 
-  // Each of these reads one child of the element of a joint or actuator. Where it is missing, there
-  // is a sentence if `required` says so; where it is bad, in any case. The value then is untouched.
+  // Each of these reads one child of a joint's or actuator's element. A missing one is logged if
+  // `required`; an invalid one always. The value is then unchanged.
 
   /// <mechanicalReduction>: a finite number
   static ParseStatus getActuatorReduction(const TiXmlElement& parent_el,

@@ -15,18 +15,18 @@ namespace transmission_interface {
 /// Reads the <transmission> elements of a URDF. Stateless, thread-safe, not for the control loop.
 class TransmissionParser {
  public:
-  /// Appends the transmissions of a robot description. An invalid one is logged and left out.
+  /// Appends the transmissions of a robot description. Invalid ones are logged and skipped.
   /// @param urdf_string the XML text itself
-  /// @returns false if the text is no XML; a robot without transmissions is fine.
+  /// @returns false if the text is not XML; a robot without transmissions is valid.
   static bool parse(const std::string& urdf_string, std::vector<TransmissionInfo>& transmissions);
 
  protected:
   /// The joints of one <transmission> element.
-  /// @returns false if there is no valid one, or if one has no name attribute.
+  /// @returns false without a valid one, or if one has no name attribute.
   static bool parseJoints(TiXmlElement* trans_it, std::vector<JointInfo>& joints);
 
   /// The actuators of one <transmission> element.
-  /// @returns false if there is no valid one, or if one has no name attribute.
+  /// @returns false without a valid one, or if one has no name attribute.
   static bool parseActuators(TiXmlElement* trans_it, std::vector<ActuatorInfo>& actuators);
 };
 

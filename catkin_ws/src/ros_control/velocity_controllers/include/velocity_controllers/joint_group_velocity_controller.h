@@ -6,8 +6,8 @@
 
 namespace velocity_controllers {
 
-/// Passes velocities from the topic `command` on to several joints; see
-/// ForwardJointGroupCommandController. It starts with zero.
+/// Forwards velocities from the topic `command` to several joints; see
+/// ForwardJointGroupCommandController. Starts with zero.
 typedef forward_command_controller::ForwardJointGroupCommandController<
     hardware_interface::VelocityJointInterface>
     JointGroupVelocityController;

@@ -6,8 +6,8 @@
 
 namespace velocity_controllers {
 
-/// Holds one joint at the position of the topic `command`, by a Pid that commands its velocity; all
-/// about it stands with the class it derives from.
+/// Holds one joint at the position of the topic `command`, by a Pid that commands its velocity; see
+/// its base class.
 class JointPositionController : public forward_command_controller::detail::JointPositionController<
                                     hardware_interface::VelocityJointInterface> {};
 

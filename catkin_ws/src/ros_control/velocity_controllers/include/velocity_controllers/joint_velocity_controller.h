@@ -6,8 +6,8 @@
 
 namespace velocity_controllers {
 
-/// Passes a velocity from the topic `command` on to one joint; see ForwardCommandController. It
-/// starts with zero.
+/// Forwards a velocity from the topic `command` to one joint; see ForwardCommandController. Starts
+/// with zero.
 typedef forward_command_controller::ForwardCommandController<
     hardware_interface::VelocityJointInterface>
     JointVelocityController;

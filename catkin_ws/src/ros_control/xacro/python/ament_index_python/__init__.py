@@ -1,3 +1,3 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The part of ROS 2's package index that xacro asks, answered for catkin packages."""
+"""The part of ROS 2's package index that xacro uses, for catkin packages."""

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where packages are, by rospkg: what `$(find package)` means to ROS 1."""
+"""Finds packages with rospkg, as `$(find package)` does in ROS 1."""
 
 import functools
 import os
@@ -12,14 +12,14 @@ class PackageNotFoundError(KeyError):
     """No package of that name is on ROS_PACKAGE_PATH."""
 
     def __str__(self):
-        """Return the sentence as it is, not its repr as KeyError does."""
+        """Return the message itself, not its repr as KeyError does."""
         return str(self.args[0])
 
 
 def get_package_share_directory(package_name):
     """Return the directory of a package: its sources in a devel space, else its share directory.
 
-    Raises PackageNotFoundError when there is no such package.
+    Raises PackageNotFoundError if there is no such package.
     """
     path = os.environ.get("ROS_PACKAGE_PATH", "")
     try:
@@ -33,5 +33,5 @@ def get_package_share_directory(package_name):
 
 @functools.lru_cache(maxsize=4)
 def _packages(path):
-    """Return the packages on `path`; walking it takes long enough to do it once."""
+    """Return the packages on `path`; cached, because the search is slow."""
     return rospkg.RosPack(rospkg.get_ros_paths({"ROS_PACKAGE_PATH": path}))

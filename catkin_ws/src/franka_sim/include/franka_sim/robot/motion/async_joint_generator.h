@@ -13,26 +13,27 @@ namespace franka_sim {
 /// Moves the joints to a target that may change at any time (protocol 10's asynchronous motions).
 ///
 /// Each joint alone runs the time-optimal motion under its limits of velocity and acceleration,
-/// exact to the tick; the mean over four ticks of it is what the arm gets, which keeps the jerk
-/// limit as well (four ticks are 2 ddq_max / dddq_max for both arms) and ends exactly on the
-/// target. Where the arm's velocity limit shrinks towards a joint's end, so does the speed.
-/// Real-time safe; one thread.
+/// exact to the tick. The arm gets its mean over four ticks, which keeps the jerk limit as well
+/// (four ticks are 2 ddq_max / dddq_max for both arms) and ends exactly on the target. Where the
+/// arm's velocity limit shrinks towards a joint's end, so does the speed. Real-time safe; one
+/// thread.
 class AsyncJointGenerator {
  public:
-  /// At rest at q [rad]. @param maximum_velocity positive [rad/s]; cut to the arm's limits.
+  /// Starts at rest at q [rad]. @param maximum_velocity positive [rad/s]; limited to the arm's
+  /// limits.
   void start(const std::array<double, 7>& q,
              const std::array<double, 7>& maximum_velocity) noexcept;
-  /// Where to go [rad]; finite, and reachable from position() within the limits (MotionGenerator).
+  /// Target [rad]; finite, and reachable from position() within the limits (MotionGenerator).
   void setTarget(const std::array<double, 7>& target) noexcept { target_ = target; }
-  /// Brakes instead of going on to the target, and stays there.
+  /// Brakes to rest instead of moving to the target.
   void stop() noexcept { stopping_ = true; }
   /// One tick (1 ms) on.
   void step(const MotionLimits& limits) noexcept;
 
-  /// Neither the motion nor its mean moves any more.
+  /// Whether neither the motion nor its mean moves any more.
   bool atRest() const noexcept;
   const JointSample& sample() const noexcept { return sample_; }
-  /// Where the motion is [rad], before the mean over the last ticks.
+  /// Position of the motion [rad], before the mean over the last ticks.
   const std::array<double, 7>& position() const noexcept { return q_; }
 
  private:

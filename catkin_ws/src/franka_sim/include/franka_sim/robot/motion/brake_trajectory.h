@@ -11,12 +11,12 @@ namespace franka_sim {
 /// short. Real-time safe; one thread.
 class BrakeTrajectory {
  public:
-  /// @param q_d, dq_d where and how fast the arm is wanted now [rad, rad/s]; a velocity that is not
-  /// finite counts as 0
+  /// @param q_d, dq_d desired position and velocity [rad, rad/s]; a velocity that is not finite
+  /// counts as 0
   /// @param ddq_max deceleration, positive [rad/s^2]
   void start(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
              const std::array<double, 7>& ddq_max) noexcept;
-  /// One tick (1 ms) on. At rest nothing changes but ddq, which becomes 0.
+  /// One tick (1 ms). At rest only ddq changes, to 0.
   void step() noexcept;
 
   bool atRest() const noexcept;

@@ -24,28 +24,29 @@ struct CartesianSample {
 
 /// A commanded elbow.
 struct ElbowCommand {
-  bool valid{false};              ///< false: stays where it was commanded last
+  bool valid{false};              ///< false: the last commanded elbow stays
   std::array<double, 2> elbow{};  ///< q3 [rad] and the sign of the elbow, +1 or -1
 };
 
-/// A motion of the end effector and of the elbow as it is commanded, and the judge of its next
-/// step; see JointMotion for how. Speeds, accelerations and jerks are judged by the norms of their
-/// linear and of their angular part, stage by stage (decision 14); within a stage translation and
-/// rotation come before the elbow. Real-time safe; one thread.
+/// The commanded motion of end effector and elbow, with the check of its next step; JointMotion
+/// describes how. The norms of the linear and of the angular part of velocity, acceleration and
+/// jerk are checked stage by stage (decision 14); within a stage translation and rotation come
+/// before the elbow. Real-time safe; one thread.
 class CartesianMotion {
  public:
   /// At rest. @param pose O_T_EE @param elbow q3 [rad] and its sign.
   void start(const Transform& pose, const std::array<double, 2>& elbow) noexcept;
 
-  /// The next commanded pose O_T_EE; kept orthonormalised. The first must be where the motion
-  /// starts, and sets the history to rest there.
+  /// Takes the next commanded pose O_T_EE; it is kept orthonormalised. The first must be where the
+  /// motion starts, and sets the history to rest there.
   /// @param sign the elbow's present sign, which a commanded elbow must have.
   MotionFault takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
                        const MotionLimits& limits) noexcept;
-  /// The next commanded twist in O [m/s, rad/s], from rest on; the pose follows by integration.
+  /// Takes the next commanded twist in O [m/s, rad/s], from rest on; the pose follows by
+  /// integration.
   MotionFault takeTwist(const std::array<double, 6>& twist, const ElbowCommand& elbow, double sign,
                         const MotionLimits& limits) noexcept;
-  /// A step without a command: the accelerations stay. Before the first step all stays.
+  /// A step without a command: accelerations are held. Before the first step nothing changes.
   MotionFault extrapolate(const MotionLimits& limits) noexcept;
   /// Whether end effector and elbow could stand still in the next tick.
   MotionFault checkStop(const MotionLimits& limits) const noexcept;

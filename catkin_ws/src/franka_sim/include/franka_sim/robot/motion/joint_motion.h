@@ -16,31 +16,31 @@ struct JointSample {
   std::array<double, 7> dddq{};  ///< [rad/s^3]
 };
 
-/// A motion of the joints as it is commanded, and the judge of its next step (decision 14).
+/// The commanded motion of the joints, with the check of its next step (decision 14).
 ///
-/// A step is judged against the motion's history and, where states travel as 32 bit floats, also
-/// against that history as the client saw it: only a step that fails both is refused. A refused
-/// step leaves the motion unchanged. Real-time safe; one thread.
+/// A step is checked against the motion's history and, where states travel as 32 bit floats, also
+/// against that history as the client received it: only a step that fails both is refused. A
+/// refused step leaves the motion unchanged. Real-time safe; one thread.
 class JointMotion {
  public:
   /// At rest at q [rad]; the next step is the first.
   void start(const std::array<double, 7>& q) noexcept;
 
-  /// The next commanded positions [rad]. The first must be where the motion starts, and sets the
-  /// history to rest there.
+  /// Takes the next commanded positions [rad]. The first must be where the motion starts, and sets
+  /// the history to rest there.
   MotionFault takePositions(const std::array<double, 7>& q_c, const MotionLimits& limits) noexcept;
-  /// The next commanded velocities [rad/s], from rest on; positions follow by integration.
+  /// Takes the next commanded velocities [rad/s], from rest on; positions follow by integration.
   MotionFault takeVelocities(const std::array<double, 7>& dq_c,
                              const MotionLimits& limits) noexcept;
-  /// The next positions [rad] that inverse kinematics found; judged with the flags 27 to 30.
+  /// Takes the next positions [rad] from inverse kinematics; checked with the flags 27 to 30.
   /// @param first sets the history to rest there.
   MotionFault takeSolved(const std::array<double, 7>& q, bool first,
                          const MotionLimits& limits) noexcept;
-  /// A step without a command: the acceleration stays. Before the first step all stays.
+  /// A step without a command: the acceleration is held. Before the first step nothing changes.
   MotionFault extrapolate(const MotionLimits& limits) noexcept;
   /// Whether the joints could stand still in the next tick, as after a finished motion.
   MotionFault checkStop(const MotionLimits& limits) const noexcept;
-  /// Follows a motion that needs no judge.
+  /// Takes over a motion that needs no check.
   void follow(const JointSample& sample) noexcept { last_ = sample; }
 
   const JointSample& last() const noexcept { return last_; }

@@ -17,10 +17,10 @@
 
 namespace franka_sim {
 
-/// How a motion begins.
+/// Parameters of a motion's start.
 struct MotionStart {
   franka_core::MotionGeneratorMode mode{franka_core::MotionGeneratorMode::kJointPosition};
-  /// Where the arm was wanted last [rad]; O_T_EE_c and the elbow start at its forward kinematics.
+  /// Last desired positions [rad]; O_T_EE_c and the elbow start at their forward kinematics.
   std::array<double, 7> q_d{};
   Transform F_T_EE{franka_core::kIdentityTransform};
   bool asynchronous{false};                  ///< point to point; joint positions only (protocol 10)
@@ -34,8 +34,8 @@ enum class MotionStartResult {
                      ///< velocities that are not finite and positive; q_d not finite
 };
 
-/// What the robot wants of the arm in this tick: the fields of the same names of
-/// franka_core::RobotState. Poses in O, twists of EE in O [m/s, rad/s], elbow (q3 [rad], sign).
+/// The desired motion in one tick: the fields of the same names of franka_core::RobotState. Poses
+/// in O, twists of EE in O [m/s, rad/s], elbow (q3 [rad], sign).
 struct DesiredMotion {
   std::array<double, 7> q_d{}, dq_d{}, ddq_d{};
   Transform O_T_EE_d{franka_core::kIdentityTransform}, O_T_EE_c{franka_core::kIdentityTransform};
@@ -45,27 +45,27 @@ struct DesiredMotion {
   bool accelerating{false};      ///< more than a tenth of an acceleration limit, in this tick alone
 };
 
-/// What one tick brought.
+/// Result of one tick.
 struct MotionStep {
-  MotionFault fault;     ///< the command was refused for this; desired() is that of the tick before
+  MotionFault fault;     ///< why the command was refused; desired() is then that of the tick before
   bool finished{false};  ///< the client has finished the motion (with a fault: while moving)
 };
 
-/// The robot's motion generators: turns one command a millisecond, or the lack of one, into what
-/// the arm is wanted to do, within the robot's limits.
+/// The robot's motion generators: turns one command a millisecond, or its absence, into the desired
+/// motion, within the robot's limits.
 ///
-/// Commands are judged in stages (decision 14). Where a command is lost the acceleration is held,
-/// and the result is judged like a command (protocol 5.3). After a fault the motion is over: brake
-/// from desired() with BrakeTrajectory and start anew. A finish is judged as a stop within one
+/// Commands are checked in stages (decision 14). If a command is lost the acceleration is held, and
+/// the result is checked like a command (protocol 5.3). After a fault the motion is over: brake
+/// from desired() with BrakeTrajectory and start anew. A finish is checked as a stop within one
 /// tick: a client that is too fast raises the flag of the acceleration or jerk that this would
 /// take; an asynchronous motion brakes and finishes at rest.
 ///
-/// One thread owns it. It neither allocates, locks nor throws, and may run in the 1 kHz loop.
+/// One thread owns it. Real-time safe; throws nothing.
 class MotionGenerator {
  public:
   explicit MotionGenerator(const MotionLimits& limits = motionLimitsOfProtocol(5)) noexcept;
 
-  /// Prepares a motion; desired() is at rest at q_d afterwards. Without success nothing changes.
+  /// Starts a motion; desired() is then at rest at q_d. If refused, nothing changes.
   MotionStartResult start(const MotionStart& start, const franka_core::ArmModel& model) noexcept;
 
   /// One tick. @param model as given to start @param command nullptr when none arrived.
@@ -92,7 +92,7 @@ class MotionGenerator {
   AsyncJointGenerator async_;
   DesiredMotion desired_;
   bool solved_{false};     // a Cartesian command has been solved in this motion
-  bool finishing_{false};  // an asynchronous motion shall end when at rest
+  bool finishing_{false};  // an asynchronous motion ends when at rest
 };
 
 }  // namespace franka_sim

@@ -15,22 +15,22 @@ namespace franka_sim {
 /// Whether real robots raise several is open (decision 47).
 using MotionFault = std::optional<franka_core::RobotError>;
 
-/// What a robot holds commanded motions to, and how it tells.
+/// Limits of commanded motions, and the flags that report violations.
 struct MotionLimits {
   franka_core::ArmLimits arm{franka_core::kFerLimits};
   bool position_velocity{false};  ///< joint velocity limits shrink towards the joints' ends (FR3)
-  franka_core::PositionVelocityLimits velocity_near_ends{};  ///< read if so
-  bool own_position_flags{true};  ///< 12 and 27 exist; from system 5.7.2 (protocol 9) 0 speaks
-  bool echoes_floats{false};      ///< states go out as 32 bit floats (protocol 10)
+  franka_core::PositionVelocityLimits velocity_near_ends{};  ///< used if position_velocity
+  bool own_position_flags{true};  ///< 12 and 27; 0 replaces them from system 5.7.2 on
+  bool echoes_floats{false};      ///< states are sent as 32 bit floats (protocol 10)
 
-  /// Highest and lowest velocity of a joint (0 to 6) that stands at q [rad, rad/s].
+  /// Highest and lowest velocity of a joint (0 to 6) at position q [rad, rad/s].
   double highestVelocity(std::size_t joint, double q) const noexcept;
   double lowestVelocity(std::size_t joint, double q) const noexcept;
-  /// Where a joint can be told to go [rad]: within its limits, and where a velocity is allowed.
+  /// Allowed targets of a joint [rad]: within its limits, and where a velocity is allowed.
   franka_core::JointRange reach(std::size_t joint) const noexcept;
   /// Bounds of the elbow's motion; of its two velocities the larger one.
   franka_core::DerivativeLimits elbow() const noexcept;
-  /// The flag of a joint position out of range, of a joint command or after inverse kinematics.
+  /// The flag of a joint position out of range. @param solved found by inverse kinematics
   franka_core::RobotError positionFlag(bool solved) const noexcept;
 };
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Takes the place of Boost's header of this name, under the same include guard.
+// Replaces Boost's header of this name, under the same include guard.
 //
-// With Boost's own, _1 in the global namespace is another variable than std::placeholders::_1, and
-// code with `using namespace std::placeholders` becomes ambiguous. Here both are one variable,
-// which boost::bind and std::bind accept alike: Boost looks at boost::is_placeholder only, and
-// what boost::bind returns keeps its type.
+// With Boost's own header, _1 in the global namespace is another variable than
+// std::placeholders::_1, and code with `using namespace std::placeholders` becomes ambiguous. Here
+// both are one variable, which boost::bind and std::bind both accept: Boost only checks
+// boost::is_placeholder, and the result of boost::bind keeps its type.
 #ifndef BOOST_BIND_PLACEHOLDERS_HPP_INCLUDED
 #define BOOST_BIND_PLACEHOLDERS_HPP_INCLUDED
 
@@ -14,7 +14,7 @@
 #include <functional>
 #include <type_traits>
 
-// Newer versions of Boost say themselves that std's placeholders are placeholders.
+// Newer versions of Boost already treat std's placeholders as placeholders.
 #if __has_include(<boost/bind/std_placeholders.hpp>)
 #include <boost/bind/std_placeholders.hpp>
 #else

@@ -13,11 +13,11 @@
 namespace control_toolbox {
 namespace detail {
 
-/// A small value that any number of threads read without ever waiting for a writer.
+/// A small value that any number of threads can read without waiting for a writer.
 ///
-/// Writes go round a ring of copies. A reader copies the newest one and looks whether it was
-/// overtaken meanwhile, which takes as many writes as the ring is long; then it tries again. A
-/// writer that is interrupted half-way holds up other writers, never a reader.
+/// Writes use a ring of copies. A reader copies the newest one and checks whether it was
+/// overwritten meanwhile, which takes as many writes as the ring is long; then it tries again. A
+/// suspended writer blocks other writers, never a reader.
 ///
 /// Thread-safe: all. Real-time safe: get(), trySet(). Not real-time safe: set().
 ///
@@ -40,8 +40,8 @@ class Snapshot {
       for (std::size_t i = 0; i < kWords; ++i) {
         words[i] = slot.words[i].load(std::memory_order_acquire);
       }
-      // The writer claims a slot by its number before it touches the words: if the number still
-      // stands after they were read, they belong together.
+      // The writer claims a slot by its number before it writes the words: if the number is
+      // unchanged after reading, the words are consistent.
       if (slot.number.load(std::memory_order_relaxed) == number) {
         T value;
         std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
@@ -50,14 +50,14 @@ class Snapshot {
     }
   }
 
-  /// Sets the value; waits while another thread does.
+  /// Sets the value; waits while another thread sets it.
   void set(const T& value) noexcept {
     while (!trySet(value)) {
       std::this_thread::yield();
     }
   }
 
-  /// Sets the value unless another thread does at this moment. @return whether it was set.
+  /// Sets the value unless another thread is setting it. @return whether it was set.
   bool trySet(const T& value) noexcept {
     if (writing_.test_and_set(std::memory_order_acquire)) {
       return false;
@@ -82,7 +82,7 @@ class Snapshot {
     const std::uint64_t number = newest_.load(std::memory_order_relaxed) + 1;
     Slot& slot = ring_[number % kSlots];
     slot.number.store(number, std::memory_order_relaxed);
-    // Each word carries the claim above with it: who sees a new word sees the new number.
+    // Each word is written after the claim above: a reader of a new word sees the new number.
     for (std::size_t i = 0; i < kWords; ++i) {
       slot.words[i].store(words[i], std::memory_order_release);
     }

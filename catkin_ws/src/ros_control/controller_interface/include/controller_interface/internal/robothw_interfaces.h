@@ -28,7 +28,7 @@ std::string enumerateElements(const T& elements, const std::string& delimiter,
   return out.str();
 }
 
-/// Whether the robot has the interface T; logs what it has if not.
+/// Whether the robot has the interface T; if not, logs the robot's interfaces.
 template <class T>
 bool hasInterface(hardware_interface::RobotHW* robot_hw) {
   if (robot_hw->get<T>() != nullptr) {
@@ -55,7 +55,7 @@ void clearClaimsOf(hardware_interface::RobotHW* robot_hw) {
   }
 }
 
-/// Clears the claims of those of the interfaces that the robot has.
+/// Clears the claims of the robot's interfaces among these.
 template <typename... T>
 void clearClaims(hardware_interface::RobotHW* robot_hw) {
   (clearClaimsOf<T>(robot_hw), ...);
@@ -70,7 +70,7 @@ void extractInterface(hardware_interface::RobotHW* robot_hw_in,
   }
 }
 
-/// Registers those of the interfaces that the first robot has with the second one.
+/// Registers those interfaces that the first robot has with the second one.
 template <typename... T>
 void extractInterfaceResources(hardware_interface::RobotHW* robot_hw_in,
                                hardware_interface::RobotHW* robot_hw_out) {
@@ -87,8 +87,8 @@ void appendClaims(hardware_interface::RobotHW* robot_hw,
   }
 }
 
-/// The claims on those of the interfaces that the robot has, in the order of the template
-/// arguments; interfaces without claims are listed too.
+/// The claims on the robot's interfaces among these, in the order of the template arguments;
+/// interfaces without claims are listed too.
 template <typename... T>
 void populateClaimedResources(hardware_interface::RobotHW* robot_hw,
                               ControllerBase::ClaimedResources& claimed_resources) {

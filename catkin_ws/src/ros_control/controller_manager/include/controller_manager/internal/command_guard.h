@@ -12,20 +12,20 @@
 namespace controller_manager {
 namespace internal {
 
-/// Watches what a controller commands to the joints it claimed through the interfaces of
-/// hardware_interface that command joints: effort, velocity, position, position and velocity (with
-/// acceleration, or with torque and gains). Interfaces of other kinds are their robot's to check.
-/// Real-time safe but for the constructor; used by one thread.
+/// Checks a controller's commands to its claimed joints through the joint command interfaces of
+/// hardware_interface: effort, velocity, position, position and velocity (with acceleration, or
+/// with torque and gains). Interfaces of other kinds must be checked by their robot. Real-time safe
+/// except the constructor; used by one thread.
 class CommandGuard {
  public:
   CommandGuard(const hardware_interface::ControllerInfo& info, hardware_interface::RobotHW& robot);
 
   /// The name of a joint whose command is not a finite number; nullptr if there is none.
   const char* offender() const;
-  /// Remembers the present commands.
+  /// Stores the present commands.
   void remember();
-  /// Gives the robot back the commands remembered last. A command that was no number then becomes
-  /// one of rest: the measured position, zero of everything else.
+  /// Restores the commands stored last. Values that were NaN become those of rest: the measured
+  /// position, zero for all others.
   void restore();
 
  private:

@@ -14,17 +14,17 @@
 namespace controller_manager {
 namespace internal {
 
-/// The loaded controllers, in the order of loading. Never changed once made.
+/// The loaded controllers, in the order of loading. Immutable.
 class ControllerList {
  public:
   explicit ControllerList(std::vector<ControllerSpec> specs);
 
   const std::vector<ControllerSpec>& specs() const { return specs_; }
-  /// The same controllers side by side, for the loop.
+  /// The same controllers in one array, for the loop.
   const std::vector<controller_interface::ControllerBase*>& controllers() const {
     return controllers_;
   }
-  /// nullptr if there is none of that name.
+  /// nullptr if there is no such controller.
   const ControllerSpec* find(const std::string& name) const;
 
  private:
@@ -34,21 +34,21 @@ class ControllerList {
 
 typedef std::shared_ptr<const ControllerList> ControllerListPtr;
 
-/// Hands the list of controllers to the loop and to everybody else, and lets controllers die
+/// Passes the list of controllers to the loop and to other threads, and destroys controllers
 /// outside the loop once it cannot read them any more.
 class ControllerRegistry {
  public:
-  /// @param gate which the loop passes; outlives the registry
+  /// @param gate that the loop passes; must outlive the registry
   explicit ControllerRegistry(LoopGate& gate);
 
   /// The list for this cycle, valid during the visit of the gate. Real-time safe.
   const ControllerList& forLoop() const { return *for_loop_.load(std::memory_order_seq_cst); }
 
-  /// The list of this moment. Thread-safe, not real-time safe, never waits for the loop.
+  /// The present list. Thread-safe, not real-time safe, never waits for the loop.
   ControllerListPtr snapshot() const;
 
-  /// Puts another list in the place of the present one and lets go of what the loop left. One
-  /// thread at a time, not real-time safe; waits for the cycle under way, at most one second.
+  /// Replaces the list and destroys lists that the loop no longer reads. One thread at a time, not
+  /// real-time safe; waits for the running cycle, at most one second.
   void replace(std::vector<ControllerSpec> specs);
 
  private:

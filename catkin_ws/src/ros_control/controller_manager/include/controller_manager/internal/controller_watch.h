@@ -18,43 +18,42 @@
 namespace controller_manager {
 namespace internal {
 
-/// What the manager does beyond the original, each only if its parameter asks for it. They stand in
-/// `<manager's namespace>/controller_manager/`.
+/// Functions beyond the original, each enabled by its parameter in `<manager's
+/// namespace>/controller_manager/`.
 struct Supervision {
   double statistics_rate{0.0};         ///< [Hz] of the topic `statistics`; 0: no statistics
-  bool abort_faulty{false};            ///< abort a controller that throws or commands no number
+  bool abort_faulty{false};            ///< abort a controller that throws or commands NaN
   double max_update_time{0.0};         ///< [s] abort a controller that takes longer; 0: never
-  double default_switch_timeout{0.0};  ///< [s] of switches that name none; 0: wait for ever
+  double default_switch_timeout{0.0};  ///< [s] of switches without a timeout; 0: wait for ever
 
   bool watches() const { return statistics_rate > 0.0 || abort_faulty || max_update_time > 0.0; }
 };
 
-/// Runs one controller's updates: times them, and aborts the controller when it is faulty, leaving
-/// the robot the commands that stood before. One thread calls update(); a fault is read outside
-/// the loop.
+/// Runs one controller's updates: measures their time, and aborts a faulty controller while
+/// restoring the previous commands. One thread calls update(); a fault is read outside the loop.
 class ControllerWatch {
  public:
   enum class Fault { kNone, kException, kRestart, kNotFinite, kTooSlow };
 
-  /// @param controller outlives the watch
+  /// @param controller must outlive the watch
   /// @param fallbacks names of the controllers to start after a fault
   ControllerWatch(controller_interface::ControllerBase& controller,
                   const hardware_interface::ControllerInfo& info,
                   hardware_interface::RobotHW& robot, const Supervision& supervision,
                   std::vector<std::string> fallbacks);
 
-  /// Stops and starts the controller if it runs. Allocates and locks nothing, unless it throws.
+  /// Stops and starts the controller if it runs. Neither allocates nor locks, unless it throws.
   void restart(const ros::Time& time);
 
-  /// One cycle. Allocates and locks nothing, unless the controller throws.
+  /// One cycle. Neither allocates nor locks, unless the controller throws.
   /// @param window which of the two statistics to fill
   void update(const ros::Time& time, const ros::Duration& period, std::size_t window);
 
-  /// The fault that has not been settled yet. Any thread.
+  /// The fault that has not been handled yet. Any thread.
   Fault fault() const { return fault_.load(std::memory_order_acquire); }
-  /// Why, in words that go on after "because"; valid while there is a fault.
+  /// The reason, as a clause after "because"; valid while there is a fault.
   std::string reason() const;
-  /// The fault has been taken note of outside: the next one may be shown.
+  /// The fault has been handled outside: the next one may be set.
   void settle() { fault_.store(Fault::kNone, std::memory_order_release); }
 
   const std::vector<std::string>& fallbacks() const { return fallbacks_; }
@@ -73,7 +72,7 @@ class ControllerWatch {
   TimeStatisticsPair statistics_;
 
   std::atomic<Fault> fault_{Fault::kNone};
-  // Written by the loop before the fault is shown, then left alone until it is settled.
+  // Written by the loop before the fault is set, then unchanged until it is handled.
   ExceptionText text_{};
   double elapsed_{0.0};
 };

@@ -8,8 +8,8 @@
 namespace controller_manager {
 namespace internal {
 
-/// Makes calls one after another, whatever they throw, and throws the first exception again when
-/// all are done. Real-time safe while nothing is thrown.
+/// Makes several calls, catches their exceptions, and rethrows the first one at the end. Real-time
+/// safe while nothing is thrown.
 class FirstException {
  public:
   template <class Call>

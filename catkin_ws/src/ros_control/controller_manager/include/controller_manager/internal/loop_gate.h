@@ -10,20 +10,20 @@
 namespace controller_manager {
 namespace internal {
 
-/// Tells threads outside the control loop when the loop cannot hold an object any more that they
-/// took away from it.
+/// Shows threads outside the control loop when the loop can no longer use an object that they
+/// removed.
 ///
 /// The loop passes the gate with a Visit around all its reading. Another thread first replaces the
-/// pointer the loop would read (sequentially consistent), then calls waitUntilLeft(): afterwards a
-/// visit either ended or began so late that it reads the new pointer. A loop that stands still is
-/// outside the gate, so nobody waits for it. The loop's side is two stores, without lock or wait.
+/// pointer that the loop reads (sequentially consistent), then calls waitUntilLeft(): afterwards
+/// every visit has ended or reads the new pointer. A loop that stands still is outside the gate, so
+/// no thread waits for it. The loop's side is two stores, without lock or wait.
 class LoopGate {
  public:
   /// One cycle of the loop. Only one visit exists at a time.
   class Visit {
    public:
     explicit Visit(LoopGate& gate) : gate_(gate) {
-      gate_.visitor_.store(std::this_thread::get_id(), std::memory_order_relaxed);
+      gate_.holder_.store(std::this_thread::get_id(), std::memory_order_relaxed);
       gate_.epoch_.store(gate_.epoch_.load(std::memory_order_relaxed) + 1,
                          std::memory_order_seq_cst);
     }
@@ -38,8 +38,8 @@ class LoopGate {
     LoopGate& gate_;
   };
 
-  /// Waits for the end of the visit of this moment, if there is one.
-  /// @returns false if it did not end in time: what was taken away must be kept then.
+  /// Waits for the end of the present visit, if any.
+  /// @returns false if it did not end in time: the removed object must then be kept.
   bool waitUntilLeft(std::chrono::milliseconds at_most) const {
     const std::uint64_t epoch = epoch_.load(std::memory_order_seq_cst);
     if (!isVisit(epoch)) {
@@ -55,17 +55,17 @@ class LoopGate {
     return true;
   }
 
-  /// Whether the calling thread is in a visit: it must not wait for the loop then.
+  /// Whether the calling thread is in a visit: it must not wait for the loop.
   bool isVisitedByThisThread() const {
     return isVisit(epoch_.load(std::memory_order_seq_cst)) &&
-           visitor_.load(std::memory_order_relaxed) == std::this_thread::get_id();
+           holder_.load(std::memory_order_relaxed) == std::this_thread::get_id();
   }
 
  private:
   static bool isVisit(std::uint64_t epoch) { return epoch % 2 == 1; }
 
   std::atomic<std::uint64_t> epoch_{0};  ///< odd during a visit
-  std::atomic<std::thread::id> visitor_{std::thread::id()};
+  std::atomic<std::thread::id> holder_{std::thread::id()};
 };
 
 }  // namespace internal

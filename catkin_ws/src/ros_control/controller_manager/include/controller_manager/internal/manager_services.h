@@ -19,17 +19,16 @@ class ControllerManager;
 
 namespace internal {
 
-/// The six services of a controller manager. Every call is answered; `ok` tells how it went.
+/// The six services of a controller manager. Every call is answered; `ok` is its result.
 ///
-/// Switching, and reloading which switches too, may wait for the loop; loading and unloading last
-/// as long as the controllers take. Listing is answered by a thread of its own, so that it waits
-/// for none of them, nor for anything else that the program's threads are at; so are those that may
-/// wait for the loop.
+/// Switching, and reloading, which switches too, may wait for the loop; loading and unloading take
+/// as long as the controllers do. Listing has its own thread, so that it never waits for these or
+/// for other callbacks of the program; likewise the services that may wait for the loop.
 class ManagerServices {
  public:
-  /// @param manager outlives the services @param nh above the services' namespace
+  /// @param manager must outlive the services @param nh above the services' namespace
   ManagerServices(ControllerManager& manager, const ros::NodeHandle& nh);
-  /// Ends the threads: no switch may be waiting any more.
+  /// Ends the threads: no switch may be waiting.
   ~ManagerServices();
 
  private:

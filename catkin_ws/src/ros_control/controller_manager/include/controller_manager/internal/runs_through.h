@@ -9,14 +9,14 @@
 namespace controller_manager {
 namespace internal {
 
-/// What an exception said, cut to fit; a text of the loop's, which must not allocate.
+/// Text of an exception, truncated; fixed size, because the loop must not allocate.
 typedef std::array<char, 256> ExceptionText;
 
 inline void copyText(const char* from, ExceptionText& to) {
   std::snprintf(to.data(), to.size(), "%s", from);
 }
 
-/// Makes the call and holds back what it throws. Real-time safe if the call is.
+/// Makes the call and catches exceptions. Real-time safe if the call is.
 /// @param[out] text of the exception @returns false if it threw
 template <class Call>
 bool runsThrough(Call&& call, ExceptionText& text) {

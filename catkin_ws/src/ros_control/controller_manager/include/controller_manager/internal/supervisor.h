@@ -25,22 +25,22 @@ namespace internal {
 
 /// Reads the parameters `statistics_rate`, `abort_faulty_controllers`, `max_update_time` and
 /// `default_switch_timeout` below `nh`.
-/// @throws std::invalid_argument with a sentence, for one of the wrong type or below zero.
+/// @throws std::invalid_argument with a sentence, for a wrong type or a negative value.
 Supervision readSupervision(const ros::NodeHandle& nh);
 
-/// Runs the controllers' updates under watch, and does outside the loop what follows from it: has
-/// faults settled, and publishes `statistics` (controller_manager_msgs/ControllersStatistics).
+/// Runs the controllers' updates under supervision, and does the resulting work outside the loop:
+/// handles faults, and publishes `statistics` (controller_manager_msgs/ControllersStatistics).
 ///
-/// Each message covers the time since the one before, but for the count of overruns, which goes on.
-/// max, mean and variance_time are of the execution of update(); variance_time holds the standard
-/// deviation, since a variance [s^2] does not fit a duration. An overrun is an update that took
+/// Each message covers the time since the one before, except the total count of overruns. max, mean
+/// and variance_time refer to the execution of update(); variance_time holds the standard
+/// deviation, because a variance [s^2] does not fit a duration. An overrun is an update that takes
 /// longer than the cycle's period or than max_update_time. Two further entries describe the loop:
 /// `control_loop` of type `execution`, for all controllers together, and of type `period`, whose
 /// deviation is the jitter between cycles on the monotonic clock.
 class Supervisor {
  public:
-  /// Stops a controller for good that was aborted, and starts its fallbacks; false if it has to be
-  /// called again, then with `first` false.
+  /// Stops an aborted controller in the robot, and starts its fallbacks; false if it must be called
+  /// again, then with `first` false.
   typedef std::function<bool(const std::string& name, bool first)> Settle;
 
   Supervisor(const Supervision& supervision, ControllerRegistry& registry, LoopGate& gate,
@@ -50,8 +50,7 @@ class Supervisor {
   /// One cycle, during a visit of the gate. Real-time safe.
   void update(const ControllerList& list, const ros::Time& time, const ros::Duration& period);
 
-  /// Has a controller settled that was aborted and could not be settled at once. Thread-safe, does
-  /// not wait.
+  /// Handles an aborted controller later. Thread-safe, does not wait.
   void settleLater(const std::string& name);
 
   const Supervision& supervision() const { return supervision_; }
@@ -71,9 +70,9 @@ class Supervisor {
   LoopGate& gate_;
   const Settle settle_;
   ros::Publisher publisher_;
-  std::map<std::string, std::pair<std::uint32_t, double>> overruns_;  ///< until now, by entry
+  std::map<std::string, std::pair<std::uint32_t, double>> overruns_;  ///< total, by entry
 
-  std::atomic<std::size_t> window_{0};  ///< which statistics the loop fills
+  std::atomic<std::size_t> window_{0};  ///< which statistics the loop writes
   TimeStatisticsPair execution_, cycle_;
   Clock::time_point last_cycle_{};
 

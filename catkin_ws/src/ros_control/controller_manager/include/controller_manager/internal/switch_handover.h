@@ -24,19 +24,19 @@ class SwitchHandover {
   typedef std::chrono::steady_clock Clock;
 
   enum class Result {
-    kDone,       ///< the loop carried it out; the request's outcomes tell how
-    kWithdrawn,  ///< the loop never began
-    kAbandoned   ///< the loop began and stood still; it will give up when it runs again
+    kDone,       ///< the loop carried it out; see the request's outcomes
+    kWithdrawn,  ///< the loop did not start it
+    kAbandoned   ///< the loop started it and stood still; it will abort it when it runs again
   };
 
-  /// @param gate which the loop passes; outlives the handover
+  /// @param gate that the loop passes; must outlive the handover
   explicit SwitchHandover(LoopGate& gate);
 
-  /// Carries the switch at hand on, if there is one. In the loop, during a visit; real-time safe. A
-  /// switch that throws is over, and the exception goes on.
+  /// Continues the pending switch, if any. In the loop, during a visit; real-time safe. An
+  /// exception ends the switch and propagates.
   void serve(hardware_interface::RobotHW& robot, const ros::Time& time);
 
-  /// The right to switch. Thread-safe; waits for the switch before this one.
+  /// The exclusive right to switch. Thread-safe; waits for the switch before this one.
   class Turn {
    public:
     /// @param timeout [s] 0 waits for ever
@@ -45,14 +45,14 @@ class SwitchHandover {
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
 
-    /// False if the time was over, or waiting was ended, before it was this one's turn.
+    /// False if the time was over, or waiting was ended, before the turn was granted.
     explicit operator bool() const { return granted_; }
-    /// [s] since the turn was asked for
+    /// [s] since the construction
     double elapsed() const;
 
-    /// Lays the request before the loop.
+    /// Passes the request to the loop.
     void post(std::unique_ptr<SwitchRequest> request);
-    /// Waits for what was posted. The posted request stays readable until the turn ends if done.
+    /// Waits for the posted request. If done, it stays readable until the turn ends.
     Result await();
     const SwitchRequest& request() const { return *handover_.request_; }
 
@@ -65,26 +65,26 @@ class SwitchHandover {
     bool granted_{false};
   };
 
-  /// Whether an unfinished switch starts or stops this controller; if not, the handover holds
-  /// nothing of it. Thread-safe, does not wait.
+  /// Whether an unfinished switch starts or stops this controller; if not, the handover has no
+  /// reference to it. Thread-safe, does not wait.
   bool involves(const std::string& name);
 
-  /// Ends all waiting, now and later, for the manager's end.
+  /// Ends all present and future waits, for the manager's shutdown.
   void close() { closed_ = true; }
-  /// Whether waiting was ended, here or for the whole program.
+  /// Whether waiting must end, here or for the whole program.
   bool mustEnd() const;
 
  private:
   bool grant();
-  void finish(SwitchRequest& request);  ///< in the loop: it will not touch the request any more
+  void finish(SwitchRequest& request);  ///< in the loop, which will not access the request any more
   void dropFinished();                  ///< with the mutex locked
 
   LoopGate& gate_;
   std::atomic<SwitchRequest*> for_loop_{nullptr};
   std::atomic<bool> closed_{false};
 
-  std::mutex mutex_;  ///< for what follows; the loop never takes it
-  bool busy_{false};  ///< somebody holds the turn
+  std::mutex mutex_;  ///< for the members below; the loop never takes it
+  bool busy_{false};  ///< a thread holds the turn
   std::unique_ptr<SwitchRequest> request_;
   std::vector<std::unique_ptr<SwitchRequest>> withdrawn_;  ///< may still be read by the loop
 };

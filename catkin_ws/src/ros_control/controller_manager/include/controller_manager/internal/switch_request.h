@@ -17,13 +17,13 @@ namespace controller_manager {
 namespace internal {
 
 /// One switch: filled completely outside the loop, then carried out by the loop over one or more
-/// cycles. The phase says who may touch it.
+/// cycles. The phase defines its owner.
 struct SwitchRequest {
   enum class Phase {
     kPosted,     ///< waits for the loop; may be withdrawn
     kTaken,      ///< belongs to the loop
-    kWithdrawn,  ///< the loop must not begin with it
-    kDone        ///< the loop will never touch it again
+    kWithdrawn,  ///< the loop must not start it
+    kDone        ///< the loop will never access it again
   };
 
   enum class Outcome { kPending, kStarted, kRobotError, kTimeout, kCancelled, kThrew };
@@ -46,24 +46,24 @@ struct SwitchRequest {
   std::list<hardware_interface::ControllerInfo> start_list;  ///< for the robot, without restarts
   std::list<hardware_interface::ControllerInfo> stop_list;
   bool start_asap{false};
-  bool guarded{false};  ///< a controller that throws is aborted, and the switch goes on
-  double timeout{0.0};  ///< [s] on the loop's clock, from its first cycle on; 0 never ends
+  bool guarded{false};  ///< a throwing controller is aborted, and the switch goes on
+  double timeout{0.0};  ///< [s] on the loop's clock, from its first cycle on; 0: none
 
   bool broken{false};         ///< an exception ended the switch
   ExceptionText broken_by{};  ///< that exception
 
   std::atomic<Phase> phase{Phase::kPosted};
-  std::atomic<bool> cancelled{false};  ///< nobody waits for it any more: give up at once
+  std::atomic<bool> cancelled{false};  ///< its caller no longer waits: abort
 
-  /// Whether a controller is started or stopped by this.
+  /// Whether this switch starts or stops a controller.
   bool involves(const std::string& name) const;
 
-  /// One cycle of the switch, in the loop: stops at the first call, then starts what the robot is
-  /// ready for. Real-time safe as far as the robot's doSwitch and switchResult and the controllers'
-  /// callbacks are.
-  /// @returns true when everything is settled.
-  /// Throws what the robot throws, and the controllers unless guarded. Nothing remains to be done
-  /// then: what was not started or stopped yet has been aborted, without another callback.
+  /// One cycle of the switch, in the loop: stops controllers in the first call, then starts those
+  /// for which the robot is ready. Real-time safe if the robot's doSwitch and switchResult and the
+  /// controllers' callbacks are.
+  /// @returns true when the switch is complete.
+  /// Throws exceptions of the robot, and of controllers unless guarded. Nothing remains to be done
+  /// then: controllers not yet started or stopped have been aborted, without another callback.
   bool advance(hardware_interface::RobotHW& robot, const ros::Time& time);
 
  private:
@@ -76,15 +76,15 @@ struct SwitchRequest {
   void giveUp(Start& start, Outcome reason, const ros::Time& time) const;
   void stop(const Stop& stop, const ros::Time& time) const;
   void breakOff();
-  /// Makes a request of the controller. @returns false if it threw; it is aborted then.
+  /// Makes a request of the controller. @returns false if it threw; it is then aborted.
   template <class Call>
   bool runs(Start& start, const char* callback, Call call) const;
-  /// Why the start is given up in this cycle; kPending if it is not.
+  /// Why the start is aborted in this cycle; kPending if it is not.
   Outcome reasonToGiveUp(hardware_interface::RobotHW::SwitchState state,
                          const ros::Time& time) const;
 
   ros::Time begin_;
-  bool begun_{false};  ///< the robot has switched, and what was to be stopped is stopped
+  bool begun_{false};  ///< the robot has switched, and controllers to stop are stopped
 };
 
 }  // namespace internal

@@ -14,7 +14,7 @@ namespace internal {
 /// Mean, spread and maximum of durations [s]. Real-time safe; one thread at a time.
 class TimeStatistics {
  public:
-  /// Welford's recurrence: no difference of large sums.
+  /// Welford's recurrence: avoids differences of large sums.
   void add(double seconds) {
     ++count_;
     const double distance = seconds - mean_;
@@ -41,8 +41,7 @@ class TimeStatistics {
   double last_overrun_{0.0};
 };
 
-/// Two of them: the loop fills one, the other is read outside. Which is which, the loop's gate
-/// tells.
+/// A pair: the loop writes one, the other is read outside. The loop's gate tells them apart.
 typedef std::array<TimeStatistics, 2> TimeStatisticsPair;
 
 }  // namespace internal

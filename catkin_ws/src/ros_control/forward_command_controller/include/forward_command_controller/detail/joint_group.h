@@ -19,8 +19,8 @@ namespace detail {
 
 typedef realtime_tools::RealtimeBuffer<std::vector<double>> CommandBuffer;
 
-/// Reads the parameter `joints`: names, at least one, each once.
-/// @return false, with an error in the log, otherwise.
+/// Reads the parameter `joints`: at least one name, no duplicates. @return false, with an error in
+/// the log, otherwise.
 inline bool readJointNames(const ros::NodeHandle& node, std::vector<std::string>& names) {
   const char* const where = node.getNamespace().c_str();
   if (!node.getParam("joints", names)) {
@@ -39,8 +39,8 @@ inline bool readJointNames(const ros::NodeHandle& node, std::vector<std::string>
   return true;
 }
 
-/// Fills all copies of the buffer with commands of the right size, so that the control loop never
-/// allocates. Before others use the buffer.
+/// Sizes all copies of the buffer, so that the control loop never allocates. Call before the buffer
+/// is used.
 inline void prepareBuffer(std::size_t joints, CommandBuffer& buffer) {
   constexpr int kCopies = 3;
   for (int i = 0; i < kCopies; ++i) {
@@ -49,7 +49,7 @@ inline void prepareBuffer(std::size_t joints, CommandBuffer& buffer) {
   }
 }
 
-/// Takes over a command for all joints, or refuses it with an error and keeps the last one.
+/// Stores a command for all joints, or refuses it with an error and keeps the last one.
 inline void acceptCommands(const std::vector<double>& data, const std::vector<std::string>& names,
                            CommandBuffer& buffer) {
   if (data.size() != names.size()) {

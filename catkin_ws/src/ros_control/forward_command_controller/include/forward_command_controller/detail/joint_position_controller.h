@@ -21,19 +21,19 @@ namespace detail {
 /// Holds one joint at a position by a Pid whose command is an effort or a velocity.
 ///
 /// Parameters: `joint`, gains in `pid` (see control_toolbox::Pid::init), and the robot's
-/// description, whose limits bound the target. Topics in the controller's namespace: `command`
-/// (std_msgs/Float64, the target in [rad] or [m]; refused with an error when not finite) and
-/// `state` (control_msgs/JointControllerState, every tenth update). It starts at the measured
-/// position, and stops with a command of zero.
+/// description, whose limits apply to the target. Topics in the controller's namespace: `command`
+/// (std_msgs/Float64, the target in [rad] or [m]; refused with an error if not finite) and `state`
+/// (control_msgs/JointControllerState, every tenth update). Starts at the measured position, and
+/// stops with a command of zero.
 ///
-/// Threads: update(), starting() and stopping() belong to the control loop and are real-time safe;
-/// setCommand() may be called by any thread outside it.
+/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe;
+/// setCommand() may be called by any other thread.
 ///
 /// @tparam T hardware_interface::EffortJointInterface or VelocityJointInterface.
 template <class T>
 class JointPositionController : public controller_interface::Controller<T>, public WithPidLoop {
  public:
-  /// A target. Without `has_velocity_` the error's derivative is taken from step to step.
+  /// A target. Without `has_velocity_` the error's derivative is computed from step to step.
   struct Commands {
     double position_{0.0};
     double velocity_{0.0};

@@ -13,7 +13,7 @@
 namespace forward_command_controller {
 namespace detail {
 
-/// What the robot's description says about where a joint may go. [rad], or [m] for sliding joints.
+/// Range of a joint in the robot's description. [rad], or [m] for prismatic joints.
 struct JointRange {
   bool limited{false};     ///< whether lower and upper count
   bool revolute{false};    ///< turns within limits
@@ -32,13 +32,13 @@ struct JointRange {
     }
   }
 
-  /// The nearest position that the joint may have. Real-time safe.
+  /// The nearest allowed position. Real-time safe.
   double clamped(double position) const {
     return limited ? std::max(lower, std::min(position, upper)) : position;
   }
 
-  /// The way from one position to another within the limits. A joint that turns takes the shortest
-  /// way round that its limits allow; one that is outside its limits goes straight to `to`, which
+  /// The displacement from one position to another within the limits. A revolute joint takes the
+  /// shortest turn that its limits allow; one outside its limits moves straight to `to`, which
   /// leads back inside. `to` must be within the limits. Real-time safe.
   double way(double from, double to) const {
     const double straight = to - from;
@@ -52,7 +52,7 @@ struct JointRange {
     if (!isAllowed(from)) {
       return straight;
     }
-    // Otherwise the other way round, which ends at `to` or between `from` and `to`.
+    // Otherwise the opposite turn, which ends at `to` or between `from` and `to`.
     return isAllowed(from + shortest) ? shortest : shortest - std::copysign(2.0 * M_PI, shortest);
   }
 
@@ -60,9 +60,9 @@ struct JointRange {
   bool isAllowed(double position) const { return position >= lower && position <= upper; }
 };
 
-/// Looks a joint up in the robot's description (parameter `robot_description`, here or in a
-/// namespace above).
-/// @return false, with an error in the log, if there is no description or no such joint in it.
+/// Finds a joint in the robot's description (parameter `robot_description`, here or in a namespace
+/// above).
+/// @return false, with an error in the log, without a description or such a joint in it.
 inline bool findJoint(const ros::NodeHandle& node, const std::string& name,
                       urdf::JointConstSharedPtr& joint) {
   urdf::Model model;

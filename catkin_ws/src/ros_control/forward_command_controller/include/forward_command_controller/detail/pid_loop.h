@@ -15,9 +15,9 @@
 namespace forward_command_controller {
 namespace detail {
 
-/// A Pid with gains from the namespace `pid`, and the topic `state` (JointControllerState), on
-/// which every tenth step is published. Gains may be read and set by any thread; start() and the
-/// steps belong to the control loop and are real-time safe.
+/// A Pid with gains from the namespace `pid`, and the topic `state` (JointControllerState),
+/// published every tenth step. Gains may be read and set by any thread; start() and the steps run
+/// in the control loop and are real-time safe.
 class PidLoop {
  public:
   /// @param node the controller's namespace.
@@ -30,14 +30,14 @@ class PidLoop {
     return true;
   }
 
-  /// Forgets earlier errors.
+  /// Resets earlier errors.
   void start() {
     pid_.reset();
     steps_ = 0;
   }
 
-  /// One step of what one controller does: @return the command for `error`, with the derivative
-  /// of the error given or taken from the step before.
+  /// One step. @return the command for `error`, with a given derivative of the error or one
+  /// computed from the step before.
   double command(double error, const ros::Duration& period) {
     return pid_.computeCommand(error, period);
   }
@@ -45,8 +45,7 @@ class PidLoop {
     return pid_.computeCommand(error, error_dot, period);
   }
 
-  /// Publishes, when it is this step's turn. @param process_value what `set_point` is compared
-  /// with.
+  /// Publishes in every tenth step. @param process_value measured value for `set_point`.
   void publish(const ros::Time& time, const ros::Duration& period, double set_point,
                double process_value, double error, const hardware_interface::JointHandle& joint) {
     if (steps_++ % kStepsPerState != 0 || !publisher_->trylock()) {
@@ -80,7 +79,7 @@ class PidLoop {
   unsigned steps_{0};
 };
 
-/// What the controllers with one PidLoop offer about it.
+/// Functions of controllers with one PidLoop.
 class WithPidLoop {
  public:
   void getGains(double& p, double& i, double& d, double& i_max, double& i_min) {
@@ -89,7 +88,7 @@ class WithPidLoop {
   void getGains(double& p, double& i, double& d, double& i_max, double& i_min, bool& antiwindup) {
     loop_.pid().getGains(p, i, d, i_max, i_min, antiwindup);
   }
-  /// Also shows the gains in dynamic reconfigure: not real-time safe.
+  /// Also updates dynamic reconfigure: not real-time safe.
   void setGains(const double& p, const double& i, const double& d, const double& i_max,
                 const double& i_min, const bool& antiwindup = false) {
     loop_.pid().setGains(p, i, d, i_max, i_min, antiwindup);
@@ -104,9 +103,9 @@ class WithPidLoop {
   WithPidLoop() = default;
   ~WithPidLoop() = default;
 
-  /// The joint of the parameter `joint`, with gains from the namespace `pid`.
-  /// @return false, with an error in the log, when a parameter is missing.
-  /// @throw hardware_interface::HardwareInterfaceException for a joint that the robot lacks.
+  /// Gets the joint of the parameter `joint`, with gains from the namespace `pid`.
+  /// @return false, with an error in the log, if a parameter is missing.
+  /// @throw hardware_interface::HardwareInterfaceException for an unknown joint.
   template <class T>
   bool initJoint(T* robot, const ros::NodeHandle& n) {
     std::string joint_name;

@@ -9,13 +9,13 @@
 namespace forward_command_controller {
 namespace detail {
 
-/// Whether a command of zero means: do nothing. It does not for positions.
+/// Whether a command of zero stops the joint, which is not so for positions.
 template <class T>
 constexpr bool kZeroIsRest = std::is_base_of<hardware_interface::EffortJointInterface, T>::value ||
                              std::is_base_of<hardware_interface::VelocityJointInterface, T>::value;
 
-/// Leaves a joint without motion of its own when its controller ends: a velocity or an effort of
-/// zero; a position stays where it is. Real-time safe.
+/// Stops a joint when its controller ends: a velocity or an effort of zero; a position stays
+/// unchanged. Real-time safe.
 template <class T>
 void rest(hardware_interface::JointHandle& joint) {
   if constexpr (kZeroIsRest<T>) {

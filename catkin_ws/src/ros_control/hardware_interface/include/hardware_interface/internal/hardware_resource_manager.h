@@ -10,25 +10,25 @@
 
 namespace hardware_interface {
 
-/// Getting a handle claims its resource: for commands, which only one controller may give.
+/// getHandle claims the resource: for commands, which only one controller may give.
 struct ClaimResources {
   static void claim(HardwareInterface* hw, const std::string& name) { hw->claim(name); }
 };
 
-/// Getting a handle claims nothing: for states, which everybody may read.
+/// getHandle claims nothing: for states, which all may read.
 struct DontClaimResources {
   static void claim(HardwareInterface* /*hw*/, const std::string& /*name*/) {}
 };
 
-/// Base of hardware interfaces: named handles, and a policy that says whether taking one claims it.
-/// Used at start-up and while controllers are initialised only; not thread-safe.
+/// Base of hardware interfaces: named handles, and a policy whether getHandle claims. For start-up
+/// and the initialisation of controllers only; not thread-safe.
 template <class ResourceHandle, class ClaimPolicy = DontClaimResources>
 class HardwareResourceManager : public HardwareInterface, public ResourceManager<ResourceHandle> {
  public:
   typedef ResourceHandle ResourceHandleType;
 
-  /// A copy of the named handle, claimed if the policy says so. A failed look-up claims nothing.
-  /// @throws HardwareInterfaceException when there is none of that name.
+  /// A copy of the named handle, claimed according to the policy. A failed look-up claims nothing.
+  /// @throws HardwareInterfaceException for an unknown name.
   ResourceHandle getHandle(const std::string& name) {
     try {
       ResourceHandle handle = ResourceManager<ResourceHandle>::getHandle(name);

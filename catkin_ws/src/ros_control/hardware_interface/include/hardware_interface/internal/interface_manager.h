@@ -16,7 +16,7 @@
 namespace hardware_interface {
 namespace internal {
 
-/// Whether T is a ResourceManager; recognised by the typedef it carries.
+/// Whether T is a ResourceManager, recognised by its typedef.
 template <class T, class = void>
 struct IsResourceManager : std::false_type {};
 
@@ -25,19 +25,19 @@ struct IsResourceManager<T, std::void_t<typename T::ResourceManagerType>> : std:
 
 }  // namespace internal
 
-/// Hardware interfaces by type. A robot made of several robots combines their interfaces: asked for
-/// a type that several of them have, it answers with one interface holding the handles of all.
+/// Hardware interfaces by type. A robot made of several robots combines their interfaces: for a
+/// type that several of them have, it returns one interface with the handles of all.
 ///
-/// Registering and looking up allocate and are not thread-safe: they belong to start-up and to the
-/// initialisation of controllers. Registered interfaces stay the property of the caller and must
-/// outlive the manager; combined ones live as long as the manager.
+/// Registering and looking up allocate and are not thread-safe: they are for start-up and the
+/// initialisation of controllers. Registered interfaces belong to the caller and must outlive the
+/// manager; combined ones live as long as the manager.
 class InterfaceManager {
  public:
   virtual ~InterfaceManager() = default;
 
-  /// Makes an interface known under its type. Another one of the same type is replaced, with a
-  /// warning. getInterfaceResources will list the handles it has at this moment; registering the
-  /// same interface again brings that list up to date.
+  /// Registers an interface under its type. Another one of the same type is replaced, with a
+  /// warning. getInterfaceResources lists the interface's handles at this time; registering it
+  /// again updates that list.
   template <class T>
   void registerInterface(T* iface) {
     const std::string type = internal::demangledTypeName<T>();
@@ -53,13 +53,14 @@ class InterfaceManager {
     }
   }
 
-  /// Adds all interfaces of another manager, also those it will get later.
+  /// Adds all present and future interfaces of another manager.
   void registerInterfaceManager(InterfaceManager* iface_man) {
     interface_managers_.push_back(iface_man);
   }
 
-  /// The interface of type T, nullptr if there is none. Where several managers have one, a combined
-  /// interface that stays the same object until their number changes; claims land on that object.
+  /// The interface of type T, nullptr if there is none. If several managers have one, a combined
+  /// interface that stays the same object until their number changes; claims are made on that
+  /// object.
   template <class T>
   T* get() {
     const std::string type = internal::demangledTypeName<T>();
@@ -80,7 +81,7 @@ class InterfaceManager {
     return combine(type, found);
   }
 
-  /// Type names of all interfaces, own ones first, none twice.
+  /// Type names of all interfaces, own ones first, without duplicates.
   std::vector<std::string> getNames() const {
     std::vector<std::string> names;
     names.reserve(interfaces_.size());
@@ -97,7 +98,7 @@ class InterfaceManager {
     return names;
   }
 
-  /// Resources of an interface type as they were when it was registered, own ones first.
+  /// Resources of an interface type at the time of registration, own ones first.
   std::vector<std::string> getInterfaceResources(std::string iface_type) const {
     std::vector<std::string> resources;
     const auto own = resources_.find(iface_type);
@@ -120,8 +121,8 @@ class InterfaceManager {
   InterfaceMap interfaces_;
   InterfaceMap interfaces_combo_;
   InterfaceManagerVector interface_managers_;
-  SizeMap num_ifaces_registered_;  ///< of how many interfaces a combined one was made
-  /// Owns the combined interfaces, outdated ones too: somebody may still hold a pointer to them.
+  SizeMap num_ifaces_registered_;  ///< number of interfaces in each combined one
+  /// Owns the combined interfaces, outdated ones too: pointers to them may still be in use.
   std::vector<std::shared_ptr<ResourceManagerBase>> interface_destruction_list_;
   ResourceMap resources_;
 

@@ -14,7 +14,7 @@
 
 namespace hardware_interface {
 
-/// Common root of all resource managers, so that they can be owned without knowing their handles.
+/// Common base of all resource managers, for ownership independent of the handle type.
 class ResourceManagerBase {
  public:
   virtual ~ResourceManagerBase() = default;
@@ -50,7 +50,7 @@ class ResourceManager : public ResourceManagerBase {
     found->second = handle;
   }
 
-  /// A copy of the named handle. @throws std::logic_error when there is none of that name.
+  /// A copy of the named handle. @throws std::logic_error for an unknown name.
   ResourceHandle getHandle(const std::string& name) {
     const auto found = resource_map_.find(name);
     if (found == resource_map_.end()) {

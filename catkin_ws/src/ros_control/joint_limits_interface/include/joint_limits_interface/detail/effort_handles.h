@@ -7,8 +7,8 @@
 
 namespace joint_limits_interface {
 
-/// Keeps effort commands within the effort limits, and lets none push further where position or
-/// velocity limits are exceeded.
+/// Saturates effort commands at the effort limits, and allows none that pushes further beyond
+/// position or velocity limits.
 class EffortJointSaturationHandle : public internal::LimitHandle {
  public:
   /// @throws JointLimitsInterfaceException when there are no velocity or no effort limits.
@@ -37,8 +37,8 @@ class EffortJointSaturationHandle : public internal::LimitHandle {
   }
 };
 
-/// Keeps effort commands within the effort limits, and lets them fade out where the measured
-/// velocity nears the one that the measured position allows.
+/// Saturates effort commands at the effort limits, and reduces them where the measured velocity
+/// approaches the one allowed at the measured position.
 class EffortJointSoftLimitsHandle : public internal::LimitHandle {
  public:
   EffortJointSoftLimitsHandle() = default;

@@ -13,8 +13,7 @@
 namespace joint_limits_interface {
 namespace internal {
 
-/// `val` brought into [min_val, max_val]; max_val where the bounds are crossed. A value that is not
-/// a number stays one.
+/// `val` saturated to [min_val, max_val]; max_val if the bounds are crossed. NaN stays NaN.
 template <typename T>
 T saturate(const T val, const T min_val, const T max_val) {
   return std::min(std::max(val, min_val), max_val);
@@ -32,7 +31,7 @@ struct Bounds {
 constexpr double kUnlimited = std::numeric_limits<double>::max();
 
 /// Velocities that the soft position limits allow at a position: proportional to the distance to
-/// each limit, never beyond the magnitude `max_velocity`.
+/// each limit, at most `max_velocity`.
 inline Bounds softVelocityBounds(const SoftJointLimits& soft, double position,
                                  double max_velocity) {
   const Bounds hard = Bounds::symmetric(max_velocity);
@@ -40,9 +39,9 @@ inline Bounds softVelocityBounds(const SoftJointLimits& soft, double position,
           hard.saturate(-soft.k_position * (position - soft.max_position))};
 }
 
-/// What the handles share: one joint and its limits. enforceLimits of every handle is safe in the
-/// control loop. A command that is not a number passes, so that the robot's own check can stop and
-/// name it, but no handle remembers it: the next good command is limited as if it had not been.
+/// Base of the handles: one joint and its limits. enforceLimits of every handle is safe in the
+/// control loop. A NaN command passes, so that the robot's own check can stop and report it, but no
+/// handle stores it: the next valid command is limited as if it had not existed.
 class LimitHandle {
  public:
   LimitHandle() = default;
@@ -52,7 +51,7 @@ class LimitHandle {
   std::string getName() const { return jh_.getName(); }
 
  protected:
-  /// @param kind of the missing limits, as in "velocity" @throws JointLimitsInterfaceException
+  /// @param kind of the required limits, as in "velocity" @throws JointLimitsInterfaceException
   void require(bool has_limits, const char* kind) const {
     if (!has_limits) {
       throw JointLimitsInterfaceException("Cannot enforce limits for joint '" + getName() +

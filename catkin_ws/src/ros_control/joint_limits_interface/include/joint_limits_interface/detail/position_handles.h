@@ -13,7 +13,7 @@
 namespace joint_limits_interface {
 namespace internal {
 
-/// The command of the cycle before; where there is none, the measured position takes its place.
+/// The command of the previous cycle; without one, the measured position is used.
 class PositionHistory {
  public:
   void forget() { previous_ = std::numeric_limits<double>::quiet_NaN(); }
@@ -37,8 +37,8 @@ class PositionHistory {
 
 }  // namespace internal
 
-/// Keeps position commands within the position limits and, where there are velocity limits, within
-/// the distance a joint can go in one period from the command before.
+/// Saturates position commands at the position limits and, with velocity limits, at the distance
+/// that a joint can move in one period from the previous command.
 class PositionJointSaturationHandle : public internal::LimitHandle {
  public:
   PositionJointSaturationHandle(const hardware_interface::JointHandle& jh,
@@ -49,7 +49,7 @@ class PositionJointSaturationHandle : public internal::LimitHandle {
     }
   }
 
-  /// @param period since the command before [s]
+  /// @param period since the previous command [s]
   void enforceLimits(const ros::Duration& period) {
     const double previous = history_.from(jh_);
     internal::Bounds bounds = range_;
@@ -62,7 +62,7 @@ class PositionJointSaturationHandle : public internal::LimitHandle {
     history_.remember(command);
   }
 
-  /// Forgets the command before. To be called when commands begin anew, from another controller.
+  /// Resets the previous command. Call it when commands come from another controller.
   void reset() { history_.forget(); }
 
  private:
@@ -70,9 +70,8 @@ class PositionJointSaturationHandle : public internal::LimitHandle {
   internal::PositionHistory history_;
 };
 
-/// Slows position commands down towards the soft position limits, and keeps them within velocity
-/// and hard position limits. Distances are taken from the command before, not from the measured
-/// position.
+/// Slows position commands down towards the soft position limits, and saturates them at velocity
+/// and hard position limits. Distances refer to the previous command, not to the measured position.
 class PositionJointSoftLimitsHandle : public internal::LimitHandle {
  public:
   PositionJointSoftLimitsHandle() = default;
@@ -84,7 +83,7 @@ class PositionJointSoftLimitsHandle : public internal::LimitHandle {
     require(limits.has_velocity_limits, "velocity");
   }
 
-  /// @param period since the command before [s], above zero
+  /// @param period since the previous command [s], above zero
   void enforceLimits(const ros::Duration& period) {
     assert(period.toSec() > 0.0);
     const double dt = period.toSec();
@@ -103,7 +102,7 @@ class PositionJointSoftLimitsHandle : public internal::LimitHandle {
     history_.remember(command);
   }
 
-  /// Forgets the command before. To be called when commands begin anew, from another controller.
+  /// Resets the previous command. Call it when commands come from another controller.
   void reset() { history_.forget(); }
 
  private:

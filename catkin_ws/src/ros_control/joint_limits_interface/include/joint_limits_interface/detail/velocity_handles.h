@@ -11,8 +11,8 @@
 
 namespace joint_limits_interface {
 
-/// Keeps velocity commands within the velocity limits and, where there are acceleration limits,
-/// within what a joint can gain in one period on the command before.
+/// Saturates velocity commands at the velocity limits and, with acceleration limits, at the change
+/// that a joint can make in one period from the previous command.
 class VelocityJointSaturationHandle : public internal::LimitHandle {
  public:
   VelocityJointSaturationHandle() = default;
@@ -24,7 +24,7 @@ class VelocityJointSaturationHandle : public internal::LimitHandle {
     require(limits.has_velocity_limits, "velocity");
   }
 
-  /// @param period since the command before [s], above zero where there are acceleration limits
+  /// @param period since the previous command [s], above zero with acceleration limits
   void enforceLimits(const ros::Duration& period) {
     internal::Bounds bounds = internal::Bounds::symmetric(limits_.max_velocity);
     if (limits_.has_acceleration_limits) {
@@ -41,10 +41,10 @@ class VelocityJointSaturationHandle : public internal::LimitHandle {
   }
 
  private:
-  double previous_command_{0.0};  // [rad/s]: joints are taken to start from rest
+  double previous_command_{0.0};  // [rad/s]: joints are assumed to start from rest
 };
 
-/// Slows velocity commands down towards the soft position limits, and keeps them within velocity
+/// Slows velocity commands down towards the soft position limits, and saturates them at velocity
 /// and acceleration limits. Positions and velocities are the measured ones.
 class VelocityJointSoftLimitsHandle : public internal::LimitHandle {
  public:
@@ -54,7 +54,7 @@ class VelocityJointSoftLimitsHandle : public internal::LimitHandle {
         soft_limits_(soft_limits),
         max_velocity_(limits.has_velocity_limits ? limits.max_velocity : internal::kUnlimited) {}
 
-  /// @param period since the command before [s]
+  /// @param period since the previous command [s]
   void enforceLimits(const ros::Duration& period) {
     internal::Bounds bounds = internal::Bounds::symmetric(max_velocity_);
     if (limits_.has_position_limits) {

@@ -8,12 +8,12 @@
 namespace joint_trajectory_controller {
 namespace internal {
 
-/// Carries commands into the control loop and used ones out of it, so that the loop neither waits
+/// Passes commands into the control loop and used ones out of it, so that the loop neither waits
 /// for a command nor destroys one.
 ///
-/// A command put in before the last one was taken replaces it. Wait-free for the loop but for the
-/// collector emptying the return tray at the same instant, which costs one more round.
-/// take() and giveBack() belong to the loop; put() and collect() to other threads, one at a time.
+/// A new command replaces one that was not taken yet. Wait-free for the loop, except that a
+/// simultaneous collect() costs one more iteration. take() and giveBack() are for the loop; put()
+/// and collect() for other threads, one at a time.
 /// @tparam Command has a member `Command* next`
 template <class Command>
 class CommandExchange {
@@ -48,7 +48,7 @@ class CommandExchange {
     }
   }
 
-  /// Passes what came back to `use(std::unique_ptr<Command>)`, newest first.
+  /// Passes returned commands to `use(std::unique_ptr<Command>)`, newest first.
   template <class Use>
   void collect(Use use) {
     Command* command = returned_.exchange(nullptr, std::memory_order_acquire);

@@ -8,7 +8,7 @@
 namespace joint_trajectory_controller {
 namespace internal {
 
-/// Hands the newest value of the control loop to other threads, the other way round than
+/// Passes the newest value of the control loop to other threads, the opposite direction of
 /// realtime_tools::RealtimeBuffer.
 ///
 /// Wait-free for the one writing thread; readers must exclude each other.
@@ -16,18 +16,18 @@ namespace internal {
 template <class T>
 class LatestValue {
  public:
-  /// Sets all three copies; before any thread uses them.
+  /// Sets all three copies; call it before any thread uses them.
   void init(const T& value) { slots_.fill(value); }
 
-  /// What the writer may fill; it belongs to the writer until publish().
+  /// The value to write; it belongs to the writer until publish().
   T& draft() noexcept { return slots_[writer_]; }
 
-  /// Shows the draft to the readers.
+  /// Passes the draft to the readers.
   void publish() noexcept {
     writer_ = waiting_.exchange(writer_ | kFresh, std::memory_order_acq_rel) & kIndex;
   }
 
-  /// The value last published; valid until the next call.
+  /// The last published value; valid until the next call.
   const T& read() noexcept {
     if ((waiting_.load(std::memory_order_relaxed) & kFresh) != 0) {
       reader_ = waiting_.exchange(reader_, std::memory_order_acq_rel) & kIndex;

@@ -10,11 +10,11 @@
 namespace joint_trajectory_controller {
 namespace internal {
 
-/// A goal whose end may be decided in the control loop or in a callback, and is reported to the
-/// client by the latter. Whoever decides first wins; later decisions are ignored.
+/// A goal whose end is decided in the control loop or in a callback, and reported to the client by
+/// the callback. The first decision counts; later ones are ignored.
 ///
-/// realtime_tools::RealtimeServerGoalHandle alone knows one thread that decides, and leaves the
-/// client without a text.
+/// realtime_tools::RealtimeServerGoalHandle alone allows only one deciding thread, and sends no
+/// text to the client.
 ///
 /// Real-time safe: all but the constructor and runNonRealtime().
 /// @tparam Handle a realtime_tools::RealtimeServerGoalHandle
@@ -28,12 +28,12 @@ class RealtimeGoal {
 
   const boost::shared_ptr<Handle>& handle() const noexcept { return handle_; }
 
-  /// Whether nobody has decided about the goal yet.
+  /// Whether the goal has not been decided yet.
   bool isOpen() const noexcept {
     return outcome_.load(std::memory_order_acquire) == Outcome::kOpen;
   }
 
-  /// Whether it is decided and all about it can be read.
+  /// Whether it is decided and its result can be read.
   bool isSettled() const noexcept {
     const Outcome outcome = outcome_.load(std::memory_order_acquire);
     return outcome != Outcome::kOpen && outcome != Outcome::kClaimed;
@@ -46,8 +46,8 @@ class RealtimeGoal {
     return outcome_.compare_exchange_strong(expected, Outcome::kClaimed, std::memory_order_acq_rel);
   }
 
-  /// Ends the goal as kAborted, kCanceled or kSucceeded, after claim(). The handle learns it too,
-  /// for derived controllers that let a timer of their own report it.
+  /// Ends the goal as kAborted, kCanceled or kSucceeded, after claim(). Also informs the handle,
+  /// for derived controllers with their own reporting timer.
   void settle(Outcome outcome) noexcept {
     if (outcome == Outcome::kAborted) {
       handle_->setAborted(handle_->preallocated_result_);

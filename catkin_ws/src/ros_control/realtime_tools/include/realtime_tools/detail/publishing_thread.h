@@ -11,39 +11,38 @@
 namespace realtime_tools {
 namespace detail {
 
-/// The one thread of a process that sends what its real-time publishers have handed over.
+/// The only thread of a process that sends messages of its real-time publishers.
 ///
-/// It looks every half millisecond while there is something to send, and every five milliseconds
-/// after a second without: nobody has to wake it, so the real-time side makes no system call, and
-/// ten publishers cost one wake-up a cycle instead of ten. The thread exists while there are
-/// senders.
+/// It checks every half millisecond while there are messages, and every five milliseconds after a
+/// second without: it needs no wake-up, so the real-time side makes no system call, and ten
+/// publishers cost one wake-up per cycle instead of ten. The thread exists while there are senders.
 class PublishingThread {
  public:
-  /// What it looks after.
+  /// A publisher served by the thread.
   class Sender {
    public:
-    /// Sends what was handed over. @returns whether there was something. Called by the thread only.
+    /// Sends the pending message. @returns whether there was one. Called by the thread only.
     virtual bool sendHandedOver() = 0;
 
    protected:
     ~Sender() = default;
   };
 
-  /// The process's own. Lives until the process ends.
+  /// The process's instance. Exists until the process ends.
   static PublishingThread& instance();
 
-  /// Looks after a sender from now on. Any thread.
+  /// Adds a sender. Any thread.
   void add(Sender* sender);
-  /// Does not touch the sender any more once this has returned. Waits for the look under way. Any
-  /// thread but this one; removing what was not added does nothing.
+  /// After return the sender is no longer used. Waits for the running check. Any thread but this
+  /// one; removing an unknown sender does nothing.
   void remove(Sender* sender);
 
  private:
   PublishingThread() = default;
   void run();
 
-  std::mutex lifetime_mutex_;  ///< one at a time adds and removes; taken before the other
-  std::mutex mutex_;           ///< for what follows
+  std::mutex lifetime_mutex_;  ///< serialises add and remove; taken before the other
+  std::mutex mutex_;           ///< guards the members below
   std::condition_variable changed_;
   std::vector<Sender*> senders_;
   std::thread thread_;

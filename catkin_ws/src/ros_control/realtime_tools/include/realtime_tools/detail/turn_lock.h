@@ -10,11 +10,11 @@
 namespace realtime_tools {
 namespace detail {
 
-/// A lock around one message that also knows whose turn it is: the real-time side's, which fills
-/// the message, or the publishing thread's, which sends it.
+/// A lock around one message that also stores the turn: of the real-time side, which fills the
+/// message, or of the publishing thread, which sends it.
 ///
-/// All of it is one atomic word, so that the real-time side needs no mutex and never enters the
-/// kernel: it wakes nobody, the other sides look again after a while.
+/// It is one atomic word, so that the real-time side needs no mutex and no system call: it wakes no
+/// thread, the other sides poll.
 ///
 /// Real-time safe: tryLock, tryTakeTurn, unlock, unlockAndHandOver, unlockAndReturn, stop. Not
 /// real-time safe: lock. Thread-safe: all.
@@ -34,23 +34,23 @@ class TurnLock {
   /// For the publishing thread: takes the lock if it is free, its turn, and not stopped.
   bool tryTakeTurn() noexcept { return take(kLocked | kHandedOver | kStopped, kHandedOver); }
 
-  /// Takes the lock whosever turn it is; waits while another thread holds it.
+  /// Takes the lock on any turn; waits while another thread holds it.
   void lock() noexcept {
     while (!take(kLocked, 0)) {
       std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
   }
 
-  /// Gives the lock back; the turn stays.
+  /// Releases the lock; the turn stays.
   void unlock() noexcept { change(kLocked, 0); }
 
-  /// Gives the lock back and the turn to the publishing thread.
+  /// Releases the lock and gives the turn to the publishing thread.
   void unlockAndHandOver() noexcept { change(kLocked, kHandedOver); }
 
-  /// For the publishing thread: gives back the lock and the turn.
+  /// For the publishing thread: releases lock and turn.
   void unlockAndReturn() noexcept { change(kLocked | kHandedOver, 0); }
 
-  /// Ends tryTakeTurn() for good, until the next open().
+  /// Disables tryTakeTurn() until the next open().
   void stop() noexcept { change(0, kStopped); }
 
  private:
@@ -59,11 +59,11 @@ class TurnLock {
   static constexpr std::uint32_t kStopped = 4;
   static constexpr std::uint32_t kClosed = 8;
 
-  /// Takes the lock if the bits of `mask` are as in `wanted`.
-  bool take(std::uint32_t mask, std::uint32_t wanted) noexcept {
+  /// Takes the lock if the bits of `mask` have the values in `expected`.
+  bool take(std::uint32_t mask, std::uint32_t expected) noexcept {
     std::uint32_t seen = word_.load(std::memory_order_relaxed);
     // A failed exchange means that another thread made progress; there are only two others.
-    while ((seen & mask) == wanted) {
+    while ((seen & mask) == expected) {
       if (word_.compare_exchange_weak(seen, seen | kLocked, std::memory_order_acquire,
                                       std::memory_order_relaxed)) {
         return true;

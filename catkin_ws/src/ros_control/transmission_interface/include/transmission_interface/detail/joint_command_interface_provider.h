@@ -13,7 +13,7 @@
 namespace transmission_interface {
 namespace internal {
 
-// What differs between the kinds of commands.
+// Differences between the kinds of commands.
 
 struct PositionCommand {
   typedef hardware_interface::PositionJointInterface JointInterface;
@@ -79,7 +79,7 @@ class JointCommandInterfaceProvider : public JointStateInterfaceProvider {
                            JointData& jnt_cmd_data) override {
     for (const JointInfo& joint : transmission_info.joints_) {
       const double& command = raw_joint_data_map.at(joint.name_).*Command::kRaw;
-      // The map's owner handed it out as const and means its shape by that, not the values.
+      // The map is const for its structure, not for its values.
       (jnt_cmd_data.*Command::kJoints).push_back(const_cast<double*>(&command));
     }
     return true;
@@ -111,7 +111,7 @@ class JointCommandInterfaceProvider : public JointStateInterfaceProvider {
   }
 };
 
-/// Registers the maps of the opposite direction as well.
+/// Also registers the maps of the opposite direction.
 template <class Command>
 class BiDirectionalInterfaceProvider : public JointCommandInterfaceProvider<Command> {
  protected:

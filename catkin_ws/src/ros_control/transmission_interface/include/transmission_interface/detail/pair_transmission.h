@@ -15,7 +15,7 @@
 namespace transmission_interface {
 namespace internal {
 
-/// What transmissions of two actuators and two joints share: a reduction at each of them, an offset
+/// Base of transmissions with two actuators and two joints: a reduction at each of them, an offset
 /// at the joints, and access to two values.
 class PairTransmission : public Transmission {
  public:

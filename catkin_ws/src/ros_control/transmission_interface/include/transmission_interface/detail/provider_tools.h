@@ -16,7 +16,7 @@
 namespace transmission_interface {
 namespace internal {
 
-/// The interface a manager has of this type; if it has none, `own`, which it has from now on.
+/// The manager's interface of this type; if it has none, `own` is registered.
 template <class Interface>
 Interface& provided(hardware_interface::InterfaceManager& manager, Interface& own) {
   Interface* known = manager.get<Interface>();
@@ -27,7 +27,7 @@ Interface& provided(hardware_interface::InterfaceManager& manager, Interface& ow
   return own;
 }
 
-/// Lets a manager know of the handles that `own` got since it was registered.
+/// Updates a manager's list of the handles in `own`.
 template <class Interface>
 void refresh(hardware_interface::InterfaceManager& manager, Interface& own) {
   if (manager.get<Interface>() == &own) {
@@ -41,8 +41,8 @@ bool hasResource(const std::string& name, const Interface& interface) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The robot's handles of a transmission's actuators, in their order.
-/// @returns false, with a sentence, if the robot lacks the interface or one of the actuators.
+/// The robot's handles of a transmission's actuators, in their order. @returns false, with a
+/// sentence, if the robot lacks the interface or an actuator.
 template <class Interface>
 bool getActuatorHandles(const TransmissionInfo& info, hardware_interface::RobotHW& robot,
                         std::vector<typename Interface::ResourceHandleType>& handles) {
@@ -65,9 +65,9 @@ bool getActuatorHandles(const TransmissionInfo& info, hardware_interface::RobotH
   return true;
 }
 
-/// Registers one map of a transmission, unless that has been done for another interface of the same
-/// joints. The map of another transmission of that name is replaced. @throws
-/// TransmissionInterfaceException for data that do not fit the transmission.
+/// Registers one map of a transmission, unless another interface of the same joints already did.
+/// The map of another transmission of that name is replaced. @throws TransmissionInterfaceException
+/// for data that do not match the transmission.
 template <class Interface>
 void addMap(RobotTransmissions& transmissions, Interface& own, const std::string& name,
             Transmission* transmission, const ActuatorData& actuators, const JointData& joints) {

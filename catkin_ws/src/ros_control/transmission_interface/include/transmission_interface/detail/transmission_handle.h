@@ -12,20 +12,20 @@
 
 namespace transmission_interface {
 
-/// A transmission together with the values it maps. Derived handles map one kind of values in one
+/// A transmission with the values that it maps. Derived handles map one kind of values in one
 /// direction; their propagate() is safe in the control loop.
 class TransmissionHandle {
  public:
   std::string getName() const { return name_; }
-  /// Whether it is this transmission that the handle maps with.
+  /// Whether the handle uses this transmission.
   bool maps(const Transmission* transmission) const noexcept {
     return transmission_ == transmission;
   }
 
  protected:
-  /// @param transmission must outlive the handle; so must the values the data point at
-  /// @throws TransmissionInterfaceException when there is no transmission or no data at all, and
-  /// for vectors that do not fit the transmission or hold null pointers.
+  /// @param transmission must outlive the handle; so must the values that the data point to.
+  /// @throws TransmissionInterfaceException without a transmission or any data, and for vectors of
+  /// another size or with null pointers.
   TransmissionHandle(const std::string& name, Transmission* transmission,
                      const ActuatorData& actuator_data, const JointData& joint_data)
       : name_(name),
@@ -42,7 +42,7 @@ class TransmissionHandle {
     }
   }
 
-  /// That both sides have the kind of values a handle maps.
+  /// Requires the kind of values that a handle maps on both sides.
   void require(const std::vector<double*>& actuator_values,
                const std::vector<double*>& joint_values, const char* kind) const {
     if (actuator_values.empty() || joint_values.empty()) {
@@ -62,7 +62,7 @@ class TransmissionHandle {
                                          "': " + why + ".");
   }
 
-  /// @returns the number of vectors that are not empty.
+  /// @returns the number of nonempty vectors.
   template <class Data>
   std::size_t check(const std::string& side, const Data& data, std::size_t size) const {
     return check(side + " position", data.position, size) +
