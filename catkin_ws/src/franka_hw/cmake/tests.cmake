@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 catkin_add_gtest(franka_hw_test
+  test/arm_connection_test.cpp
   test/arm_state_test.cpp
   test/control_mode_test.cpp
   test/handles_test.cpp

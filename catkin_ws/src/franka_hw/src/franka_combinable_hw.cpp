@@ -3,7 +3,6 @@
 #include <franka/exception.h>
 #include <franka_hw/franka_combinable_hw.h>
 #include <franka_hw/resource_helpers.h>
-#include <franka_hw/robot_access.h>
 #include <pluginlib/class_list_macros.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -122,7 +121,6 @@ bool FrankaCombinableHW::disconnectRequested(TriggerRequest& /*request*/,
 }
 
 void FrankaCombinableHW::withdrawRobot() {
-  connected_ = false;
   if (recovery_server_) {
     // A recovery under way still answers through this pointer: it ends before reset() clears it.
     recovery_server_->shutdown();
@@ -165,8 +163,7 @@ void FrankaCombinableHW::recover() {
 
 void FrankaCombinableHW::resetError() {
   {
-    const auto lock =
-        RobotAccessRequest::takeWhile(robot_mutex_, [this] { return needsRecovery(); });
+    const auto lock = robot_mutex_.takeWhile([this] { return needsRecovery(); });
     if (!lock) {
       // The robot is not touched: a recovery ahead of time must not clear an error still to come.
       ROS_WARN_STREAM("FrankaCombinableHW: a recovery of '"
@@ -189,7 +186,9 @@ void FrankaCombinableHW::resetError() {
   setError(false);
 }
 
-bool FrankaCombinableHW::needsRecovery() const noexcept { return has_error_ || robotStopped(); }
+bool FrankaCombinableHW::needsRecovery() const noexcept {
+  return has_error_ || connection_.needsRecovery();
+}
 
 void FrankaCombinableHW::triggerError() { setError(true); }
 
@@ -236,7 +235,7 @@ void FrankaCombinableHW::controlLoop() {
     } else {
       watchRobot();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      RobotAccessRequest::giveWay();
+      robot_mutex_.giveWay();
     }
   }
 }
@@ -291,11 +290,10 @@ void FrankaCombinableHW::control(
   if (!controllerActive()) {
     return;
   }
-  const std::lock_guard<std::mutex> lock(robot_mutex_);
-  if (!robot_) {
+  const ArmConnection::Motion motion(connection_);
+  if (!motion) {
     return;
   }
-  const RobotInMotion in_motion(robot_mutex_);
   response_times_.motionBegins();
   try {
     run_function_(*robot_, Callback());
