@@ -37,8 +37,8 @@ bool ControlNode::init() {
   robot_state_ = &franka_hw_.get<franka_hw::FrankaStateInterface>()
                       ->getHandle(arm_id + "_robot")
                       .getRobotState();
-  robot_health_ =
-      std::make_unique<RobotHealth>(private_nh_, "Robot", arm_id, franka_hw_.responseTimes());
+  robot_health_ = std::make_unique<RobotHealth>(private_nh_, "Robot", arm_id, connection_,
+                                                franka_hw_.responseTimes());
   loop_health_ = std::make_unique<LoopHealth>(private_nh_, arm_id);
   controller_manager_ =
       std::make_unique<controller_manager::ControllerManager>(&franka_hw_, public_nh_);
@@ -54,8 +54,6 @@ void ControlNode::run() {
   last_update_ = franka_hw_.stateTime();
   while (ros::ok()) {
     connection_.publishError();
-    robot_health_->connected(connection_.connected());
-    robot_health_->hasError(connection_.hasError());
     if (!connection_.connected()) {
       connection_.reconnect();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
