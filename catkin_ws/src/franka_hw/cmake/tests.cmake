@@ -11,6 +11,7 @@ catkin_add_gtest(franka_hw_test
   test/resource_helpers_test.cpp
   test/response_times_test.cpp
   test/robot_mismatch_test.cpp
+  test/setters_test.cpp
   test/trigger_rate_test.cpp
 )
 target_compile_options(franka_hw_test PRIVATE -Wall -Wextra)

@@ -3,8 +3,6 @@
 #include <franka_hw/robot_mutex.h>
 #include <franka_hw/services.h>
 
-#include <array>
-
 namespace franka_hw {
 
 namespace {
@@ -30,47 +28,18 @@ void refuseInMotion(const RobotMutex& robot_mutex) {
   }
 }
 
-/// A handler that has the robot for itself while it works.
-template <typename T>
-auto exclusively(franka::Robot& robot, const Take& take,
-                 void (*set)(franka::Robot&, const typename T::Request&, typename T::Response&)) {
-  return [&robot, take, set](typename T::Request& request, typename T::Response& response) {
-    const std::unique_lock<std::mutex> lock = take();
-    set(robot, request, response);
-  };
-}
-
-/// A message's fixed array as std::array.
-template <std::size_t size, typename Source>
-std::array<double, size> arrayOf(const Source& source) {
-  std::array<double, size> values;
-  std::copy_n(source.begin(), size, values.begin());
-  return values;
-}
-
+/// Offers handlers that have the robot for themselves while they work.
 void offerSetters(franka::Robot& robot, const Take& take, ros::NodeHandle& node_handle,
                   ServiceContainer& services) {
-  using namespace franka_msgs;
-  services
-      .advertiseService<SetJointImpedance>(
-          node_handle, "set_joint_impedance",
-          exclusively<SetJointImpedance>(robot, take, setJointImpedance))
-      .advertiseService<SetCartesianImpedance>(
-          node_handle, "set_cartesian_impedance",
-          exclusively<SetCartesianImpedance>(robot, take, setCartesianImpedance))
-      .advertiseService<SetEEFrame>(node_handle, "set_EE_frame",
-                                    exclusively<SetEEFrame>(robot, take, setEEFrame))
-      .advertiseService<SetKFrame>(node_handle, "set_K_frame",
-                                   exclusively<SetKFrame>(robot, take, setKFrame))
-      .advertiseService<SetForceTorqueCollisionBehavior>(
-          node_handle, "set_force_torque_collision_behavior",
-          exclusively<SetForceTorqueCollisionBehavior>(robot, take,
-                                                       setForceTorqueCollisionBehavior))
-      .advertiseService<SetFullCollisionBehavior>(
-          node_handle, "set_full_collision_behavior",
-          exclusively<SetFullCollisionBehavior>(robot, take, setFullCollisionBehavior))
-      .advertiseService<SetLoad>(node_handle, "set_load",
-                                 exclusively<SetLoad>(robot, take, setLoad));
+  forEachSetter([&](auto setter) {
+    using Service = typename decltype(setter)::Service;
+    services.advertiseService<Service>(
+        node_handle, setter.name,
+        [&robot, take](const typename Service::Request& request, const auto& /*response*/) {
+          const std::unique_lock<std::mutex> lock = take();
+          configure(robot, request);
+        });
+  });
 }
 
 }  // namespace
@@ -94,49 +63,39 @@ void setupServices(franka::Robot& robot, std::mutex& robot_mutex, ros::NodeHandl
 void setCartesianImpedance(franka::Robot& robot,
                            const franka_msgs::SetCartesianImpedance::Request& req,
                            franka_msgs::SetCartesianImpedance::Response& /*res*/) {
-  robot.setCartesianImpedance(arrayOf<6>(req.cartesian_stiffness));
+  configure(robot, req);
 }
 
 void setJointImpedance(franka::Robot& robot, const franka_msgs::SetJointImpedance::Request& req,
                        franka_msgs::SetJointImpedance::Response& /*res*/) {
-  robot.setJointImpedance(arrayOf<7>(req.joint_stiffness));
+  configure(robot, req);
 }
 
 void setEEFrame(franka::Robot& robot, const franka_msgs::SetEEFrame::Request& req,
                 franka_msgs::SetEEFrame::Response& /*res*/) {
-  robot.setEE(arrayOf<16>(req.NE_T_EE));
+  configure(robot, req);
 }
 
 void setKFrame(franka::Robot& robot, const franka_msgs::SetKFrame::Request& req,
                franka_msgs::SetKFrame::Response& /*res*/) {
-  robot.setK(arrayOf<16>(req.EE_T_K));
+  configure(robot, req);
 }
 
 void setForceTorqueCollisionBehavior(
     franka::Robot& robot, const franka_msgs::SetForceTorqueCollisionBehavior::Request& req,
     franka_msgs::SetForceTorqueCollisionBehavior::Response& /*res*/) {
-  robot.setCollisionBehavior(arrayOf<7>(req.lower_torque_thresholds_nominal),
-                             arrayOf<7>(req.upper_torque_thresholds_nominal),
-                             arrayOf<6>(req.lower_force_thresholds_nominal),
-                             arrayOf<6>(req.upper_force_thresholds_nominal));
+  configure(robot, req);
 }
 
 void setFullCollisionBehavior(franka::Robot& robot,
                               const franka_msgs::SetFullCollisionBehavior::Request& req,
                               franka_msgs::SetFullCollisionBehavior::Response& /*res*/) {
-  robot.setCollisionBehavior(arrayOf<7>(req.lower_torque_thresholds_acceleration),
-                             arrayOf<7>(req.upper_torque_thresholds_acceleration),
-                             arrayOf<7>(req.lower_torque_thresholds_nominal),
-                             arrayOf<7>(req.upper_torque_thresholds_nominal),
-                             arrayOf<6>(req.lower_force_thresholds_acceleration),
-                             arrayOf<6>(req.upper_force_thresholds_acceleration),
-                             arrayOf<6>(req.lower_force_thresholds_nominal),
-                             arrayOf<6>(req.upper_force_thresholds_nominal));
+  configure(robot, req);
 }
 
 void setLoad(franka::Robot& robot, const franka_msgs::SetLoad::Request& req,
              franka_msgs::SetLoad::Response& /*res*/) {
-  robot.setLoad(req.mass, arrayOf<3>(req.F_x_center_load), arrayOf<9>(req.load_inertia));
+  configure(robot, req);
 }
 
 }  // namespace franka_hw

@@ -3,13 +3,7 @@
 #include <controller_manager_msgs/ListControllers.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <franka_core/transform.h>
-#include <franka_msgs/SetCartesianImpedance.h>
-#include <franka_msgs/SetEEFrame.h>
-#include <franka_msgs/SetForceTorqueCollisionBehavior.h>
-#include <franka_msgs/SetFullCollisionBehavior.h>
-#include <franka_msgs/SetJointImpedance.h>
-#include <franka_msgs/SetKFrame.h>
-#include <franka_msgs/SetLoad.h>
+#include <franka_hw/setters.h>
 #include <franka_sim/robot/parameter_checks.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/arm_services.h>
@@ -33,14 +27,6 @@ constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit gives up afte
 constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
 constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
 
-/// The messages hold boost arrays.
-template <std::size_t N, typename Array>
-std::array<double, N> toArray(const Array& values) {
-  std::array<double, N> result;
-  std::copy(values.begin(), values.end(), result.begin());
-  return result;
-}
-
 std::string notATransform(const std::string& name, const std::array<double, 16>& matrix) {
   return name + " is no column-major 4x4 transform to a frame on the arm: " +
          franka_sim::frameFault(matrix) + ".";
@@ -61,6 +47,79 @@ franka_sim::CollisionThresholds checked(const franka_sim::CollisionThresholds& t
   return thresholds;
 }
 
+/// @throws std::runtime_error with a sentence unless the unit accepted
+void check(const franka_sim::ControlUnit& unit, franka_sim::RequestStatus status,
+           const std::string& why_invalid) {
+  switch (status) {
+    case franka_sim::RequestStatus::kSuccess:
+      return;
+    case franka_sim::RequestStatus::kInvalidArgument:
+      throw std::runtime_error(why_invalid);
+    case franka_sim::RequestStatus::kNotPossible:
+      throw std::runtime_error(
+          unit.state().robot_mode == franka_core::RobotMode::kMove
+              ? "This cannot be done while a controller moves the arm: stop that controller "
+                "(controller_manager/switch_controller), then try again."
+              : "This cannot be done in the arm's present mode (" +
+                    std::to_string(static_cast<int>(unit.state().robot_mode)) +
+                    " in franka_msgs/FrankaState).");
+  }
+}
+
+/// The setters of franka::Robot for a simulated control unit. Used between ticks.
+/// @throws std::runtime_error with a sentence where the unit refuses
+class UnitSetters {
+ public:
+  using Torques = std::array<double, 7>;  // thresholds [Nm]
+  using Forces = std::array<double, 6>;   // thresholds [N, Nm]
+
+  explicit UnitSetters(franka_sim::ControlUnit& unit) : unit_(unit) {}
+
+  void setEE(const std::array<double, 16>& NE_T_EE) {
+    check(unit_, unit_.setEE(NE_T_EE), notATransform("NE_T_EE", NE_T_EE));
+  }
+  void setK(const std::array<double, 16>& EE_T_K) {
+    check(unit_, unit_.setK(EE_T_K), notATransform("EE_T_K", EE_T_K));
+  }
+  void setLoad(double mass, const std::array<double, 3>& F_x_Cload,
+               const std::array<double, 9>& inertia) {
+    const franka_core::Payload load{mass, F_x_Cload, inertia};
+    check(unit_, unit_.setLoad(load), "The load was refused. " + franka_sim::payloadFault(load));
+  }
+  void setJointImpedance(const std::array<double, 7>& stiffness) {
+    check(unit_, unit_.setJointImpedance(stiffness),
+          "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
+  }
+  void setCartesianImpedance(const std::array<double, 6>& stiffness) {
+    check(unit_, unit_.setCartesianImpedance(stiffness),
+          "cartesian_stiffness must hold three numbers from 10 to 3000 N/m and three from 1 to 300 "
+          "Nm/rad.");
+  }
+  void setCollisionBehavior(const Torques& lower_torques, const Torques& upper_torques,
+                            const Forces& lower_forces, const Forces& upper_forces) {
+    const franka_sim::CollisionThresholds thresholds =
+        checked({lower_torques, upper_torques, lower_forces, upper_forces}, "");
+    check(unit_, unit_.setCollisionBehavior(thresholds, thresholds), kNotThresholds);
+  }
+  void setCollisionBehavior(
+      const Torques& lower_torques_acceleration, const Torques& upper_torques_acceleration,
+      const Torques& lower_torques_nominal, const Torques& upper_torques_nominal,
+      const Forces& lower_forces_acceleration, const Forces& upper_forces_acceleration,
+      const Forces& lower_forces_nominal, const Forces& upper_forces_nominal) {
+    const franka_sim::CollisionThresholds acceleration =
+        checked({lower_torques_acceleration, upper_torques_acceleration, lower_forces_acceleration,
+                 upper_forces_acceleration},
+                "Acceleration phase: ");
+    const franka_sim::CollisionThresholds nominal = checked(
+        {lower_torques_nominal, upper_torques_nominal, lower_forces_nominal, upper_forces_nominal},
+        "Nominal phase: ");
+    check(unit_, unit_.setCollisionBehavior(acceleration, nominal), kNotThresholds);
+  }
+
+ private:
+  franka_sim::ControlUnit& unit_;
+};
+
 }  // namespace
 
 ArmServices::ArmServices(const ros::NodeHandle& node, const std::string& arm_id, SimArm& arm,
@@ -76,9 +135,7 @@ ArmServices::ArmServices(const ros::NodeHandle& node, const std::string& arm_id,
       recovery_(
           control_node_, "error_recovery",
           [this](const franka_msgs::ErrorRecoveryGoalConstPtr& /*goal*/) { recover(); }, false) {
-  offerFrames();
-  offerCollisionBehavior();
-  offerImpedances();
+  offerSetters();
   offerUserStop();
   offerConnection("connect", true);
   offerConnection("disconnect", false);
@@ -120,62 +177,13 @@ void ArmServices::offerBetweenTicks(const std::string& name,
 
 // --- configuration -------------------------------------------------------------------------------
 
-void ArmServices::offerFrames() {
-  offerBetweenTicks<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
-    const std::array<double, 16> NE_T_EE = toArray<16>(request.NE_T_EE);
-    check(arm_.unit().setEE(NE_T_EE), notATransform("NE_T_EE", NE_T_EE));
-  });
-  offerBetweenTicks<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
-    const std::array<double, 16> EE_T_K = toArray<16>(request.EE_T_K);
-    check(arm_.unit().setK(EE_T_K), notATransform("EE_T_K", EE_T_K));
-  });
-  offerBetweenTicks<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
-    const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
-                                    toArray<9>(request.load_inertia)};
-    check(arm_.unit().setLoad(load), "The load was refused. " + franka_sim::payloadFault(load));
-  });
-}
-
-void ArmServices::offerCollisionBehavior() {
-  offerBetweenTicks<franka_msgs::SetForceTorqueCollisionBehavior>(
-      "set_force_torque_collision_behavior", [this](const auto& request) {
-        const franka_sim::CollisionThresholds thresholds =
-            checked({toArray<7>(request.lower_torque_thresholds_nominal),
-                     toArray<7>(request.upper_torque_thresholds_nominal),
-                     toArray<6>(request.lower_force_thresholds_nominal),
-                     toArray<6>(request.upper_force_thresholds_nominal)},
-                    "");
-        check(arm_.unit().setCollisionBehavior(thresholds, thresholds), kNotThresholds);
-      });
-  offerBetweenTicks<franka_msgs::SetFullCollisionBehavior>(
-      "set_full_collision_behavior", [this](const auto& request) {
-        const franka_sim::CollisionThresholds acceleration =
-            checked({toArray<7>(request.lower_torque_thresholds_acceleration),
-                     toArray<7>(request.upper_torque_thresholds_acceleration),
-                     toArray<6>(request.lower_force_thresholds_acceleration),
-                     toArray<6>(request.upper_force_thresholds_acceleration)},
-                    "Acceleration phase: ");
-        const franka_sim::CollisionThresholds nominal =
-            checked({toArray<7>(request.lower_torque_thresholds_nominal),
-                     toArray<7>(request.upper_torque_thresholds_nominal),
-                     toArray<6>(request.lower_force_thresholds_nominal),
-                     toArray<6>(request.upper_force_thresholds_nominal)},
-                    "Nominal phase: ");
-        check(arm_.unit().setCollisionBehavior(acceleration, nominal), kNotThresholds);
-      });
-}
-
-void ArmServices::offerImpedances() {
-  offerBetweenTicks<franka_msgs::SetJointImpedance>(
-      "set_joint_impedance", [this](const auto& request) {
-        check(arm_.unit().setJointImpedance(toArray<7>(request.joint_stiffness)),
-              "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
-      });
-  offerBetweenTicks<
-      franka_msgs::SetCartesianImpedance>("set_cartesian_impedance", [this](const auto& request) {
-    check(arm_.unit().setCartesianImpedance(toArray<6>(request.cartesian_stiffness)),
-          "cartesian_stiffness must hold three numbers from 10 to 3000 N/m and three from 1 to 300 "
-          "Nm/rad.");
+void ArmServices::offerSetters() {
+  franka_hw::forEachSetter([this](auto setter) {
+    using Service = typename decltype(setter)::Service;
+    offerBetweenTicks<Service>(setter.name, [this](const typename Service::Request& request) {
+      UnitSetters setters(arm_.unit());
+      franka_hw::configure(setters, request);
+    });
   });
 }
 
@@ -251,23 +259,6 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
 }
 
 // --- recovery ------------------------------------------------------------------------------------
-
-void ArmServices::check(franka_sim::RequestStatus status, const std::string& why_invalid) {
-  switch (status) {
-    case franka_sim::RequestStatus::kSuccess:
-      return;
-    case franka_sim::RequestStatus::kInvalidArgument:
-      throw std::runtime_error(why_invalid);
-    case franka_sim::RequestStatus::kNotPossible:
-      throw std::runtime_error(
-          arm_.unit().state().robot_mode == franka_core::RobotMode::kMove
-              ? "This cannot be done while a controller moves the arm: stop that controller "
-                "(controller_manager/switch_controller), then try again."
-              : "This cannot be done in the arm's present mode (" +
-                    std::to_string(static_cast<int>(arm_.unit().state().robot_mode)) +
-                    " in franka_msgs/FrankaState).");
-  }
-}
 
 void ArmServices::recover() {
   try {

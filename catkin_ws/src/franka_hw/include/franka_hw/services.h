@@ -6,13 +6,7 @@
 #include <franka/exception.h>
 #include <franka/robot.h>
 #include <franka_hw/robot_mutex.h>
-#include <franka_msgs/SetCartesianImpedance.h>
-#include <franka_msgs/SetEEFrame.h>
-#include <franka_msgs/SetForceTorqueCollisionBehavior.h>
-#include <franka_msgs/SetFullCollisionBehavior.h>
-#include <franka_msgs/SetJointImpedance.h>
-#include <franka_msgs/SetKFrame.h>
-#include <franka_msgs/SetLoad.h>
+#include <franka_hw/setters.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>

@@ -40,9 +40,7 @@ class ArmServices {
   template <typename Service>
   void offerBetweenTicks(const std::string& name,
                          std::function<void(const typename Service::Request&)> handler);
-  void offerFrames();
-  void offerCollisionBehavior();
-  void offerImpedances();
+  void offerSetters();
   void offerUserStop();
   void offerConnection(const std::string& name, bool connects);
   void offerConfiguration();
@@ -52,8 +50,6 @@ class ArmServices {
   bool recovering();
   void restartArmControllers();
   std::vector<std::string> runningArmControllers();
-  /// @throws std::runtime_error with a sentence unless the unit accepted
-  void check(franka_sim::RequestStatus status, const std::string& why_invalid);
 
   ros::NodeHandle node_;
   ros::NodeHandle control_node_;
