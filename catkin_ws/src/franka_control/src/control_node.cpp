@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control_node.h"
 
-#include <franka/exception.h>
-#include <franka_hw/robot_access.h>
 #include <ros/console.h>
 #include <ros/init.h>
-#include <std_msgs/Bool.h>
 
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -19,7 +17,8 @@ namespace franka_control {
 
 namespace {
 
-const ros::WallDuration kAtOnce(0.001);  // a timer of zero is none
+// A timer of zero would never fire.
+const ros::WallDuration kAtOnce(0.001);
 
 }  // namespace
 
@@ -27,153 +26,38 @@ ControlNode::ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle
     : public_nh_(public_nh), private_nh_(private_nh) {}
 
 bool ControlNode::init() {
-  if (!reconnection_.init(private_nh_) ||
+  if (!connection_.init(private_nh_) ||
       !readFlag("restart_controllers_after_recovery", private_nh_, restarts_controllers_) ||
       !franka_hw_.init(public_nh_, private_nh_)) {
     ROS_ERROR("franka_control_node: the robot could not be set up (see above).");
     return false;
   }
-  connected_ = true;
-  private_nh_.getParam("arm_id", arm_id_);
+  std::string arm_id;
+  private_nh_.getParam("arm_id", arm_id);
   robot_state_ = &franka_hw_.get<franka_hw::FrankaStateInterface>()
-                      ->getHandle(arm_id_ + "_robot")
+                      ->getHandle(arm_id + "_robot")
                       .getRobotState();
-  aborts_ = std::make_unique<franka_hw::AbortReporter>(private_nh_, arm_id_);
-  robot_health_ =
-      std::make_unique<RobotHealth>(private_nh_, "Robot", arm_id_, franka_hw_.responseTimes());
-  robot_health_->connected(true);
-  loop_health_ = std::make_unique<LoopHealth>(private_nh_, arm_id_);
-  has_error_publisher_ = private_nh_.advertise<std_msgs::Bool>("has_error", 1, true);
-  setError(false);
+  robot_health_ = std::make_unique<RobotHealth>(private_nh_, "Robot", arm_id, connection_,
+                                                franka_hw_.responseTimes());
+  loop_health_ = std::make_unique<LoopHealth>(private_nh_, arm_id);
   controller_manager_ =
       std::make_unique<controller_manager::ControllerManager>(&franka_hw_, public_nh_);
-  offerConnection();
-  offerRobot();
-  ROS_INFO_STREAM("franka_control_node: the robot '" << arm_id_ << "' is ready.");
+  if (!restarts_controllers_) {
+    connection_.beforeRecovery([this] { stopCommandingControllers(public_nh_); });
+  }
+  connection_.offer(private_nh_, arm_id);
+  ROS_INFO_STREAM("franka_control_node: the robot '" << arm_id << "' is ready.");
   return true;
 }
-
-// --- services ------------------------------------------------------------------------------------
-
-void ControlNode::offerConnection() {
-  connect_server_ = private_nh_.advertiseService("connect", &ControlNode::connectRequested, this);
-  disconnect_server_ =
-      private_nh_.advertiseService("disconnect", &ControlNode::disconnectRequested, this);
-}
-
-void ControlNode::offerRobot() {
-  robot_services_ = std::make_unique<franka_hw::ServiceContainer>();
-  franka_hw::setupServices(franka_hw_.robot(), franka_hw_.robotMutex(), private_nh_,
-                           *robot_services_);
-  recovery_server_ = std::make_unique<RecoveryServer>(
-      private_nh_, "error_recovery", [this](const auto& /*goal*/) { recover(); }, false);
-  recovery_server_->start();
-}
-
-void ControlNode::withdrawRobot() {
-  if (recovery_server_) {
-    // A recovery under way still answers through this pointer: it ends before reset() clears it.
-    recovery_server_->shutdown();
-  }
-  recovery_server_.reset();
-  robot_services_.reset();
-}
-
-bool ControlNode::connectRequested(TriggerRequest& /*request*/, TriggerResponse& response) {
-  const std::lock_guard<std::mutex> lock(connection_mutex_);
-  if (connected_) {
-    response.success = false;
-    response.message = "Already connected to robot. Cannot connect twice.";
-    return true;
-  }
-  try {
-    connectRobot();
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = std::string("Failed to connect robot: ") + error.what();
-    ROS_ERROR_STREAM("franka_control_node: " << response.message);
-  }
-  return true;
-}
-
-void ControlNode::connectRobot() {
-  withdrawRobot();
-  franka_hw_.connect();
-  {
-    const std::lock_guard<std::mutex> lock(franka_hw_.robotMutex());
-    franka_hw_.update(franka_hw_.robot().readOnce());
-  }
-  offerRobot();
-  lost_ = false;
-  connected_ = true;
-  robot_health_->connected(true);
-  ROS_INFO("franka_control_node: connected to the robot.");
-}
-
-bool ControlNode::disconnectRequested(TriggerRequest& /*request*/, TriggerResponse& response) {
-  const std::lock_guard<std::mutex> lock(connection_mutex_);
-  if (franka_hw_.controllerActive()) {
-    response.success = false;
-    response.message = "Controller is active. Cannot disconnect while a controller is running.";
-    return true;
-  }
-  connected_ = false;
-  withdrawRobot();
-  response.success = franka_hw_.disconnect();
-  response.message = response.success ? "" : "Failed to disconnect robot.";
-  robot_health_->connected(false);
-  lost_ = false;
-  return true;
-}
-
-bool ControlNode::needsRecovery() const { return has_error_ || franka_hw_.robotStopped(); }
-
-void ControlNode::recover() {
-  try {
-    if (!restarts_controllers_ && needsRecovery()) {
-      stopCommandingControllers(public_nh_);
-    }
-    const auto lock = franka_hw::RobotAccessRequest::takeWhile(franka_hw_.robotMutex(),
-                                                               [this] { return needsRecovery(); });
-    if (!lock) {
-      // The robot is not touched: a recovery ahead of time must not clear an error still to come.
-      ROS_WARN("franka_control_node: error_recovery was called, but there is nothing to recover.");
-      recovery_server_->setSucceeded();
-      return;
-    }
-    ROS_INFO("franka_control_node: recovering from the error.");
-    // An error of the controllers' own (NaN, a lost connection) leaves the robot Idle.
-    if (franka_hw_.robot().readOnce().robot_mode != franka::RobotMode::kIdle) {
-      franka_hw_.robot().automaticErrorRecovery();
-    }
-    setError(false);
-    recovery_server_->setSucceeded();
-    ROS_INFO("franka_control_node: recovered from the error.");
-  } catch (const std::exception& error) {
-    std::string reason = error.what();
-    if (franka_hw_.robotMode() == franka::RobotMode::kUserStopped) {
-      reason += " The user stop is pressed: release it, and the robot goes on by itself.";
-    }
-    ROS_ERROR_STREAM("franka_control_node: the robot did not recover. " << reason);
-    recovery_server_->setAborted(franka_msgs::ErrorRecoveryResult(), reason);
-  }
-}
-
-// --- the loop ------------------------------------------------------------------------------------
 
 void ControlNode::run() {
   last_update_ = franka_hw_.stateTime();
   while (ros::ok()) {
-    if (!connected_) {
-      if (lost_) {
-        reconnection_.attempt(arm_id_, [this] {
-          const std::lock_guard<std::mutex> lock(connection_mutex_);
-          connectRobot();
-        });
-      }
+    connection_.publishError();
+    if (!connection_.connected()) {
+      connection_.reconnect();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } else if (franka_hw_.controllerActive() && !has_error_) {
+    } else if (franka_hw_.controllerActive() && !connection_.hasError()) {
       moveRobot();
     } else {
       watchIdleRobot();
@@ -182,12 +66,13 @@ void ControlNode::run() {
 }
 
 void ControlNode::watchIdleRobot() {
-  try {
-    readIdleRobot();
-  } catch (const franka::Exception& error) {
-    robotLost(error.what());
+  const std::optional<franka::RobotState> state = connection_.readAtRest();
+  if (!state) {
+    interrupted_ = interrupted_ || isLost(connection_.state());
     return;
   }
+  franka_hw_.update(*state);
+  robot_health_->state(*state);
   const ros::Time now = franka_hw_.stateTime();
   try {
     updateControllers(now, now - last_update_, false);
@@ -196,27 +81,25 @@ void ControlNode::watchIdleRobot() {
   }
   franka_hw_.checkJointLimits();
   last_update_ = now;
-  if (has_error_ && robot_stopped_ && franka_hw_.robotMode() == franka::RobotMode::kIdle) {
+  if (connection_.state() == franka_hw::ArmState::kStopped &&
+      state->robot_mode == franka::RobotMode::kIdle) {
     recoveredByOthers();
   }
-  franka_hw::RobotAccessRequest::giveWay();
+  connection_.mutex().giveWay();
 }
 
 void ControlNode::controllerThrew(const std::string& what) {
   thrown_report_.report("franka_control_node", what,
                         "The robot is not moved until the controller has been stopped "
                         "(controller_manager/switch_controller) and error_recovery called.");
-  robot_stopped_ = false;  // the error does not end because the robot is Idle
-  if (!has_error_) {
-    interrupted_ = true;
-    setError(true);
-  }
+  interrupted_ = interrupted_ || !connection_.hasError();
+  connection_.fail();
 }
 
 void ControlNode::recoveredByOthers() {
   // Somebody else recovered the robot, or released the user stop.
   if (restarts_controllers_ || !franka_hw_.controllerActive()) {
-    setError(false);
+    connection_.recoveredElsewhere();
   } else if (!stopping_controllers_.exchange(true)) {
     // Stopping waits for this loop.
     stop_timer_ = public_nh_.createWallTimer(
@@ -229,31 +112,13 @@ void ControlNode::recoveredByOthers() {
   }
 }
 
-void ControlNode::readIdleRobot() {
-  const std::lock_guard<std::mutex> lock(franka_hw_.robotMutex());
-  if (!franka_hw_.connected()) {
-    return;
-  }
-  const franka::RobotState state = franka_hw_.readPatiently();
-  franka_hw_.update(state);
-  robot_health_->state(state);
-}
-
 void ControlNode::moveRobot() {
-  try {
+  const bool in_order = connection_.move([this] {
     franka_hw_.control([this](const ros::Time& time, const ros::Duration& period) {
       return updateMoving(time, period);
     });
-  } catch (const franka::ControlException& error) {
-    motionFailed(error.what(), error.log);
-    robot_stopped_ = true;
-  } catch (const franka::NetworkException& error) {
-    aborts_->report(error.what(), {});
-    robotLost(error.what());
-  } catch (const std::exception& error) {
-    motionFailed(error.what(), {});
-    robot_stopped_ = false;
-  }
+  });
+  interrupted_ = interrupted_ || !in_order;
   last_update_ = franka_hw_.stateTime();
 }
 
@@ -287,34 +152,6 @@ void ControlNode::updateControllers(const ros::Time& time, const ros::Duration& 
     throw std::runtime_error("something that is no std::exception.");
   }
   loop_health_->cycleEnds();
-}
-
-void ControlNode::motionFailed(const std::string& what, const std::vector<franka::Record>& log) {
-  interrupted_ = true;
-  setError(true);
-  aborts_->report(what, log);
-}
-
-void ControlNode::setError(bool has_error) {
-  has_error_ = has_error;
-  robot_health_->hasError(has_error);
-  std_msgs::Bool message;
-  message.data = has_error;
-  has_error_publisher_.publish(message);
-}
-
-void ControlNode::robotLost(const std::string& what) {
-  const std::lock_guard<std::mutex> lock(connection_mutex_);
-  ROS_ERROR_STREAM("franka_control_node: " << reconnection_.report(what));
-  connected_ = false;
-  lost_ = true;
-  // What ran when it was lost must not move it when it is back, unless somebody says so.
-  robot_stopped_ = false;
-  interrupted_ = true;
-  robot_health_->connected(false);
-  setError(franka_hw_.controllerActive() || has_error_);
-  withdrawRobot();
-  franka_hw_.dropConnection();
 }
 
 }  // namespace franka_control

@@ -39,21 +39,15 @@ constexpr char kUsage[] =
 class ArmHealth {
  public:
   ArmHealth(const ros::NodeHandle& nh, franka_hw::FrankaCombinableHW& arm)
-      : arm_(arm),
-        state_(arm.get<franka_hw::FrankaStateInterface>()
+      : state_(arm.get<franka_hw::FrankaStateInterface>()
                    ->getHandle(arm.getArmID() + "_robot")
                    .getRobotState()),
-        health_(nh, arm.getArmID(), arm.getArmID(), arm.responseTimes()) {}
+        health_(nh, arm.getArmID(), arm.getArmID(), arm.armConnection(), arm.responseTimes()) {}
 
   /// Once a cycle, after read().
-  void update() {
-    health_.connected(arm_.connected());
-    health_.hasError(arm_.hasOwnError());
-    health_.state(state_);
-  }
+  void update() { health_.state(state_); }
 
  private:
-  franka_hw::FrankaCombinableHW& arm_;
   const franka::RobotState& state_;
   franka_control::RobotHealth health_;
 };

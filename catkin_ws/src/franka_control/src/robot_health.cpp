@@ -28,19 +28,21 @@ std::string modeName(franka::RobotMode mode) {
 }  // namespace
 
 RobotHealth::RobotHealth(const ros::NodeHandle& nh, const std::string& name,
-                         const std::string& arm_id, franka_hw::ResponseTimes& response_times)
-    : response_times_(response_times),
+                         const std::string& arm_id, const franka_hw::ArmConnection& connection,
+                         franka_hw::ResponseTimes& response_times)
+    : connection_(connection),
+      response_times_(response_times),
       status_(nh, name, arm_id, [this](auto& status) { describe(status); }) {}
 
 void RobotHealth::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  if (!connected_) {
+  if (!connection_.connected()) {
     status.summary(DiagnosticStatus::ERROR, "Not connected to the robot");
     return;
   }
   const franka::RobotState& state = states_.read();
   const bool moving = state.robot_mode == franka::RobotMode::kMove;
   const std::string errors = static_cast<std::string>(state.current_errors);
-  if (has_error_ || state.current_errors) {
+  if (connection_.hasOwnError() || state.current_errors) {
     status.summary(DiagnosticStatus::ERROR, "In error; call the action error_recovery");
   } else if (state.robot_mode != franka::RobotMode::kIdle && !moving) {
     status.summary(DiagnosticStatus::WARN, "The robot takes no commands in this mode");

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <franka/robot_state.h>
+#include <franka_hw/arm_connection.h>
 #include <franka_hw/latest.h>
 #include <franka_hw/response_times.h>
 #include <ros/node_handle.h>
 
-#include <atomic>
 #include <string>
 
 #include "status.h"
@@ -20,22 +20,19 @@ namespace franka_control {
 /// The loop calls `state`, which neither locks nor allocates.
 class RobotHealth {
  public:
-  /// @param name of the status @param arm_id names the robot
+  /// @param name of the status @param arm_id names the robot @param connection to it
   /// @param response_times of the robot; reports are taken here alone
   RobotHealth(const ros::NodeHandle& nh, const std::string& name, const std::string& arm_id,
-              franka_hw::ResponseTimes& response_times);
+              const franka_hw::ArmConnection& connection, franka_hw::ResponseTimes& response_times);
 
   void state(const franka::RobotState& robot_state) noexcept { states_.write(robot_state); }
-  void connected(bool connected) noexcept { connected_ = connected; }
-  void hasError(bool has_error) noexcept { has_error_ = has_error; }
 
  private:
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   franka_hw::Latest<franka::RobotState> states_;
+  const franka_hw::ArmConnection& connection_;
   franka_hw::ResponseTimes& response_times_;
-  std::atomic_bool connected_{false};
-  std::atomic_bool has_error_{false};
   Status status_;
 };
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 catkin_add_gtest(franka_hw_test
+  test/arm_connection_test.cpp
+  test/arm_state_test.cpp
   test/control_mode_test.cpp
   test/handles_test.cpp
   test/main.cpp
@@ -9,6 +11,7 @@ catkin_add_gtest(franka_hw_test
   test/resource_helpers_test.cpp
   test/response_times_test.cpp
   test/robot_mismatch_test.cpp
+  test/setters_test.cpp
   test/trigger_rate_test.cpp
 )
 target_compile_options(franka_hw_test PRIVATE -Wall -Wextra)

@@ -1,44 +1,38 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka/exception.h>
 #include <franka_hw/franka_combinable_hw.h>
 #include <franka_hw/resource_helpers.h>
-#include <franka_hw/robot_access.h>
 #include <pluginlib/class_list_macros.h>
 #include <ros/console.h>
 #include <ros/init.h>
-#include <std_msgs/Bool.h>
 
 #include <chrono>
+#include <optional>
+#include <utility>
 
 namespace franka_hw {
 
 FrankaCombinableHW::~FrankaCombinableHW() {
-  connect_server_.shutdown();  // waits for a call under way
-  disconnect_server_.shutdown();
   ending_ = true;
   controller_active_ = false;
   if (control_loop_thread_.joinable()) {
     control_loop_thread_.join();
   }
+  connection_.close();
 }
 
 bool FrankaCombinableHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
-  robot_hw_nh_ = robot_hw_nh;
-  has_error_publisher_ = robot_hw_nh.advertise<std_msgs::Bool>("has_error", 1, true);
-  publishErrorState();
-  if (!reconnection_.init(robot_hw_nh) || !FrankaHW::init(root_nh, robot_hw_nh)) {
+  if (!connection_.init(robot_hw_nh) || !FrankaHW::init(root_nh, robot_hw_nh)) {
     return false;
   }
-  offerConnection();
+  connection_.offer(robot_hw_nh, arm_id_);
+  control_loop_thread_ = std::thread(&FrankaCombinableHW::controlLoop, this);
   return true;
 }
 
 void FrankaCombinableHW::initRobot() {
   FrankaHW::initRobot();
-  aborts_ = std::make_unique<AbortReporter>(robot_hw_nh_, arm_id_);
   states_.write({robot_state_libfranka_, ResponseTimes::Clock::now()});
-  control_loop_thread_ = std::thread(&FrankaCombinableHW::controlLoop, this);
 }
 
 void FrankaCombinableHW::initROSInterfaces(ros::NodeHandle& /*robot_hw_nh*/) {
@@ -48,161 +42,26 @@ void FrankaCombinableHW::initROSInterfaces(ros::NodeHandle& /*robot_hw_nh*/) {
   setupLimitInterface(effort_joint_limit_interface_, effort_joint_interface_);
   setupFrankaStateInterface(robot_state_ros_);
   setupFrankaModelInterface(robot_state_ros_);
-  const std::lock_guard<std::mutex> lock(connection_mutex_);
-  offerRobot();
-}
-
-// --- connection ----------------------------------------------------------------------------------
-
-void FrankaCombinableHW::connect() {
-  const std::lock_guard<std::mutex> lock(connection_mutex_);
-  if (connected()) {
-    return;
-  }
-  FrankaHW::connect();
-  lost_ = false;
-  if (initialized_) {
-    offerRobot();
-    ROS_INFO_STREAM("FrankaCombinableHW: connected to '" << arm_id_ << "'.");
-  }
-}
-
-bool FrankaCombinableHW::disconnect() {
-  const std::lock_guard<std::mutex> lock(connection_mutex_);
-  if (!controllerActive()) {
-    withdrawRobot();  // the services refer to the robot that goes
-    lost_ = false;
-    setError(false);
-  }
-  return FrankaHW::disconnect();
-}
-
-void FrankaCombinableHW::lose(const std::string& what) {
-  const std::lock_guard<std::mutex> lock(connection_mutex_);
-  if (!connected()) {
-    return;  // given up by somebody meanwhile
-  }
-  ROS_ERROR_STREAM(arm_id_ << ": " << reconnection_.report(what));
-  setError(true);
-  lost_ = true;
-  withdrawRobot();
-  dropConnection();
-}
-
-void FrankaCombinableHW::offerConnection() {
-  connect_server_ =
-      robot_hw_nh_.advertiseService("connect", &FrankaCombinableHW::connectRequested, this);
-  disconnect_server_ =
-      robot_hw_nh_.advertiseService("disconnect", &FrankaCombinableHW::disconnectRequested, this);
-}
-
-bool FrankaCombinableHW::connectRequested(TriggerRequest& /*request*/, TriggerResponse& response) {
-  response.success = false;
-  if (connected()) {
-    response.message = "Already connected to robot. Cannot connect twice.";
-    return true;
-  }
-  try {
-    connect();
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.message = "Failed to connect '" + arm_id_ + "': " + error.what();
-    ROS_ERROR_STREAM("FrankaCombinableHW: " << response.message);
-  }
-  return true;
-}
-
-bool FrankaCombinableHW::disconnectRequested(TriggerRequest& /*request*/,
-                                             TriggerResponse& response) {
-  response.success = disconnect();
-  response.message = response.success ? ""
-                                      : "A controller commands '" + arm_id_ +
-                                            "'. Cannot disconnect while it is running.";
-  return true;
-}
-
-void FrankaCombinableHW::withdrawRobot() {
-  connected_ = false;
-  if (recovery_server_) {
-    // A recovery under way still answers through this pointer: it ends before reset() clears it.
-    recovery_server_->shutdown();
-  }
-  recovery_server_.reset();
-  services_.reset();
-}
-
-void FrankaCombinableHW::offerRobot() {
-  if (!connected()) {
-    ROS_ERROR_STREAM("FrankaCombinableHW: '"
-                     << arm_id_ << "' is not connected: its services are not offered.");
-    return;
-  }
-  services_ = std::make_unique<ServiceContainer>();
-  setupServices(*robot_, robotMutex(), robot_hw_nh_, *services_);
-  recovery_server_ = std::make_unique<RecoveryServer>(
-      robot_hw_nh_, "error_recovery", [this](const auto& /*goal*/) { recover(); }, false);
-  recovery_server_->start();
 }
 
 // --- errors --------------------------------------------------------------------------------------
 
 void FrankaCombinableHW::beforeRecovery(std::function<void()> task) {
-  before_recovery_ = std::move(task);
+  connection_.beforeRecovery(std::move(task));
 }
 
-void FrankaCombinableHW::recover() {
-  try {
-    if (needsRecovery() && before_recovery_) {
-      before_recovery_();
-    }
-    resetError();
-    recovery_server_->setSucceeded();
-  } catch (const std::exception& error) {
-    ROS_ERROR_STREAM("FrankaCombinableHW: '" << arm_id_ << "' did not recover: " << error.what());
-    recovery_server_->setAborted(franka_msgs::ErrorRecoveryResult(), error.what());
-  }
-}
+void FrankaCombinableHW::resetError() { connection_.recover(); }
 
-void FrankaCombinableHW::resetError() {
-  {
-    const auto lock =
-        RobotAccessRequest::takeWhile(robot_mutex_, [this] { return needsRecovery(); });
-    if (!lock) {
-      // The robot is not touched: a recovery ahead of time must not clear an error still to come.
-      ROS_WARN_STREAM("FrankaCombinableHW: a recovery of '"
-                      << arm_id_ << "' was asked for, but there is nothing to recover.");
-      return;
-    }
-    if (!robot_) {
-      throw franka::NetworkException("FrankaCombinableHW: '" + arm_id_ +
-                                     "' is not connected, so it cannot recover. Call the service "
-                                     "connect first.");
-    }
-    // An error of the controllers' own (NaN, a lost connection) leaves the robot Idle.
-    if (robot_->readOnce().robot_mode != franka::RobotMode::kIdle) {
-      robot_->automaticErrorRecovery();
-    }
-  }
-  if (has_error_) {
-    error_recovered_ = true;
-  }
-  setError(false);
-}
+bool FrankaCombinableHW::needsRecovery() const noexcept { return connection_.needsRecovery(); }
 
-bool FrankaCombinableHW::needsRecovery() const noexcept { return has_error_ || robotStopped(); }
+void FrankaCombinableHW::triggerError() { connection_.fail(); }
 
-void FrankaCombinableHW::triggerError() { setError(true); }
+bool FrankaCombinableHW::hasError() const noexcept { return connection_.hasError(); }
 
-bool FrankaCombinableHW::hasError() const noexcept { return has_error_ || waits_for_others_; }
-
-bool FrankaCombinableHW::hasOwnError() const noexcept { return has_error_; }
+bool FrankaCombinableHW::hasOwnError() const noexcept { return connection_.hasOwnError(); }
 
 void FrankaCombinableHW::waitForOthers(bool waits) {
-  if (waits_for_others_.exchange(waits) == waits) {
-    return;
-  }
-  error_changed_ = true;
-  if (!waits) {
+  if (connection_.waitForOthers(waits) && !waits) {
     error_recovered_ = true;
   }
 }
@@ -211,78 +70,31 @@ bool FrankaCombinableHW::controllerNeedsReset() const noexcept { return controll
 
 std::string FrankaCombinableHW::getArmID() const noexcept { return arm_id_; }
 
-void FrankaCombinableHW::setError(bool has_error) {
-  // The controllers' loop sets errors, too: the arm's thread publishes them.
-  if (has_error_.exchange(has_error) != has_error) {
-    error_changed_ = true;
-  }
-}
-
-void FrankaCombinableHW::publishErrorState() {
-  std_msgs::Bool message;
-  message.data = hasError();
-  has_error_publisher_.publish(message);
-}
-
 // --- the arm's thread ----------------------------------------------------------------------------
 
 void FrankaCombinableHW::controlLoop() {
   while (ros::ok() && !ending_) {
-    if (error_changed_.exchange(false)) {
-      publishErrorState();
-    }
+    connection_.publishError();
     if (controllerActive() && !hasError() && connected()) {
-      moveRobot();
+      connection_.move([this] { control(); });
+      motion_ended_ = ResponseTimes::Clock::now();
     } else {
       watchRobot();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      RobotAccessRequest::giveWay();
+      robot_mutex_.giveWay();
     }
   }
 }
 
 void FrankaCombinableHW::watchRobot() {
-  if (connected()) {
-    readIdleRobot();
-    return;
-  }
-  if (controllerActive()) {
-    setError(true);  // it was given up in the moment in which a controller started
-  }
-  if (lost_ && initialized_) {
-    reconnection_.attempt(arm_id_, [this] { connect(); });
-  }
-}
-
-void FrankaCombinableHW::readIdleRobot() {
-  try {
-    const std::lock_guard<std::mutex> lock(robot_mutex_);
-    if (robot_ && initialized_) {
-      const franka::RobotState state = readPatiently();
-      states_.write({state, ResponseTimes::Clock::now()});
+  if (const std::optional<franka::RobotState> state = connection_.readAtRest()) {
+    states_.write({*state, ResponseTimes::Clock::now()});
+  } else {
+    if (controllerActive()) {
+      connection_.fail();  // it was given up in the moment in which a controller started
     }
-  } catch (const franka::Exception& error) {
-    lose(error.what());
+    connection_.reconnect();
   }
-}
-
-void FrankaCombinableHW::moveRobot() {
-  try {
-    control();
-  } catch (const franka::ControlException& error) {
-    abort(error.what(), error.log);
-  } catch (const franka::NetworkException& error) {
-    aborts_->report(error.what(), {});
-    lose(error.what());
-  } catch (const std::exception& error) {
-    abort(error.what(), {});
-  }
-  motion_ended_ = ResponseTimes::Clock::now();
-}
-
-void FrankaCombinableHW::abort(const std::string& what, const std::vector<franka::Record>& log) {
-  setError(true);
-  aborts_->report(what, log);
 }
 
 void FrankaCombinableHW::control(
@@ -291,11 +103,10 @@ void FrankaCombinableHW::control(
   if (!controllerActive()) {
     return;
   }
-  const std::lock_guard<std::mutex> lock(robot_mutex_);
-  if (!robot_) {
+  const ArmConnection::Motion motion(connection_);
+  if (!motion) {
     return;
   }
-  const RobotInMotion in_motion(robot_mutex_);
   response_times_.motionBegins();
   try {
     run_function_(*robot_, Callback());

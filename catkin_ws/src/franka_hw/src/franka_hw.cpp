@@ -23,8 +23,6 @@ constexpr double kLimitReportPeriod = 5.0;
 constexpr double kLimitCheckPeriod = 0.5;
 // Between two attempts to reach a robot that is starting. [s]
 constexpr double kConnectPeriod = 0.2;
-// How often a robot that rests is asked for a state before it counts as gone.
-constexpr int kReadAttempts = 3;
 // For somebody whose robot does not answer because there is none.
 constexpr char kNoRobot[] =
     " Without a robot, start a simulated one: give the launch file sim:=true, or run "
@@ -49,6 +47,8 @@ FrankaHW::FrankaHW()
     position = kNan;
   }
 }
+
+FrankaHW::~FrankaHW() { connection_.close(); }
 
 bool FrankaHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
   if (initialized_) {
@@ -98,11 +98,9 @@ void FrankaHW::connectInTime() {
   }
 }
 
-void FrankaHW::connect() {
-  const std::lock_guard<std::mutex> lock(robot_mutex_);
-  if (robot_) {
-    return;
-  }
+void FrankaHW::connect() { connection_.connect(); }
+
+std::unique_ptr<franka::Robot> FrankaHW::openRobot() {
   auto robot = std::make_unique<franka::Robot>(robot_ip_, realtime_config_);
   const CollisionConfig& config = collision_config_;
   robot->setCollisionBehavior(
@@ -110,11 +108,10 @@ void FrankaHW::connect() {
       config.lower_torque_thresholds_nominal, config.upper_torque_thresholds_nominal,
       config.lower_force_thresholds_acceleration, config.upper_force_thresholds_acceleration,
       config.lower_force_thresholds_nominal, config.upper_force_thresholds_nominal);
-  // Only a robot that is completely set up counts as connected.
+  robot_mode_ = robot->readOnce().robot_mode;
   protocol_ = robot->serverVersion();
-  robot_ = std::move(robot);
-  connected_ = true;
   warnOfRefusals();
+  return robot;
 }
 
 bool FrankaHW::disconnect() {
@@ -123,16 +120,12 @@ bool FrankaHW::disconnect() {
     return false;
   }
   dropConnection();
-  return true;
+  return !connected();
 }
 
-void FrankaHW::dropConnection() {
-  const std::lock_guard<std::mutex> lock(robot_mutex_);
-  connected_ = false;
-  robot_.reset();
-}
+void FrankaHW::dropConnection() { connection_.disconnect(); }
 
-bool FrankaHW::connected() { return connected_; }
+bool FrankaHW::connected() { return connection_.connected(); }
 
 franka::Robot& FrankaHW::robot() const {
   if (!initialized_ || !robot_) {
@@ -143,14 +136,9 @@ franka::Robot& FrankaHW::robot() const {
   return *robot_;
 }
 
-std::mutex& FrankaHW::robotMutex() { return robot_mutex_; }
+RobotMutex& FrankaHW::robotMutex() { return robot_mutex_; }
 
 franka::RobotMode FrankaHW::robotMode() const { return robot_mode_; }
-
-bool FrankaHW::robotStopped() const noexcept {
-  const franka::RobotMode mode = robot_mode_;
-  return mode == franka::RobotMode::kReflex || mode == franka::RobotMode::kUserStopped;
-}
 
 // --- interfaces ----------------------------------------------------------------------------------
 
@@ -209,18 +197,6 @@ void FrankaHW::setupFrankaModelInterface(franka::RobotState& robot_state) {
 }
 
 // --- state and commands --------------------------------------------------------------------------
-
-franka::RobotState FrankaHW::readPatiently() {
-  for (int left = kReadAttempts - 1;; left--) {
-    try {
-      return robot().readOnce();
-    } catch (const franka::NetworkException&) {
-      if (left == 0 || !ros::ok()) {
-        throw;
-      }
-    }
-  }
-}
 
 void FrankaHW::update(const franka::RobotState& robot_state) {
   robot_state_libfranka_ = robot_state;

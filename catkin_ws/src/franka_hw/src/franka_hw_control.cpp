@@ -3,7 +3,6 @@
 // FrankaHW: the switch of controllers, and the motion.
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/resource_helpers.h>
-#include <franka_hw/robot_access.h>
 #include <ros/console.h>
 
 #include <chrono>
@@ -217,11 +216,14 @@ void FrankaHW::control(
     return ros_callback(time, ros::Duration(time_step.toSec()));
   };
 
-  const std::lock_guard<std::mutex> lock(robot_mutex_);
-  const RobotInMotion in_motion(robot_mutex_);
+  const ArmConnection::Motion motion(connection_);
+  franka::Robot& connected_robot = robot();
+  if (!motion) {
+    return;
+  }
   response_times_.motionBegins();
   try {
-    run_function_(robot(), once_a_state);
+    run_function_(connected_robot, once_a_state);
   } catch (const MotionInterrupted&) {
     // The robot was told to stop and braked by itself.
   }

@@ -3,13 +3,7 @@
 #include <controller_manager_msgs/ListControllers.h>
 #include <controller_manager_msgs/SwitchController.h>
 #include <franka_core/transform.h>
-#include <franka_msgs/SetCartesianImpedance.h>
-#include <franka_msgs/SetEEFrame.h>
-#include <franka_msgs/SetForceTorqueCollisionBehavior.h>
-#include <franka_msgs/SetFullCollisionBehavior.h>
-#include <franka_msgs/SetJointImpedance.h>
-#include <franka_msgs/SetKFrame.h>
-#include <franka_msgs/SetLoad.h>
+#include <franka_hw/setters.h>
 #include <franka_sim/robot/parameter_checks.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/arm_services.h>
@@ -20,6 +14,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -35,14 +30,6 @@ constexpr double kSwitchTimeout = 3.0;     ///< [s]
 constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit gives up after 5 s of its own
 constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
 constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
-
-/// The messages contain boost arrays.
-template <std::size_t N, typename Array>
-std::array<double, N> toArray(const Array& values) {
-  std::array<double, N> result;
-  std::copy(values.begin(), values.end(), result.begin());
-  return result;
-}
 
 std::string notATransform(const std::string& name, const std::array<double, 16>& matrix) {
   return name + " is no column-major 4x4 transform to a frame on the arm: " +
@@ -64,6 +51,78 @@ franka_sim::CollisionThresholds checked(const franka_sim::CollisionThresholds& t
   return thresholds;
 }
 
+/// The setters of franka::Robot for a simulated control unit. Used between ticks.
+/// @throws std::runtime_error with a sentence where the unit refuses
+class UnitSetters {
+ public:
+  using Torques = std::array<double, 7>;  // thresholds [Nm]
+  using Forces = std::array<double, 6>;   // thresholds [N, Nm]
+
+  explicit UnitSetters(franka_sim::ControlUnit& unit) : unit_(unit) {}
+
+  void setEE(const std::array<double, 16>& NE_T_EE) {
+    request(codec::SetNEToEERequest{NE_T_EE}, notATransform("NE_T_EE", NE_T_EE));
+  }
+  void setK(const std::array<double, 16>& EE_T_K) {
+    request(codec::SetEEToKRequest{EE_T_K}, notATransform("EE_T_K", EE_T_K));
+  }
+  void setLoad(double mass, const std::array<double, 3>& F_x_Cload,
+               const std::array<double, 9>& inertia) {
+    const franka_core::Payload load{mass, F_x_Cload, inertia};
+    request(franka_sim::loadRequest(load),
+            "The load was refused. " + franka_sim::payloadFault(load));
+  }
+  void setJointImpedance(const std::array<double, 7>& stiffness) {
+    request(codec::SetJointImpedanceRequest{stiffness},
+            "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
+  }
+  void setCartesianImpedance(const std::array<double, 6>& stiffness) {
+    request(
+        codec::SetCartesianImpedanceRequest{stiffness},
+        "cartesian_stiffness must hold three numbers from 10 to 3000 N/m and three from 1 to 300 "
+        "Nm/rad.");
+  }
+  void setCollisionBehavior(const Torques& lower_torques, const Torques& upper_torques,
+                            const Forces& lower_forces, const Forces& upper_forces) {
+    const franka_sim::CollisionThresholds thresholds =
+        checked({lower_torques, upper_torques, lower_forces, upper_forces}, "");
+    request(franka_sim::collisionRequest(thresholds, thresholds), kNotThresholds);
+  }
+  void setCollisionBehavior(
+      const Torques& lower_torques_acceleration, const Torques& upper_torques_acceleration,
+      const Torques& lower_torques_nominal, const Torques& upper_torques_nominal,
+      const Forces& lower_forces_acceleration, const Forces& upper_forces_acceleration,
+      const Forces& lower_forces_nominal, const Forces& upper_forces_nominal) {
+    const franka_sim::CollisionThresholds acceleration =
+        checked({lower_torques_acceleration, upper_torques_acceleration, lower_forces_acceleration,
+                 upper_forces_acceleration},
+                "Acceleration phase: ");
+    const franka_sim::CollisionThresholds nominal = checked(
+        {lower_torques_nominal, upper_torques_nominal, lower_forces_nominal, upper_forces_nominal},
+        "Nominal phase: ");
+    request(franka_sim::collisionRequest(acceleration, nominal), kNotThresholds);
+  }
+
+ private:
+  void request(const franka_sim::UnitRequest& request, const std::string& why_invalid) {
+    const std::optional<Status> status = unit_.request(request);
+    if (status == Status::kInvalidArgumentRejected) {
+      throw std::runtime_error(why_invalid);
+    }
+    if (status != Status::kSuccess) {
+      throw std::runtime_error(
+          unit_.state().robot_mode == franka_core::RobotMode::kMove
+              ? "This cannot be done while a controller moves the arm: stop that controller "
+                "(controller_manager/switch_controller), then try again."
+              : "This cannot be done in the arm's present mode (" +
+                    std::to_string(static_cast<int>(unit_.state().robot_mode)) +
+                    " in franka_msgs/FrankaState).");
+    }
+  }
+
+  franka_sim::ControlUnit& unit_;
+};
+
 }  // namespace
 
 ArmServices::ArmServices(const ros::NodeHandle& node, const std::string& arm_id, SimArm& arm,
@@ -79,9 +138,7 @@ ArmServices::ArmServices(const ros::NodeHandle& node, const std::string& arm_id,
       recovery_(
           control_node_, "error_recovery",
           [this](const franka_msgs::ErrorRecoveryGoalConstPtr& /*goal*/) { recover(); }, false) {
-  offerFrames();
-  offerCollisionBehavior();
-  offerImpedances();
+  offerSetters();
   offerUserStop();
   offerConnection("connect", true);
   offerConnection("disconnect", false);
@@ -123,67 +180,13 @@ void ArmServices::offerBetweenTicks(const std::string& name,
 
 // --- configuration -------------------------------------------------------------------------------
 
-void ArmServices::offerFrames() {
-  offerBetweenTicks<franka_msgs::SetEEFrame>("set_EE_frame", [this](const auto& request) {
-    const std::array<double, 16> NE_T_EE = toArray<16>(request.NE_T_EE);
-    check(arm_.unit().request(codec::SetNEToEERequest{NE_T_EE}), notATransform("NE_T_EE", NE_T_EE));
-  });
-  offerBetweenTicks<franka_msgs::SetKFrame>("set_K_frame", [this](const auto& request) {
-    const std::array<double, 16> EE_T_K = toArray<16>(request.EE_T_K);
-    check(arm_.unit().request(codec::SetEEToKRequest{EE_T_K}), notATransform("EE_T_K", EE_T_K));
-  });
-  offerBetweenTicks<franka_msgs::SetLoad>("set_load", [this](const auto& request) {
-    const franka_core::Payload load{request.mass, toArray<3>(request.F_x_center_load),
-                                    toArray<9>(request.load_inertia)};
-    check(arm_.unit().request(franka_sim::loadRequest(load)),
-          "The load was refused. " + franka_sim::payloadFault(load));
-  });
-}
-
-void ArmServices::offerCollisionBehavior() {
-  offerBetweenTicks<franka_msgs::SetForceTorqueCollisionBehavior>(
-      "set_force_torque_collision_behavior", [this](const auto& request) {
-        const franka_sim::CollisionThresholds thresholds =
-            checked({toArray<7>(request.lower_torque_thresholds_nominal),
-                     toArray<7>(request.upper_torque_thresholds_nominal),
-                     toArray<6>(request.lower_force_thresholds_nominal),
-                     toArray<6>(request.upper_force_thresholds_nominal)},
-                    "");
-        check(arm_.unit().request(franka_sim::collisionRequest(thresholds, thresholds)),
-              kNotThresholds);
-      });
-  offerBetweenTicks<franka_msgs::SetFullCollisionBehavior>(
-      "set_full_collision_behavior", [this](const auto& request) {
-        const franka_sim::CollisionThresholds acceleration =
-            checked({toArray<7>(request.lower_torque_thresholds_acceleration),
-                     toArray<7>(request.upper_torque_thresholds_acceleration),
-                     toArray<6>(request.lower_force_thresholds_acceleration),
-                     toArray<6>(request.upper_force_thresholds_acceleration)},
-                    "Acceleration phase: ");
-        const franka_sim::CollisionThresholds nominal =
-            checked({toArray<7>(request.lower_torque_thresholds_nominal),
-                     toArray<7>(request.upper_torque_thresholds_nominal),
-                     toArray<6>(request.lower_force_thresholds_nominal),
-                     toArray<6>(request.upper_force_thresholds_nominal)},
-                    "Nominal phase: ");
-        check(arm_.unit().request(franka_sim::collisionRequest(acceleration, nominal)),
-              kNotThresholds);
-      });
-}
-
-void ArmServices::offerImpedances() {
-  offerBetweenTicks<franka_msgs::SetJointImpedance>(
-      "set_joint_impedance", [this](const auto& request) {
-        check(arm_.unit().request(
-                  codec::SetJointImpedanceRequest{toArray<7>(request.joint_stiffness)}),
-              "joint_stiffness must hold seven numbers from 0 to 14250 Nm/rad.");
-      });
-  offerBetweenTicks<
-      franka_msgs::SetCartesianImpedance>("set_cartesian_impedance", [this](const auto& request) {
-    check(arm_.unit().request(
-              codec::SetCartesianImpedanceRequest{toArray<6>(request.cartesian_stiffness)}),
-          "cartesian_stiffness must hold three numbers from 10 to 3000 N/m and three from 1 to 300 "
-          "Nm/rad.");
+void ArmServices::offerSetters() {
+  franka_hw::forEachSetter([this](auto setter) {
+    using Service = typename decltype(setter)::Service;
+    offerBetweenTicks<Service>(setter.name, [this](const typename Service::Request& request) {
+      UnitSetters setters(arm_.unit());
+      franka_hw::configure(setters, request);
+    });
   });
 }
 
@@ -259,21 +262,6 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
 }
 
 // --- recovery ------------------------------------------------------------------------------------
-
-void ArmServices::check(std::optional<Status> status, const std::string& why_invalid) {
-  if (status == Status::kInvalidArgumentRejected) {
-    throw std::runtime_error(why_invalid);
-  }
-  if (status != Status::kSuccess) {
-    throw std::runtime_error(
-        arm_.unit().state().robot_mode == franka_core::RobotMode::kMove
-            ? "This cannot be done while a controller moves the arm: stop that controller "
-              "(controller_manager/switch_controller), then try again."
-            : "This cannot be done in the arm's present mode (" +
-                  std::to_string(static_cast<int>(arm_.unit().state().robot_mode)) +
-                  " in franka_msgs/FrankaState).");
-  }
-}
 
 void ArmServices::recover() {
   try {

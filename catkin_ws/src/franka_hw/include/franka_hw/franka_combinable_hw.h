@@ -2,25 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <actionlib/server/simple_action_server.h>
-#include <franka_hw/abort_reporter.h>
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/latest.h>
-#include <franka_hw/reconnection.h>
-#include <franka_hw/services.h>
-#include <franka_msgs/ErrorRecoveryAction.h>
-#include <ros/publisher.h>
-#include <ros/service_server.h>
-#include <std_srvs/Trigger.h>
 
 #include <atomic>
 #include <functional>
 #include <list>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
 namespace franka_hw {
 
@@ -31,9 +20,8 @@ namespace franka_hw {
 /// arm is published on `has_error` and ends its motion; error_recovery, or resetError(), clears it,
 /// and the controllers are then reset.
 ///
-/// A robot that is lost is such an error, too. The services `connect` and `disconnect` in the arm's
-/// namespace take it again, or give it up, so that the others need not wait for it any more;
-/// with the parameter `reconnect` the arm's thread connects by itself.
+/// A robot that is lost is such an error, too, for the others wait for it until it is given up.
+/// What the arm offers in its namespace and how it recovers and reconnects: ArmConnection.
 class FrankaCombinableHW : public FrankaHW {
  public:
   FrankaCombinableHW() = default;
@@ -42,10 +30,6 @@ class FrankaCombinableHW : public FrankaHW {
 
   bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override;
   void initROSInterfaces(ros::NodeHandle& robot_hw_nh) override;
-
-  void connect() override;
-  /// Also of an arm that is lost: its error is then no longer one.
-  bool disconnect() override;
 
   /// Moves the robot until the controllers are stopped or an error is triggered. In the arm's
   /// thread.
@@ -72,13 +56,11 @@ class FrankaCombinableHW : public FrankaHW {
   /// Ends the motion while another arm has an error, and lets it go on, with the controllers
   /// started anew, when that has recovered. Real-time safe.
   void waitForOthers(bool waits);
-  /// Clears the robot's errors and the one noted here. A robot that is Idle has none. Where nothing
-  /// needs it, only a warning is logged.
-  /// @throws franka::Exception when it refuses or is not connected
+  /// ArmConnection::recover().
   void resetError();
-  /// Whether an error is noted here, or the robot was stopped while no controller moved it.
+  /// ArmConnection::needsRecovery().
   bool needsRecovery() const noexcept;
-  /// What the action error_recovery does before it clears an error. To be set before the first.
+  /// ArmConnection::beforeRecovery().
   void beforeRecovery(std::function<void()> task);
   /// Whether the controllers have to start anew, because an error was cleared.
   bool controllerNeedsReset() const noexcept;
@@ -89,11 +71,6 @@ class FrankaCombinableHW : public FrankaHW {
                       double cutoff_frequency, franka::ControllerMode internal_controller) override;
 
  private:
-  using RecoveryServer = actionlib::SimpleActionServer<franka_msgs::ErrorRecoveryAction>;
-
-  typedef std_srvs::Trigger::Request TriggerRequest;
-  typedef std_srvs::Trigger::Response TriggerResponse;
-
   /// Torques, and when the state arrived that they were computed from.
   struct Answer {
     franka::Torques torques{std::array<double, 7>{}};
@@ -107,40 +84,16 @@ class FrankaCombinableHW : public FrankaHW {
   franka::Torques torqueCallback(const franka::RobotState& robot_state);
   void controlLoop();
   void watchRobot();
-  void readIdleRobot();
-  void moveRobot();
-  void abort(const std::string& what, const std::vector<franka::Record>& log);
-  void lose(const std::string& what);
-  void setError(bool has_error);
-  void publishErrorState();
-  void offerConnection();
-  bool connectRequested(TriggerRequest& request, TriggerResponse& response);
-  bool disconnectRequested(TriggerRequest& request, TriggerResponse& response);
-  void offerRobot();
-  void withdrawRobot();
-  void recover();
-
-  ros::NodeHandle robot_hw_nh_;
-  ros::Publisher has_error_publisher_;
-  std::unique_ptr<AbortReporter> aborts_;
-  ros::ServiceServer connect_server_, disconnect_server_;
-  std::mutex connection_mutex_;  // one at a time connects, disconnects or notices the loss
-  std::unique_ptr<ServiceContainer> services_;
-  std::unique_ptr<RecoveryServer> recovery_server_;
-  std::function<void()> before_recovery_;
-  Reconnection reconnection_;  // of the arm's thread
+  bool lossIsError() const override { return true; }
+  void errorEnds() override { error_recovered_ = true; }
 
   Latest<ArrivedState> states_;
   Latest<Answer> answers_;
   ResponseTimes::Clock::time_point read_arrival_{};  // of the state that the controllers see
   ResponseTimes::Clock::time_point motion_ended_{};  // of the arm's thread
 
-  std::atomic_bool has_error_{false};
-  std::atomic_bool waits_for_others_{false};
-  std::atomic_bool error_changed_{false};  // and not yet published
   std::atomic_bool error_recovered_{false};
   std::atomic_bool controller_needs_reset_{false};
-  std::atomic_bool lost_{false};  // the connection, without being asked to
   std::atomic_bool ending_{false};
   std::thread control_loop_thread_;
 };

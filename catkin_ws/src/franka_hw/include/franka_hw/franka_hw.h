@@ -6,6 +6,7 @@
 #include <franka/duration.h>
 #include <franka/robot.h>
 #include <franka/robot_state.h>
+#include <franka_hw/arm_connection.h>
 #include <franka_hw/control_mode.h>
 #include <franka_hw/franka_cartesian_command_interface.h>
 #include <franka_hw/franka_model_interface.h>
@@ -50,9 +51,9 @@ namespace franka_hw {
 /// update() with readOnce() otherwise; it calls the controller manager in both. All virtual
 /// functions of the control cycle (read, write, update, enforceLimits, checkJointLimits, reset, the
 /// callbacks) belong to that thread and neither allocate, lock nor log. prepareSwitch, connect,
-/// disconnect and the services come from other threads; whoever talks to the robot holds
+/// disconnect and the services come from other threads; a thread that talks to the robot holds
 /// robotMutex(), during a motion control() does.
-class FrankaHW : public hardware_interface::RobotHW {
+class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owner {
  public:
   /// Thresholds of contact and collision, [Nm] and [N, Nm].
   struct CollisionConfig {
@@ -67,7 +68,7 @@ class FrankaHW : public hardware_interface::RobotHW {
   };
 
   FrankaHW();
-  ~FrankaHW() override = default;
+  ~FrankaHW() override;
 
   /// Reads the parameters, connects to the robot and registers the interfaces. Once only. A robot
   /// that cannot be reached is asked again for `connect_timeout` seconds (parameter, 0 unless
@@ -86,28 +87,27 @@ class FrankaHW : public hardware_interface::RobotHW {
 
   /// Connects to the robot and sets its collision behavior; does nothing when connected.
   /// @throws franka::Exception when the robot cannot be reached or refuses
-  virtual void connect();
+  void connect() override;
   /// Ends the connection. @returns false, after a sentence, while a controller commands the robot
-  virtual bool disconnect();
-  /// Lets go of a robot that is lost: no controller commands it any more, and its motion, if it had
-  /// one, has ended.
+  bool disconnect() override;
+  /// Ends the connection also while controllers are active, but not within a motion.
   virtual void dropConnection();
   /// Whether there is a connection.
   virtual bool connected();
+  /// The connection itself: its state, its errors and its services.
+  ArmConnection& armConnection() noexcept { return connection_; }
+  const ArmConnection& armConnection() const noexcept { return connection_; }
 
   /// Moves the robot until the controllers that command it are stopped; returns at once when there
-  /// are none. Holds robotMutex() meanwhile.
+  /// are none, or when armConnection() has an error. Holds robotMutex() meanwhile.
   /// @param ros_callback called once a millisecond of the robot's time, with that time on the clock
   /// of ROS and the time since the last call, which is zero for the first; false ends the motion.
   /// @throws franka::Exception when the motion ends otherwise
   virtual void control(
       const std::function<bool(const ros::Time&, const ros::Duration&)>& ros_callback);
 
-  /// The next state of a robot that rests, for whoever holds robotMutex(). One that is silent for
-  /// longer than libfranka waits is waited for three times as long: a computer that is busy with
-  /// other work may leave a simulated robot without time for a second and more.
-  /// @throws franka::NetworkException when it is gone
-  franka::RobotState readPatiently();
+  /// ArmConnection::readPatiently() of this robot.
+  franka::RobotState readPatiently() { return ArmConnection::readPatiently(robot()); }
 
   /// Takes a robot state over that was read outside of control().
   virtual void update(const franka::RobotState& robot_state);
@@ -148,13 +148,10 @@ class FrankaHW : public hardware_interface::RobotHW {
 
   /// @throws std::logic_error with a sentence when there is no connection
   virtual franka::Robot& robot() const;
-  /// Held by whoever talks to the robot.
-  virtual std::mutex& robotMutex();
+  /// Held by the thread that talks to the robot.
+  virtual RobotMutex& robotMutex();
   /// As of the last state.
-  franka::RobotMode robotMode() const;
-  /// Whether the last state shows a robot that was stopped, by what it met or by the user stop: it
-  /// has to recover before it can be moved.
-  bool robotStopped() const noexcept;
+  franka::RobotMode robotMode() const override;
   /// When the last state was measured, on the clock of ROS: the time that controllers are told.
   /// Never goes back.
   const ros::Time& stateTime() const noexcept { return clock_.time(); }
@@ -273,6 +270,15 @@ class FrankaHW : public hardware_interface::RobotHW {
   /// Connects, loads the model and reads the first state.
   virtual void initRobot();
 
+  /// @name What armConnection() calls
+  /// @{
+  /// Connects, sets the collision behavior, and warns of what will be refused.
+  std::unique_ptr<franka::Robot> openRobot() override;
+  /// While a controller commands the robot.
+  bool lossIsError() const override { return controllerActive(); }
+  void errorEnds() override {}
+  /// @}
+
   /// Ends the motion under way and waits for it. @returns false when it does not end in time
   bool endMotion();
 
@@ -326,8 +332,9 @@ class FrankaHW : public hardware_interface::RobotHW {
   std::mutex libfranka_cmd_mutex_;
   std::mutex ros_cmd_mutex_;
 
-  std::mutex robot_mutex_;
-  std::unique_ptr<franka::Robot> robot_{};
+  ArmConnection connection_{*this};
+  RobotMutex& robot_mutex_{connection_.mutex()};
+  const std::unique_ptr<franka::Robot>& robot_{connection_.robot()};
   std::unique_ptr<franka_hw::ModelBase> model_{};
 
   std::array<std::string, 7> joint_names_;
@@ -339,7 +346,6 @@ class FrankaHW : public hardware_interface::RobotHW {
   franka::RealtimeConfig realtime_config_{franka::RealtimeConfig::kEnforce};
 
   std::atomic_bool initialized_{false};
-  std::atomic_bool connected_{false};
   std::atomic_bool controller_active_{false};
   ControlMode current_control_mode_ = ControlMode::None;
 

@@ -5,13 +5,8 @@
 #include <boost_bind_compat/global_placeholders.h>
 #include <franka/exception.h>
 #include <franka/robot.h>
-#include <franka_msgs/SetCartesianImpedance.h>
-#include <franka_msgs/SetEEFrame.h>
-#include <franka_msgs/SetForceTorqueCollisionBehavior.h>
-#include <franka_msgs/SetFullCollisionBehavior.h>
-#include <franka_msgs/SetJointImpedance.h>
-#include <franka_msgs/SetKFrame.h>
-#include <franka_msgs/SetLoad.h>
+#include <franka_hw/robot_mutex.h>
+#include <franka_hw/setters.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
@@ -66,7 +61,11 @@ class ServiceContainer {
 /// set_cartesian_impedance, set_EE_frame, set_K_frame, set_force_torque_collision_behavior,
 /// set_full_collision_behavior and set_load. While a motion holds the robot they are refused at
 /// once, with a sentence that says what to do, instead of waiting for its end.
-/// @param robot outlives the services @param robot_mutex is held by who uses the robot
+/// @param robot outlives the services @param robot_mutex is held by threads that use the robot
+void setupServices(franka::Robot& robot, RobotMutex& robot_mutex, ros::NodeHandle& node_handle,
+                   ServiceContainer& services);
+/// The same for a robot without a FrankaHW. Such a mutex does not say why it is held: the services
+/// are refused after half a second.
 void setupServices(franka::Robot& robot, std::mutex& robot_mutex, ros::NodeHandle& node_handle,
                    ServiceContainer& services);
 

@@ -10,7 +10,6 @@
 #include <ros/node_handle.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,9 +41,7 @@ class ArmServices {
   template <typename Service>
   void offerBetweenTicks(const std::string& name,
                          std::function<void(const typename Service::Request&)> handler);
-  void offerFrames();
-  void offerCollisionBehavior();
-  void offerImpedances();
+  void offerSetters();
   void offerUserStop();
   void offerConnection(const std::string& name, bool connects);
   void offerConfiguration();
@@ -54,8 +51,6 @@ class ArmServices {
   bool recovering();
   void restartArmControllers();
   std::vector<std::string> runningArmControllers();
-  /// @throws std::runtime_error with a sentence unless the control unit accepted
-  void check(std::optional<franka_sim::Status> status, const std::string& why_invalid);
 
   ros::NodeHandle node_;
   ros::NodeHandle control_node_;

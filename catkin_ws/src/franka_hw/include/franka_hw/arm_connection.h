@@ -1,0 +1,166 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka/log.h>
+#include <franka/robot.h>
+#include <franka/robot_state.h>
+#include <franka_hw/arm_state.h>
+#include <franka_hw/reconnection.h>
+#include <franka_hw/robot_mutex.h>
+#include <ros/node_handle.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace franka_hw {
+
+/// The connection to one robot: the robot, its mutex, the state that the connection is in
+/// (arm_state.h), and what follows from it: recovery, reconnection, reports of aborts and losses.
+///
+/// Once offer() is called, users reach it in ROS: the setters (services.h) and the action
+/// error_recovery while it is connected, the services `connect` and `disconnect` and the latched
+/// topics `has_error` and `abort` always.
+///
+/// Threads: one thread, the robot's, reads the robot, moves it and reconnects. Services, actions
+/// and the owner's other threads do the rest.
+class ArmConnection {
+ public:
+  /// The hardware interface that has the connection. Called from several threads.
+  class Owner {
+   public:
+    virtual ~Owner() = default;
+    /// A robot that is completely set up. @throws franka::Exception
+    virtual std::unique_ptr<franka::Robot> openRobot() = 0;
+    /// What the service `connect` does. @throws franka::Exception
+    virtual void connect() = 0;
+    /// What the service `disconnect` does. @returns false while a controller commands the robot
+    virtual bool disconnect() = 0;
+    /// As of the last state.
+    virtual franka::RobotMode robotMode() const = 0;
+    /// Whether a recovery has to follow if the robot is lost now.
+    virtual bool lossIsError() const = 0;
+    /// Called before a recovery ends an error, while the robot is Idle and locked.
+    virtual void errorEnds() = 0;
+  };
+
+  /// @param owner outlives this
+  explicit ArmConnection(Owner& owner);
+  ~ArmConnection();
+  ArmConnection(const ArmConnection&) = delete;
+  ArmConnection& operator=(const ArmConnection&) = delete;
+
+  /// @name The connection. Thread-safe. Not real-time safe.
+  /// @{
+  /// Connects and offers what needs a robot; does nothing when connected.
+  /// @throws franka::Exception of Owner::openRobot()
+  void connect();
+  /// Ends the connection, and with it an error. @returns false while a motion has the robot
+  bool disconnect();
+  /// @}
+
+  /// Real-time safe. Thread-safe.
+  ArmState state() const noexcept { return state_.state(); }
+  /// Real-time safe. Thread-safe.
+  bool connected() const noexcept { return isConnected(state()); }
+  /// Null while there is none. For the holder of the mutex.
+  const std::unique_ptr<franka::Robot>& robot() const noexcept { return robot_; }
+  RobotMutex& mutex() noexcept { return mutex_; }
+
+  /// @name Errors
+  /// @{
+  /// Reports an error that is not the robot's: the motion, if there is one, ends. Real-time safe.
+  /// Thread-safe.
+  void fail() noexcept { state_.handle(ArmEvent::kFailed); }
+  /// Reports that the robot is Idle without our recovery: its own error has ended. Real-time safe.
+  /// Thread-safe.
+  void recoveredElsewhere() noexcept { state_.handle(ArmEvent::kRecoveredElsewhere); }
+  /// Whether this robot has to recover. Real-time safe. Thread-safe.
+  bool hasOwnError() const noexcept { return isInError(state()); }
+  /// As hasOwnError(), or because this arm waits for another one. Real-time safe. Thread-safe.
+  bool hasError() const noexcept { return hasOwnError() || waits_for_others_; }
+  /// Whether this arm must not move because of the error of another one. @returns whether that is
+  /// new. Real-time safe. Thread-safe.
+  bool waitForOthers(bool waits) noexcept { return waits_for_others_.exchange(waits) != waits; }
+  /// Whether there is an own error, or the robot was stopped while no controller moved it.
+  /// Real-time safe. Thread-safe.
+  bool needsRecovery() const noexcept;
+  /// Clears the robot's error and ends the own one. A robot that is Idle has none. Where nothing
+  /// needs it, only a warning is logged. Thread-safe. Not real-time safe.
+  /// @throws franka::Exception when the robot refuses or is not connected
+  void recover();
+  /// What error_recovery does before it recovers. To be set before the first one.
+  void beforeRecovery(std::function<void()> task) { before_recovery_ = std::move(task); }
+  /// @}
+
+  /// @name For the robot's thread. Not real-time safe.
+  /// @{
+  /// Holds the mutex for a motion. False where none may begin: the robot is not connected, or has
+  /// an error.
+  class Motion {
+   public:
+    explicit Motion(ArmConnection& arm);
+    ~Motion() { state_.handle(ArmEvent::kMotionEnded); }
+    Motion(const Motion&) = delete;
+    Motion& operator=(const Motion&) = delete;
+    explicit operator bool() const noexcept { return begun_; }
+
+   private:
+    std::lock_guard<std::mutex> lock_;
+    ArmStateMachine& state_;
+    bool begun_;
+  };
+  /// Runs `motion`, which holds a Motion, and reports what ended it. After offer().
+  /// @returns whether it ended in order
+  bool move(const std::function<void()>& motion);
+  /// The next state of a robot at rest. @returns none when it is not connected or has just been
+  /// lost, which is reported
+  std::optional<franka::RobotState> readAtRest();
+  /// The same for the holder of the mutex. A robot that is silent for longer than libfranka waits
+  /// is waited for three times as long: a computer that is busy with other work may leave a
+  /// simulated robot without time for a second and more.
+  /// @throws franka::NetworkException when it is gone
+  static franka::RobotState readPatiently(franka::Robot& robot);
+  /// Connects to a robot that was lost, if that is desired and time for it.
+  void reconnect();
+  /// Publishes `has_error` where it has changed. Outside of motions.
+  void publishError();
+  /// @}
+
+  /// @name Set-up, in this order
+  /// @{
+  /// Reads the parameter `reconnect`. @returns false after a sentence when it is wrong
+  bool init(const ros::NodeHandle& nh) { return reconnection_.init(nh); }
+  /// Offers services, action and topics. @param nh their namespace @param arm_id for messages
+  void offer(const ros::NodeHandle& nh, const std::string& arm_id);
+  /// Withdraws what was offered, and waits for calls under way. The robot's thread has ended.
+  void close();
+  /// @}
+
+ private:
+  struct Offer;  // to ROS
+
+  void abort(ArmEvent event, const std::string& what, const std::vector<franka::Record>& log);
+  void lose(const std::string& what);
+  void offerRobot();
+  void withdrawRobot();
+  void handleRecovery();
+
+  Owner& owner_;
+  ArmStateMachine state_;
+  RobotMutex mutex_{state_};
+  std::unique_ptr<franka::Robot> robot_;
+  std::atomic_bool waits_for_others_{false};
+  std::mutex connection_mutex_;  // one at a time connects, disconnects or loses; before mutex_
+  std::unique_ptr<Offer> offer_;
+  std::function<void()> before_recovery_;
+  Reconnection reconnection_;
+};
+
+}  // namespace franka_hw

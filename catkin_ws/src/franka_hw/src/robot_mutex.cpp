@@ -1,0 +1,56 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_hw/robot_mutex.h>
+
+#include <chrono>
+#include <thread>
+
+namespace franka_hw {
+
+namespace {
+
+// Between two attempts to lock.
+constexpr std::chrono::microseconds kMoment{100};
+// How many moments the reading loop gives way at most.
+constexpr int kLongestWay = 50;
+// A thread that only reads a state holds the robot for a millisecond or two, and longer where the
+// machine is busy with other work or the robot silent.
+constexpr std::chrono::milliseconds kSoon{500};
+
+}  // namespace
+
+std::unique_lock<std::mutex> RobotMutex::take() {
+  const Request request(*this);
+  return std::unique_lock<std::mutex>(*this);
+}
+
+std::unique_lock<std::mutex> RobotMutex::takeWhile(const std::function<bool()>& reason) {
+  const Request request(*this);
+  std::unique_lock<std::mutex> lock(*this, std::defer_lock);
+  while (reason() && !lock.try_lock()) {
+    std::this_thread::sleep_for(kMoment);
+  }
+  return lock;
+}
+
+std::unique_lock<std::mutex> RobotMutex::takeSoon(std::mutex& mutex,
+                                                  const std::function<void()>& busy) {
+  const auto deadline = std::chrono::steady_clock::now() + kSoon;
+  std::unique_lock<std::mutex> lock(mutex, std::defer_lock);
+  while (!lock.try_lock() && std::chrono::steady_clock::now() < deadline) {
+    busy();
+    std::this_thread::sleep_for(kMoment);
+  }
+  return lock;
+}
+
+void RobotMutex::giveWay() const {
+  for (int i = 0; i < kLongestWay; i++) {
+    std::this_thread::sleep_for(kMoment);
+    if (waiting_ == 0) {
+      return;
+    }
+  }
+}
+
+}  // namespace franka_hw

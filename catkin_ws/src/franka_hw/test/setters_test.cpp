@@ -1,0 +1,104 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_hw/setters.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace franka_hw {
+namespace {
+
+/// Writes down what it is called with.
+class Recorder {
+ public:
+  using Joints = std::array<double, 7>;
+  using Forces = std::array<double, 6>;
+  using Matrix = std::array<double, 16>;
+
+  void setJointImpedance(const Joints& stiffness) { record("setJointImpedance", stiffness); }
+  void setCartesianImpedance(const Forces& stiffness) {
+    record("setCartesianImpedance", stiffness);
+  }
+  void setEE(const Matrix& NE_T_EE) { record("setEE", NE_T_EE); }
+  void setK(const Matrix& EE_T_K) { record("setK", EE_T_K); }
+  void setLoad(double mass, const std::array<double, 3>& center,
+               const std::array<double, 9>& inertia) {
+    record("setLoad", std::array<double, 1>{mass}, center, inertia);
+  }
+  template <typename... Thresholds>
+  void setCollisionBehavior(const Thresholds&... thresholds) {
+    record("setCollisionBehavior", thresholds...);
+  }
+
+  std::string called;
+  std::vector<double> firsts;  ///< the first number of each argument
+
+ private:
+  template <typename... Arguments>
+  void record(const std::string& name, const Arguments&... arguments) {
+    called = name;
+    firsts = {arguments.front()...};
+  }
+};
+
+template <typename Request>
+Recorder recordOf(const Request& request) {
+  Recorder recorder;
+  configure(recorder, request);
+  return recorder;
+}
+
+TEST(Setters, AreSevenServicesOfDifferentNames) {
+  std::set<std::string> names;
+  forEachSetter([&](auto setter) { names.insert(setter.name); });
+  EXPECT_EQ(
+      (std::set<std::string>{"set_EE_frame", "set_K_frame", "set_cartesian_impedance",
+                             "set_force_torque_collision_behavior", "set_full_collision_behavior",
+                             "set_joint_impedance", "set_load"}),
+      names);
+}
+
+TEST(Setters, CallTheSetterOfTheirName) {
+  EXPECT_EQ("setJointImpedance", recordOf(franka_msgs::SetJointImpedance::Request()).called);
+  EXPECT_EQ("setCartesianImpedance",
+            recordOf(franka_msgs::SetCartesianImpedance::Request()).called);
+  EXPECT_EQ("setEE", recordOf(franka_msgs::SetEEFrame::Request()).called);
+  EXPECT_EQ("setK", recordOf(franka_msgs::SetKFrame::Request()).called);
+}
+
+TEST(Setters, PassTheLoadOn) {
+  franka_msgs::SetLoad::Request request;
+  request.mass = 1.0;
+  request.F_x_center_load.fill(2.0);
+  request.load_inertia.fill(3.0);
+  EXPECT_EQ((std::vector<double>{1.0, 2.0, 3.0}), recordOf(request).firsts);
+}
+
+TEST(Setters, PassNominalThresholdsOnInTheOrderOfTheRobot) {
+  franka_msgs::SetForceTorqueCollisionBehavior::Request request;
+  request.lower_torque_thresholds_nominal.fill(1.0);
+  request.upper_torque_thresholds_nominal.fill(2.0);
+  request.lower_force_thresholds_nominal.fill(3.0);
+  request.upper_force_thresholds_nominal.fill(4.0);
+  EXPECT_EQ((std::vector<double>{1.0, 2.0, 3.0, 4.0}), recordOf(request).firsts);
+}
+
+TEST(Setters, PassAllThresholdsOnInTheOrderOfTheRobot) {
+  franka_msgs::SetFullCollisionBehavior::Request request;
+  request.lower_torque_thresholds_acceleration.fill(1.0);
+  request.upper_torque_thresholds_acceleration.fill(2.0);
+  request.lower_torque_thresholds_nominal.fill(3.0);
+  request.upper_torque_thresholds_nominal.fill(4.0);
+  request.lower_force_thresholds_acceleration.fill(5.0);
+  request.upper_force_thresholds_acceleration.fill(6.0);
+  request.lower_force_thresholds_nominal.fill(7.0);
+  request.upper_force_thresholds_nominal.fill(8.0);
+  EXPECT_EQ((std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0}),
+            recordOf(request).firsts);
+}
+
+}  // namespace
+}  // namespace franka_hw
