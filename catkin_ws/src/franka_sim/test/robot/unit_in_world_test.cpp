@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Control unit and gripper unit on the physics they are made for, Panda and FR3.
+#include <franka_sim/physics/physics_config.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/gripper_unit.h>
 
@@ -45,16 +46,14 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
       description.base.position = {{-0.5, 0, 0.3}};
       description.initial_positions[id() + "_finger_joint1"] = 0.03;
     }
-    for (std::size_t i = 0; i < 7; i++) {
-      description.initial_positions[id() + "_joint" + std::to_string(i + 1)] = kReady[i];
-    }
+    startAt(kReady, id(), description);
     world = std::make_unique<World>(test::world(scene));
     world->addRobot(description);
     arm = &world->arm(id(), id());
     hand = &world->hand(id(), id());
     ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdfOf(id()), id())};
     parameters.end_effector = handPayload();
-    parameters.F_T_NE = handFrame();
+    parameters.F_T_NE = kHandF_T_NE;
     if (over_fci) {
       behaveAsOverFci(parameters, id() == "fr3" ? 10 : 5);
     }

@@ -6,6 +6,7 @@
 #include <franka_sim/fci/sim_robot.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 /// @file
@@ -25,8 +26,13 @@ ProtocolRange protocolsOf(const std::string& robot) noexcept;
 RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
                                const franka_core::ArmModel& arm);
 
-/// The hand on its fingers. @param fingers outlive it
-SimRobot::Hand servedHand(HandPlant& fingers);
+/// A robot that behaves as behind its own interface, of its newest protocol.
+/// @param unit the robot's own configuration, as the user enters it in Desk
+/// @param arm outlives the robot, as do the fingers @param fingers null: no hand is served
+/// @throws as SimRobot
+SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
+                     ControlUnitParameters unit, ArmPlant& arm, HandPlant* fingers,
+                     const std::optional<SimRobot::Vacuum>& vacuum = {});
 
 /// Which links came too close, as the description calls them without the arm's name: "link2 and
 /// hand".
@@ -39,13 +45,6 @@ void setLoad(SimRobot& robot, const franka_core::Payload& load);
 /// What the user is told of a collision that raised this error (self-collision, joint or Cartesian
 /// reflex): "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
 std::string collisionOf(const ControlUnit& unit, ErrorFlag error);
-
-/// Where a real arm comes to rest that was told to go to q [rad]: its model of gravity is wrong by
-/// a few tenths of a newton metre, which the stiffness [Nm/rad] of the hold answers with about 1e-4
-/// rad (docs/fidelity.md). A position that equals its target to the last bit is none that a client
-/// was ever tried with.
-std::array<double, 7> restingNear(const std::array<double, 7>& q,
-                                  const std::array<double, 7>& stiffness) noexcept;
 
 /// Mode, client, errors (of collisions: what met what) and joints in one line for the user.
 std::string describe(SimRobot& robot);

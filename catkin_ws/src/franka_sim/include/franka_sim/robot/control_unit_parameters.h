@@ -3,8 +3,10 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_sim/robot/plant.h>
 
 #include <array>
+#include <cmath>
 
 namespace franka_sim {
 
@@ -19,6 +21,14 @@ enum class ThresholdFrame {
   kBase,      ///< O_F_ext_hat_K, as over the FCI
   kStiffness  ///< K_F_ext_hat_K, as the ROS simulation's manual says
 };
+
+/// Flange to the hand's nominal end effector: turned by -45 deg about z, 0.1034 m along it
+/// (protocol 8.3).
+constexpr std::array<double, 16> kHandF_T_NE{
+    M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1};
+
+/// Of the idle hold, and of joint impedance control until it is set [Nm/rad] (decision 11).
+constexpr std::array<double, 7> kJointStiffness{3000, 3000, 3000, 2500, 2500, 2000, 2000};
 
 /// The configuration a control unit starts with. Thresholds are the defaults of the original
 /// franka_gazebo; the source of each other default stands beside it.
@@ -42,8 +52,7 @@ struct ControlUnitParameters {
                               {{20, 20, 20, 25, 25, 25}},
                               {{20, 20, 20, 25, 25, 25}}};
   CollisionThresholds acceleration{nominal};
-  /// Of the idle hold, and of joint impedance control until it is set [Nm/rad] (decision 11).
-  std::array<double, 7> joint_stiffness{{3000, 3000, 3000, 2500, 2500, 2000, 2000}};
+  std::array<double, 7> joint_stiffness{kJointStiffness};
   /// Of Cartesian impedance control until it is set [N/m, Nm/rad] (decision 11).
   std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
   bool has_hand{true};           ///< for the avoidance of self-collisions
@@ -55,6 +64,13 @@ struct ControlUnitParameters {
   /// simulation only shows contacts and collisions.
   bool reflexes{false};
 };
+
+/// Tells a unit what rotor inertia and friction its joints have.
+inline void useJointPhysics(ControlUnitParameters& parameters, const JointPhysics& physics) {
+  parameters.rotor_inertia = physics.rotor_inertia;
+  parameters.coulomb_friction = physics.coulomb_friction;
+  parameters.viscous_friction = physics.damping;
+}
 
 /// Makes a unit behave as behind its own interface: reflexes, setters refused while it moves,
 /// thresholds for O_F_ext_hat_K.

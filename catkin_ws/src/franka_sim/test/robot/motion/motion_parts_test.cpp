@@ -16,7 +16,7 @@ namespace franka_sim::test {
 namespace {
 
 Transform startPose() {
-  return model().pose(franka_core::ArmFrame::kEndEffector, kReady, handFrame());
+  return model().pose(franka_core::ArmFrame::kEndEffector, kReady, kHandF_T_NE);
 }
 
 Transform shifted(double x) {
