@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Control unit and gripper unit on the physics they are made for, Panda and FR3.
+#include <franka_core/rotations.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/gripper_unit.h>
@@ -418,9 +419,9 @@ TEST_P(UnitInWorldTest, CartesianImpedanceHasTheSetStiffnessInEachOfItsSixAxes) 
     ASSERT_EQ(franka_core::RobotMode::kMove, unit->state().robot_mode);
     const Eigen::Matrix4d now = Eigen::Map<const Eigen::Matrix4d>(unit->state().O_T_EE.data());
     const Eigen::Matrix3d R = now.topLeftCorner<3, 3>();
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(from.topLeftCorner<3, 3>().transpose() * R));
+    const Eigen::Matrix3d turn = from.topLeftCorner<3, 3>().transpose() * R;
     Eigen::Matrix<double, 6, 1> moved;
-    moved << R.transpose() * (now - from).topRightCorner<3, 1>(), turn.angle() * turn.axis();
+    moved << R.transpose() * (now - from).topRightCorner<3, 1>(), franka_core::vectorOf(turn);
     EXPECT_NEAR(K[axis], size / moved[static_cast<int>(axis)], 0.005 * K[axis])
         << GetParam() << ", axis " << axis;
   }

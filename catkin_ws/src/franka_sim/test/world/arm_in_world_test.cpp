@@ -4,6 +4,7 @@
 // The control unit on the arm that MuJoCo moves: rest, free motion, pushes, a load nobody
 // configured.
 #include <franka_core/arm_model.h>
+#include <franka_core/rotations.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/control_unit.h>
@@ -118,11 +119,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
                    const Vector7& posture) const {
     const Matrix4 pose = Matrix4::Map(state.O_T_EE.data());
     const Jacobian J = jacobian(state);
-    Vector6 error;
-    error.head<3>() = pose.topRightCorner<3, 1>() - target.topRightCorner<3, 1>();
-    const Eigen::AngleAxisd turn(
-        Eigen::Matrix3d(pose.topLeftCorner<3, 3>() * target.topLeftCorner<3, 3>().transpose()));
-    error.tail<3>() = turn.angle() * turn.axis();
+    const Vector6 error = franka_core::twistBetween(target, pose, 1.0);
     Vector6 stiffness;
     stiffness << 600, 600, 600, 50, 50, 50;
     const Vector7 dq = vector(state.dq);
