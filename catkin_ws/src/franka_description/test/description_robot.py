@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import xacro
+from scipy.spatial.transform import Rotation
 
 ROBOTS = Path(__file__).resolve().parents[1] / "robots"
 NO_MESHES = "/nonexistent/available.xacro"
@@ -41,11 +42,7 @@ def numbers(text):
 
 def rotation(rpy):
     """URDF's fixed-axis roll, pitch, yaw as a matrix."""
-    (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
-    x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
-    return z @ y @ x
+    return Rotation.from_euler("xyz", rpy).as_matrix()
 
 
 def transform(origin):

@@ -12,11 +12,13 @@ import math
 import sys
 import threading
 
+import numpy as np
 import rospy
 import rospy_connections
 from franka_msgs.msg import FrankaState
-from geometry_msgs.msg import Pose, PoseStamped
+from geometry_msgs.msg import Pose, PoseStamped, Quaternion
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
+from scipy.spatial.transform import Rotation
 from visualization_msgs.msg import (
     InteractiveMarker,
     InteractiveMarkerControl,
@@ -40,29 +42,6 @@ def clamp_position(position):
         setattr(position, axis, clamp(getattr(position, axis), limits))
 
 
-def rotation_to_quaternion(m):
-    """Unit quaternion (x, y, z, w) of a rotation, given as three rows of three numbers."""
-    # Of the four formulas, use the one that divides by the largest component, for accuracy.
-    squares = (
-        1 + m[0][0] - m[1][1] - m[2][2],
-        1 - m[0][0] + m[1][1] - m[2][2],
-        1 - m[0][0] - m[1][1] + m[2][2],
-        1 + m[0][0] + m[1][1] + m[2][2],
-    )
-    largest = squares.index(max(squares))
-    sums = {
-        (0, 1): m[1][0] + m[0][1],
-        (0, 2): m[0][2] + m[2][0],
-        (1, 2): m[2][1] + m[1][2],
-        (0, 3): m[2][1] - m[1][2],
-        (1, 3): m[0][2] - m[2][0],
-        (2, 3): m[1][0] - m[0][1],
-    }
-    quaternion = [squares[i] if i == largest else sums[tuple(sorted((i, largest)))] for i in range(4)]
-    length = math.sqrt(sum(value * value for value in quaternion))
-    return tuple(value / length for value in quaternion)
-
-
 def pose_from_state(state):
     """Measured pose of the end effector in O, from a FrankaState; None if it has none."""
     matrix = state.O_T_EE  # 4x4 column-major
@@ -70,9 +49,8 @@ def pose_from_state(state):
         return None
     pose = Pose()
     pose.position.x, pose.position.y, pose.position.z = matrix[12:15]
-    rows = [[matrix[4 * column + row] for column in range(3)] for row in range(3)]
-    quaternion = rotation_to_quaternion(rows)
-    pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w = quaternion
+    rotation = np.reshape(matrix, (4, 4)).T[:3, :3]
+    pose.orientation = Quaternion(*Rotation.from_matrix(rotation).as_quat())
     return pose
 
 

@@ -181,8 +181,13 @@ class QuaternionTest(unittest.TestCase):
                 [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                 [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
             ]
-            result = interactive_marker.rotation_to_quaternion(rows)
-            dot = sum(a * b for a, b in zip(quaternion, result, strict=True))
+            state = FrankaState()
+            for column in range(3):
+                for row in range(3):
+                    state.O_T_EE[4 * column + row] = rows[row][column]
+            state.O_T_EE[15] = 1.0
+            result = interactive_marker.pose_from_state(state).orientation
+            dot = x * result.x + y * result.y + z * result.z + w * result.w
             self.assertAlmostEqual(1.0, abs(dot), places=12)
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 import xacro
+from scipy.spatial.transform import Rotation
 
 PACKAGE = Path(__file__).resolve().parents[1]
 SOURCES = PACKAGE.parent
@@ -44,11 +45,7 @@ def table():
 
 def rotated(rpy, point):
     """Rotations about the fixed axes x, y, z, in this order."""
-    x, y, z = point
-    r, p, w = rpy
-    y, z = y * math.cos(r) - z * math.sin(r), y * math.sin(r) + z * math.cos(r)
-    x, z = x * math.cos(p) + z * math.sin(p), -x * math.sin(p) + z * math.cos(p)
-    return [x * math.cos(w) - y * math.sin(w), x * math.sin(w) + y * math.cos(w), z]
+    return list(Rotation.from_euler("xyz", rpy).apply(point))
 
 
 def numbers(text):

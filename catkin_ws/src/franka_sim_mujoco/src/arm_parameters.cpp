@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/parameter_checks.h>
 #include <franka_sim_mujoco/arm_parameters.h>
@@ -14,11 +15,6 @@
 namespace franka_sim_mujoco {
 
 namespace {
-
-/// Flange to the hand's nominal end effector (manual: rotated by -45 deg about z, shifted by 10.34
-/// cm along it).
-constexpr std::array<double, 16> kHandF_T_NE{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0,      0,
-                                             0,      0,       1, 0, 0,      0,      0.1034, 1};
 
 /// For rotations typed with three or four digits: scales the columns to length one, which restores
 /// cos(45 deg) and keeps exact matrices.
@@ -106,6 +102,17 @@ std::string pairRemark(const std::array<double, N>& lower, const std::array<doub
   return "";
 }
 
+/// The world's gravity in the axes of the arm's base [m/s^2]. @param base the body of that name
+std::array<double, 3> gravityInBase(const franka_sim::World& world, const std::string& base) {
+  const std::array<double, 3> g = world.gravity();
+  const std::array<double, 4> q = world.bodyPose(base).orientation;
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  return {
+      (1 - 2 * (y * y + z * z)) * g[0] + 2 * (x * y + w * z) * g[1] + 2 * (x * z - w * y) * g[2],
+      2 * (x * y - w * z) * g[0] + (1 - 2 * (x * x + z * z)) * g[1] + 2 * (y * z + w * x) * g[2],
+      2 * (x * z + w * y) * g[0] + 2 * (y * z - w * x) * g[1] + (1 - 2 * (x * x + y * y)) * g[2]};
+}
+
 }  // namespace
 
 std::string checkThresholds(const franka_sim::CollisionThresholds& thresholds) {
@@ -171,35 +178,29 @@ std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& a
   return found;
 }
 
-std::array<double, 3> gravityInBase(franka_sim::World& world, const std::string& base) {
-  const std::array<double, 3> g = world.gravity();
-  const std::array<double, 4> q = world.bodyPose(base).orientation;
-  const double w = q[0], x = q[1], y = q[2], z = q[3];
-  return {
-      (1 - 2 * (y * y + z * z)) * g[0] + 2 * (x * y + w * z) * g[1] + 2 * (x * z - w * y) * g[2],
-      2 * (x * y - w * z) * g[0] + (1 - 2 * (x * x + z * z)) * g[1] + 2 * (y * z + w * x) * g[2],
-      2 * (x * z + w * y) * g[0] + 2 * (y * z - w * x) * g[1] + (1 - 2 * (x * x + y * y)) * g[2]};
-}
-
 franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
-                                                    const std::string& urdf,
-                                                    const std::string& arm_id, bool has_hand,
-                                                    const std::array<double, 3>& gravity) {
-  franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdf, arm_id)};
-  parameters.gravity = gravity;
+                                                    const RobotHandle& robot,
+                                                    const urdf::Model& model,
+                                                    const std::string& arm_id) {
+  franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(robot.urdf, arm_id)};
+  parameters.protocol_version = franka_sim::fci::protocolsOf(robot.robot_type).newest;
+  parameters.has_hand = robot.world->hasHand(robot.name, arm_id);
+  parameters.substeps = franka_sim::World::kSubsteps;
+  franka_sim::useJointPhysics(parameters, robot.arm_physics);
+  parameters.gravity = gravityInBase(*robot.world, arm_id + "_link0");
   readArray(node, "gravity_vector", parameters.gravity);
 
   // With all three set, a hand without inertial in the URDF is no error.
   const bool explicit_end_effector =
       node.hasParam("m_ee") && node.hasParam("I_ee") && node.hasParam("F_x_Cee");
   if (!explicit_end_effector) {
-    parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, arm_id);
+    parameters.end_effector = franka_core::endEffectorFromUrdf(robot.urdf, arm_id);
   }
   readPayload(node, "m_ee", "F_x_Cee", "I_ee", parameters.end_effector);
   readPayload(node, "m_load", "F_x_Cload", "I_load", parameters.load);
 
-  if (has_hand) {
-    parameters.F_T_NE = kHandF_T_NE;
+  if (model.getLink(arm_id + "_hand") != nullptr) {
+    parameters.F_T_NE = franka_sim::kHandF_T_NE;
   }
   readTransform(node, "F_T_NE", parameters.F_T_NE);
   readTransform(node, "NE_T_EE", parameters.NE_T_EE);

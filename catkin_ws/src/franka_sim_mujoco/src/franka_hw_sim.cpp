@@ -139,18 +139,10 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   franka_sim::World& world = *robot.world;
   const bool has_hand = world.hasHand(robot.name, arm_id_);
   nameJoints(model, has_hand);
-  franka_sim::ControlUnitParameters parameters =
-      readArmParameters(node, robot.urdf, arm_id_, model.getLink(arm_id_ + "_hand") != nullptr,
-                        gravityInBase(world, arm_id_ + "_link0"));
-  parameters.protocol_version = franka_sim::fci::protocolsOf(robot.robot_type).newest;
-  parameters.has_hand = has_hand;
+  franka_sim::ControlUnitParameters parameters = readArmParameters(node, robot, model, arm_id_);
   parameters.rules = readBool(node, "reflexes").value_or(false)
                          ? franka_sim::InterfaceRules::kRosControlWithReflexes
                          : franka_sim::InterfaceRules::kRosControl;
-  parameters.substeps = franka_sim::World::kSubsteps;
-  parameters.rotor_inertia = robot.arm_physics.rotor_inertia;
-  parameters.coulomb_friction = robot.arm_physics.coulomb_friction;
-  parameters.viscous_friction = robot.arm_physics.damping;
   arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_),
                                   readOptions(node, hasReflexes(parameters.rules)));
   arm_->unit().request(franka_core::fci::SetJointImpedanceRequest{

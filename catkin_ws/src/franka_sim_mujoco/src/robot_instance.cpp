@@ -72,20 +72,22 @@ RobotInstance::~RobotInstance() = default;
 
 void RobotInstance::start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
                           BetweenTicks between_ticks) {
+  const RobotHandle robot{
+      &world,         name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks),
+      plan.robot_type};
   if (!plan.fci_ip.empty()) {
-    serve(plan, world, std::move(between_ticks));
+    serve(plan, robot);
   } else if (!plan.hardware_type.empty()) {
-    startHardware(plan, world, loader, std::move(between_ticks));
+    startHardware(plan, robot, loader);
   } else {
     ROS_INFO_NAMED(kLog, "'%s' names no robotSimType: it stands in the world without hardware.",
                    name_.c_str());
   }
 }
 
-void RobotInstance::serve(const RobotPlan& plan, franka_sim::World& world,
-                          BetweenTicks between_ticks) {
+void RobotInstance::serve(const RobotPlan& plan, const RobotHandle& robot) {
   try {
-    served_ = std::make_unique<ServedRobot>(plan, world, std::move(between_ticks));
+    served_ = std::make_unique<ServedRobot>(plan, robot);
   } catch (const std::exception& error) {
     throw std::runtime_error("'" + name_ + "' cannot be served at " + plan.fci_ip + ": " +
                              error.what());
@@ -93,8 +95,8 @@ void RobotInstance::serve(const RobotPlan& plan, franka_sim::World& world,
   ROS_INFO_NAMED(kLog, "'%s' is served over the FCI at %s.", name_.c_str(), plan.fci_ip.c_str());
 }
 
-void RobotInstance::startHardware(const RobotPlan& plan, franka_sim::World& world,
-                                  HardwareLoader& loader, BetweenTicks between_ticks) {
+void RobotInstance::startHardware(const RobotPlan& plan, const RobotHandle& robot,
+                                  HardwareLoader& loader) {
   const std::string type = availableName(loader, plan.hardware_type);
   try {
     hardware_ = loader.createSharedInstance(type);
@@ -103,11 +105,7 @@ void RobotInstance::startHardware(const RobotPlan& plan, franka_sim::World& worl
                              "' cannot be loaded: " + error.what());
   }
   const ros::NodeHandle node(plan.robot_namespace);
-  RobotHandle robot{
-      &world,         name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks),
-      plan.robot_type};
-  if (!hardware_->initSim(plan.robot_namespace, node, std::move(robot), &plan.urdf,
-                          plan.transmissions)) {
+  if (!hardware_->initSim(plan.robot_namespace, node, robot, &plan.urdf, plan.transmissions)) {
     const std::string reason = hardware_->failure();
     throw std::runtime_error("The hardware of '" + name_ + "' (" + type + ") does not start: " +
                              (reason.empty() ? "the log of the simulation says why." : reason));
@@ -115,7 +113,7 @@ void RobotInstance::startHardware(const RobotPlan& plan, franka_sim::World& worl
   manager_ = std::make_unique<controller_manager::ControllerManager>(hardware_.get(), node);
   if (plan.joint_state_rate) {
     joint_states_ = std::make_unique<JointStatePublisher>(node, *plan.joint_state_rate, plan.urdf,
-                                                          *hardware_, world);
+                                                          *hardware_, *robot.world);
   }
   if (plan.publish_transforms) {
     transforms_ = std::make_unique<TransformPublisher>(node, plan.urdf);

@@ -1,6 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/param_reader.h>
@@ -121,20 +120,6 @@ std::string chooseNamespace(const SpawnOrder& order, const PluginElement& plugin
   return own;
 }
 
-/// A served arm stands at its initial positions as a real one would. Joints without one stay so.
-void comeToRest(RobotPlan& plan) {
-  const franka_sim::ControlUnitParameters unit{
-      franka_core::ArmModel::fromUrdf(plan.description.urdf, plan.arm_id)};
-  const std::array<double, 7> deviation = franka_sim::fci::restingNear({}, unit.joint_stiffness);
-  for (std::size_t i = 0; i < deviation.size(); ++i) {
-    const auto joint =
-        plan.description.initial_positions.find(plan.arm_id + "_joint" + std::to_string(i + 1));
-    if (joint != plan.description.initial_positions.end()) {
-      joint->second += deviation[i];
-    }
-  }
-}
-
 /// Positions of joints that the robot does not have are left out, with a warning: the original's
 /// launch files name the fingers also where there is no hand.
 std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf::Model& model) {
@@ -209,7 +194,8 @@ RobotPlan planRobot(const SpawnOrder& order) {
     plan.arm_physics = choosePhysics(node, plan.robot_type);
     franka_sim::applyJointPhysics(plan.arm_physics, plan.arm_id, plan.description);
     if (!plan.fci_ip.empty()) {
-      comeToRest(plan);
+      // It stands at its initial positions as a real one would.
+      franka_sim::comeToRest(franka_sim::kJointStiffness, plan.arm_id, plan.description);
     }
   }
   return plan;

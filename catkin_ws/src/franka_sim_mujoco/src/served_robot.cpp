@@ -14,9 +14,7 @@
 #include <std_srvs/SetBool.h>
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
-#include <utility>
 
 namespace franka_sim_mujoco {
 
@@ -24,39 +22,18 @@ namespace {
 
 /// The robot's configuration, which users enter in Desk, comes from the same parameters as that of
 /// a robot under controllers in process; its behaviour is that of the FCI.
-franka_sim::ControlUnitParameters unitParameters(const RobotPlan& plan, franka_sim::World& world,
-                                                 bool has_hand) {
-  const ros::NodeHandle node(plan.robot_namespace);
-  franka_sim::ControlUnitParameters parameters = readArmParameters(
-      node, plan.description.urdf, plan.arm_id, plan.urdf.getLink(plan.arm_id + "_hand") != nullptr,
-      gravityInBase(world, plan.arm_id + "_link0"));
-  parameters.has_hand = has_hand;
-  parameters.substeps = franka_sim::World::kSubsteps;
-  parameters.rotor_inertia = plan.arm_physics.rotor_inertia;
-  parameters.coulomb_friction = plan.arm_physics.coulomb_friction;
-  parameters.viscous_friction = plan.arm_physics.damping;
-  parameters.rules = franka_sim::InterfaceRules::kFci;
-  parameters.protocol_version = franka_sim::fci::protocolsOf(plan.robot_type).newest;
-  return parameters;
-}
-
-franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, franka_sim::World& world) {
-  const std::string& name = plan.description.name;
+franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& robot) {
   if (!plan.urdf.getJoint(plan.arm_id + "_joint1")) {
     throw std::runtime_error("its URDF has no joint '" + plan.arm_id +
                              "_joint1'. Does the parameter arm_id ('" + plan.arm_id +
                              "') say the same as the URDF's argument arm_id?");
   }
-  std::optional<franka_sim::fci::SimRobot::Hand> hand;
-  if (world.hasHand(name, plan.arm_id)) {
-    hand = franka_sim::fci::servedHand(world.hand(name, plan.arm_id));
-  }
-  const franka_sim::ControlUnitParameters unit = unitParameters(plan, world, hand.has_value());
-  return franka_sim::fci::SimRobot(
-      unit, world.arm(name, plan.arm_id),
-      franka_sim::fci::servedAt(plan.fci_ip, franka_sim::fci::protocolsOf(plan.robot_type),
-                                unit.model),
-      hand);
+  const franka_sim::ControlUnitParameters unit =
+      readArmParameters(ros::NodeHandle(plan.robot_namespace), robot, plan.urdf, plan.arm_id);
+  return franka_sim::fci::servedRobot(
+      plan.fci_ip, franka_sim::fci::protocolsOf(plan.robot_type), unit,
+      robot.world->arm(robot.name, plan.arm_id),
+      unit.has_hand ? &robot.world->hand(robot.name, plan.arm_id) : nullptr);
 }
 
 void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) {
@@ -75,17 +52,15 @@ void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) 
 
 }  // namespace
 
-ServedRobot::ServedRobot(const RobotPlan& plan, franka_sim::World& world,
-                         BetweenTicks between_ticks)
-    : between_ticks_(std::move(between_ticks)),
-      robot_(makeRobot(plan, world)),
+ServedRobot::ServedRobot(const RobotPlan& plan, const RobotHandle& robot)
+    : between_ticks_(robot.between_ticks),
+      robot_(makeRobot(plan, robot)),
       services_(ros::NodeHandle(ros::NodeHandle(plan.robot_namespace), "franka_sim")) {
-  robot_.onCollision([name = plan.description.name](const std::string& what) {
+  const auto warn = [name = robot.name](const std::string& what) {
     ROS_WARN_STREAM("Robot '" << name << "': " << what);
-  });
-  robot_.onRefusal([name = plan.description.name](const std::string& what) {
-    ROS_WARN_STREAM("Robot '" << name << "': " << what);
-  });
+  };
+  robot_.onCollision(warn);
+  robot_.onRefusal(warn);
   offerSwitches();
   offerLink();
   offerStates();

@@ -112,7 +112,7 @@ TEST(FrankaInfo, RefusesInvalidArguments) {
                                       "localhost nan", "localhost 99999"}) {
     const Output output = info(arguments);
     EXPECT_EQ(3, output.status) << arguments;
-    expectIn(output.text, "usage: franka_info ADDRESS [SECONDS]");
+    expectIn(output.text, "Usage: franka_info [OPTIONS] ADDRESS [SECONDS]");
   }
   const Output refused = info("127.0.0.1:1");
   EXPECT_EQ(2, refused.status);

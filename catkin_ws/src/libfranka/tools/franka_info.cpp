@@ -8,10 +8,10 @@
 #include <franka_core/fci/texts.h>
 #include <franka_core/robot_versions.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -25,16 +25,16 @@ using franka_info::ConnectionStatistics;
 using franka_info::quantileOf;
 using franka_info::RoundTrips;
 
-constexpr const char* kUsage =
-    "usage: franka_info ADDRESS [SECONDS]\n"
-    "\n"
-    "Connects to the robot at ADDRESS (name or IP, maybe with a port, HOST:PORT), listens for\n"
-    "SECONDS (2) and tells what it is, how it does, and whether it is ready to be controlled. The\n"
-    "robot is not moved. To time its answers it is asked meanwhile for a virtual wall (Panda) or\n"
-    "its description (FR3). An FR3 of protocol version 6 or 7 has no such question: if it is "
-    "idle,\n"
-    "it is told to keep the stiffness frame EE_T_K that it has. The status is 0 when the robot is\n"
-    "ready, 1 when it is not, 2 when it cannot be reached, 3 for arguments that make no sense.";
+constexpr const char* kDescription =
+    "Connects to the robot at ADDRESS, listens for SECONDS and tells what it is, how it does, and\n"
+    "whether it is ready to be controlled. The robot is not moved. To time its answers it is "
+    "asked\n"
+    "meanwhile for a virtual wall (Panda) or its description (FR3). An FR3 of protocol version 6 "
+    "or\n"
+    "7 has no such question: if it is idle, it is told to keep the stiffness frame EE_T_K that it\n"
+    "has. The status is 0 when the robot is ready, 1 when it is not, 2 when it cannot be reached, "
+    "3\n"
+    "for arguments that make no sense.";
 
 enum Status { kReady = 0, kNotReady = 1, kUnreachable = 2, kBadArguments = 3 };
 
@@ -195,27 +195,28 @@ int inform(const std::string& address, double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h")) {
-    std::puts(kUsage);
-    return kReady;
-  }
+  CLI::App app(kDescription, "franka_info");
+  std::string address;
   double seconds = 2.0;
-  char* end = nullptr;
-  if (arguments.size() == 2) {
-    seconds = std::strtod(arguments[1].c_str(), &end);
-  }
-  if (arguments.empty() || arguments.size() > 2 || arguments[0].empty() || arguments[0][0] == '-' ||
-      (end != nullptr && *end != '\0') || !(seconds > 0.0) || !(seconds <= 3600.0)) {
-    std::cerr << "franka_info: one address is needed, and maybe a time above 0 and up to 3600 s.\n"
-              << kUsage << std::endl;
-    return kBadArguments;
-  }
+  app.add_option("ADDRESS", address, "Name or IP address, maybe with a port, HOST:PORT")
+      ->option_text(" ")
+      ->required();
+  app.add_option("SECONDS", seconds, "A time above 0 and up to 3600 s (2)")->option_text(" ");
   try {
-    return inform(arguments[0], seconds);
+    app.parse(argc, argv);
+    if (address.empty() || !(seconds > 0.0 && seconds <= 3600.0)) {
+      throw CLI::ValidationError(
+          "one address is needed, and maybe a time above 0 and up to 3600 s");
+    }
+    return inform(address, seconds);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return kReady;
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "franka_info: " << error.what() << "\n" << app.help();
+    return kBadArguments;
   } catch (const franka::Exception& error) {
-    std::cerr << "franka_info: " << arguments[0] << " cannot be used. " << error.what()
-              << std::endl;
+    std::cerr << "franka_info: " << address << " cannot be used. " << error.what() << std::endl;
     return kUnreachable;
   }
 }

@@ -153,8 +153,8 @@ int main(int argc, char** argv) {
   using namespace franka_sim;  // NOLINT: the program's own
   try {
     const Options options = readOptions(argc, argv);
-    if (options.help) {
-      std::fputs(kUsage, stdout);
+    if (!options.help.empty()) {
+      std::fputs(options.help.c_str(), stdout);
       return 0;
     }
     std::signal(SIGINT, requestEnd);

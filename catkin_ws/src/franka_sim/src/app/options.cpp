@@ -6,192 +6,100 @@
 #include <franka_sim/fci/sockets.h>
 #include <franka_sim/physics/sizes.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <functional>
+#include <cstdio>
 #include <map>
-#include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace franka_sim {
 
-const char* const kUsage =
-    "Usage: franka_sim [options]\n"
-    "Simulated robots that genuine libfranka programs can connect to.\n"
-    "Of each robot:\n"
-    "  --robot panda|fr3   which robot (panda). Each further --robot puts one more into the "
-    "world;\n"
-    "                      the options of this group that follow it are its own\n"
-    "  --ip ADDRESS        where it is found (127.0.0.1); each robot needs an address of its own,\n"
-    "                      for example 127.0.0.2\n"
-    "  --protocol N        speak this protocol version only: 3 to 5 for a panda, 6 to 10 for an "
-    "fr3\n"
-    "                      (all of them)\n"
-    "  --base X,Y,Z[,YAW]  where the robot stands in the world [m] and how far it is turned there\n"
-    "                      [rad] (0,0,0,0)\n"
-    "  --urdf FILE         another robot description; its chain is found by --arm-id\n"
-    "  --arm-id PREFIX     prefix of the joints' names (the robot's name; panda_2 and so on where\n"
-    "                      that is taken)\n"
-    "  --friction SET      none or fr3 (none)\n"
-    "  --hand HAND         gripper, vacuum or none: what is served (gripper)\n"
-    "  --no-hand           short for --hand none\n"
-    "  --control-port N    where lines of text press the user stop, push the arm and so on (1340;\n"
-    "                      0: nowhere); send the line help for all of them\n"
-    "Of all:\n"
-    "  --pace PACE         realtime, patient, lockstep, or a factor such as 0.5 (realtime)\n"
-    "  --patience SECONDS  with --pace patient or lockstep: how long a client that is silent in "
-    "its\n"
-    "                      motion is waited for, 0.01 to 86400, or forever (30)\n"
-    "  --world FILE        the scene, MJCF or SDF: a file, or the name of one that comes along:\n"
-    "                      stone.xml (an empty world)\n"
-    "  --linger SECONDS    when told to end by a signal, wait so long for clients to go first (0)\n"
-    "  --viewer            open a window\n"
-    "  --help              this text\n";
-
 namespace {
 
-std::uint16_t toProtocol(const std::string& text) {
-  char* end = nullptr;
-  const long number = std::strtol(text.c_str(), &end, 10);
-  if (text.empty() || *end != '\0' || number < 3 || number > 10) {
-    throw std::invalid_argument("--protocol " + text + ": give a number from 3 to 10.");
-  }
-  return static_cast<std::uint16_t>(number);
+bool isWithin(double least, double most, const std::string& text, double& number) {
+  std::istringstream words(text);
+  return words >> number && words.eof() && number >= least && number <= most;
 }
 
-void readBase(const std::string& text, ArmOptions& arm) {
-  std::vector<double> numbers;
-  const char* next = text.c_str();
-  char* end = nullptr;
-  do {
-    numbers.push_back(std::strtod(next, &end));
-    if (end == next || (*end != ',' && *end != '\0') || !std::isfinite(numbers.back())) {
-      numbers.clear();
-      break;
+// CLI::Range would take NaN for a number within it.
+CLI::Validator within(double least, double most, const std::string& advice) {
+  return {[=](const std::string& text) {
+            double number;
+            return isWithin(least, most, text, number) ? ""
+                                                       : "give " + advice + ", not " + text + ".";
+          },
+          ""};
+}
+
+std::string wholeNumberFault(const std::string& text) {
+  return std::fmod(std::stod(text), 1.0) == 0.0 ? "" : text + " is not a whole number.";
+}
+
+std::string addressFault(const std::string& text) {
+  return fci::isAddress(text) ? ""
+                              : text +
+                                    " is not an IPv4 address; give one that this machine has, "
+                                    "such as 127.0.0.1 or 127.0.0.2.";
+}
+
+std::string portFault(const std::string& text) {
+  using namespace franka_core::fci;
+  for (const std::uint16_t port : {kRobotPort, kGripperPort, kVacuumGripperPort}) {
+    if (std::stod(text) == port) {
+      return "the ports 1337 to 1339 are those of robot, gripper and vacuum gripper; give another "
+             "one, or 0 for none.";
     }
-    next = end + 1;
-  } while (*end == ',');
-  if (numbers.size() != 3 && numbers.size() != 4) {
-    throw std::invalid_argument("--base " + text +
-                                ": give three numbers such as -0.5,0,0, or four with the angle.");
   }
-  arm.base = {numbers[0], numbers[1], numbers[2]};
+  return "";
+}
+
+void readBase(ArmOptions& arm, const std::string& text) {
+  auto& [x, y, z] = arm.base;
+  int end = 0;
+  arm.yaw = 0.0;
+  const int count =
+      std::sscanf(text.c_str(), "%lf,%lf,%lf%n,%lf%n", &x, &y, &z, &end, &arm.yaw, &end);
+  if (count < 3 || text[end] != '\0' || !std::isfinite(arm.yaw)) {
+    throw CLI::ValidationError(
+        "--base", "give three numbers such as -0.5,0,0, or four with the angle, not " + text + ".");
+  }
   for (const double coordinate : arm.base) {
-    if (std::abs(coordinate) > sizes::kFarthest) {
-      throw std::invalid_argument("--base " + text + ": give metres, 1000 at most.");
+    if (!(std::abs(coordinate) <= sizes::kFarthest)) {
+      throw CLI::ValidationError("--base", "give metres, 1000 at most, not " + text + ".");
     }
   }
-  arm.yaw = numbers.size() == 4 ? numbers[3] : 0.0;
 }
 
-Tool toTool(const std::string& text) {
-  const std::map<std::string, Tool> tools{
-      {"gripper", Tool::kGripper}, {"vacuum", Tool::kVacuum}, {"none", Tool::kNone}};
-  const auto tool = tools.find(text);
-  if (tool == tools.end()) {
-    throw std::invalid_argument("--hand " + text + ": there are gripper, vacuum and none.");
-  }
-  return tool->second;
-}
-
-std::uint16_t toPort(const std::string& text) {
-  char* end = nullptr;
-  const long number = std::strtol(text.c_str(), &end, 10);
-  if (text.empty() || *end != '\0' || number < 0 || number > 65535) {
-    throw std::invalid_argument("--control-port " + text + ": give a number from 0 to 65535.");
-  }
-  if (number == franka_core::fci::kRobotPort || number == franka_core::fci::kGripperPort ||
-      number == franka_core::fci::kVacuumGripperPort) {
-    throw std::invalid_argument(
-        "--control-port " + text +
-        ": the ports 1337 to 1339 are those of robot, gripper and vacuum gripper; give another "
-        "one, or 0 for none.");
-  }
-  return static_cast<std::uint16_t>(number);
-}
-
-fci::Pace toPace(const std::string& text) {
-  fci::Pace pace;
+void readPace(const std::string& text, fci::Pace& pace) {
   if (text == "lockstep") {
     pace.mode = fci::PaceMode::kLockStep;
-    return pace;
-  }
-  if (text == "patient") {
+  } else if (text == "patient") {
     pace.mode = fci::PaceMode::kPatient;
-    return pace;
-  }
-  if (text == "realtime") {
-    return pace;
-  }
-  char* end = nullptr;
-  pace.factor = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(pace.factor >= 0.001 && pace.factor <= 100.0)) {
-    throw std::invalid_argument(
-        "--pace " + text + ": give realtime, patient, lockstep, or a factor from 0.001 to 100.");
-  }
-  return pace;
-}
-
-std::string toFriction(const std::string& text) {
-  if (text != "none" && text != "fr3") {
-    throw std::invalid_argument("--friction " + text + ": there are none and fr3.");
-  }
-  return text;
-}
-
-std::string toAddress(const std::string& text) {
-  if (!fci::isAddress(text)) {
-    throw std::invalid_argument("--ip " + text +
-                                ": this is not an IPv4 address; give one that this machine has, "
-                                "such as 127.0.0.1 or 127.0.0.2.");
-  }
-  return text;
-}
-
-double toSeconds(const std::string& text) {
-  char* end = nullptr;
-  const double seconds = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(seconds >= 0.0 && seconds <= 60.0)) {
-    throw std::invalid_argument("--linger " + text + ": give a number of seconds from 0 to 60.");
-  }
-  return seconds;
-}
-
-std::chrono::milliseconds toPatience(const std::string& text) {
-  if (text == "forever") {
-    return std::chrono::hours(24 * 365 * 100);  // in nanoseconds it still is a number
-  }
-  char* end = nullptr;
-  const double seconds = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(seconds >= 0.01 && seconds <= 86400.0)) {
-    throw std::invalid_argument("--patience " + text +
-                                ": give a number of seconds from 0.01 to 86400, or forever.");
-  }
-  return std::chrono::milliseconds(std::lround(1e3 * seconds));
-}
-
-void usePatience(const std::string& text, fci::Pace& pace) {
-  if (text.empty()) {
-    return;
-  }
-  pace.patience = toPatience(text);
-  if (!pace.waitsForClients()) {
-    throw std::invalid_argument("--patience " + text +
-                                ": only a robot that waits for its client has patience; give "
-                                "--pace patient or --pace lockstep as well.");
+  } else if (text != "realtime" && !isWithin(0.001, 100.0, text, pace.factor)) {
+    throw CLI::ValidationError(
+        "--pace",
+        "give realtime, patient, lockstep, or a factor from 0.001 to 100, not " + text + ".");
   }
 }
 
-void checkArm(const ArmOptions& arm) {
-  if (arm.robot != "panda" && arm.robot != "fr3") {
-    throw std::invalid_argument("--robot " + arm.robot + ": there are panda and fr3.");
+void readPatience(const std::string& text, fci::Pace& pace) {
+  double seconds = 3600.0 * 24 * 365 * 100;  // in nanoseconds it still is a number
+  if (text != "forever" && !isWithin(0.01, 86400.0, text, seconds)) {
+    throw CLI::ValidationError(
+        "--patience", "give a number of seconds from 0.01 to 86400, or forever, not " + text + ".");
   }
+  pace.patience = std::chrono::milliseconds(std::lround(1e3 * seconds));
+}
+
+void checkProtocol(const ArmOptions& arm) {
   const bool panda = arm.robot == "panda";
   if (arm.protocol != 0 && panda != (arm.protocol <= 5)) {
-    throw std::invalid_argument(
-        "--protocol " + std::to_string(arm.protocol) + ": a " + arm.robot + " speaks " +
-        (panda ? "3 to 5; 6 to 10 are an fr3's." : "6 to 10; 3 to 5 are a panda's."));
+    throw CLI::ValidationError("--protocol", "a " + arm.robot + " speaks " +
+                                                 (panda ? "3 to 5; 6 to 10 are an fr3's."
+                                                        : "6 to 10; 3 to 5 are a panda's."));
   }
 }
 
@@ -199,8 +107,8 @@ void nameArms(std::vector<ArmOptions>& arms) {
   std::set<std::string> names;
   for (const ArmOptions& arm : arms) {
     if (!arm.arm_id.empty() && !names.insert(arm.arm_id).second) {
-      throw std::invalid_argument("--arm-id " + arm.arm_id +
-                                  ": two robots have it; each needs one of its own.");
+      throw CLI::ValidationError("--arm-id " + arm.arm_id,
+                                 "two robots have it; each needs one of its own.");
     }
   }
   for (ArmOptions& arm : arms) {
@@ -223,8 +131,8 @@ void checkPlaces(const std::vector<ArmOptions>& arms) {
       const auto& a = arms[i].base;
       const auto& b = arms[k].base;
       if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kLeastDistance) {
-        throw std::invalid_argument("The robots at " + arms[k].ip + " and " + arms[i].ip +
-                                    " stand within each other; give them places with --base.");
+        throw CLI::ValidationError("The robots at " + arms[k].ip + " and " + arms[i].ip +
+                                   " stand within each other; give them places with --base.");
       }
     }
   }
@@ -233,79 +141,148 @@ void checkPlaces(const std::vector<ArmOptions>& arms) {
 void checkTogether(std::vector<ArmOptions>& arms) {
   std::set<std::string> addresses;
   for (const ArmOptions& arm : arms) {
-    checkArm(arm);
+    checkProtocol(arm);
     if (!addresses.insert(arm.ip).second) {
-      throw std::invalid_argument("--ip " + arm.ip +
-                                  ": two robots have it; each needs an address of its own.");
+      throw CLI::ValidationError("--ip " + arm.ip,
+                                 "two robots have it; each needs an address of its own.");
     }
   }
   checkPlaces(arms);
   nameArms(arms);
 }
 
+// Options of one robot follow its --robot: each is entered when it is met.
+void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robot_named) {
+  const auto add = [&](const char* name, const char* values, const char* description, auto read) {
+    return app
+        .add_option_function<std::string>(
+            name, [&arms, read](const std::string& text) { read(arms.back(), text); }, description)
+        ->option_text(values)
+        ->group("Of each robot")
+        ->trigger_on_parse();
+  };
+  const auto text = [](std::string ArmOptions::* member) {
+    return [member](ArmOptions& arm, const std::string& value) { arm.*member = value; };
+  };
+  const auto number = [](std::uint16_t ArmOptions::* member) {
+    return [member](ArmOptions& arm, const std::string& value) {
+      arm.*member = static_cast<std::uint16_t>(std::stod(value));
+    };
+  };
+  add("--robot", "panda|fr3",
+      "which robot (panda). Each further --robot puts one more into the world;\n"
+      "the options of this group that follow it are its own",
+      [&arms, &robot_named](ArmOptions& /*arm*/, const std::string& robot) {
+        if (robot_named) {
+          arms.emplace_back();
+        }
+        robot_named = true;
+        arms.back().robot = robot;
+      })
+      ->check(CLI::IsMember({"panda", "fr3"}));
+  add("--ip", "ADDRESS",
+      "where it is found (127.0.0.1); each robot needs an address of its own,\n"
+      "for example 127.0.0.2",
+      text(&ArmOptions::ip))
+      ->check({addressFault, ""});
+  add("--protocol", "N",
+      "speak this protocol version only: 3 to 5 for a panda, 6 to 10 for an fr3\n(all of them)",
+      number(&ArmOptions::protocol))
+      ->check(within(3, 10, "a number from 3 to 10"))
+      ->check({wholeNumberFault, ""});
+  add("--base", "X,Y,Z[,YAW]",
+      "where the robot stands in the world [m] and how far it is turned there\n[rad] (0,0,0,0)",
+      readBase);
+  add("--urdf", "FILE", "another robot description; its chain is found by --arm-id",
+      text(&ArmOptions::urdf));
+  add("--arm-id", "PREFIX",
+      "prefix of the joints' names (the robot's name; panda_2 and so on where\nthat is taken)",
+      text(&ArmOptions::arm_id));
+  add("--friction", "SET", "none or fr3 (none)", text(&ArmOptions::friction))
+      ->check(CLI::IsMember({"none", "fr3"}));
+  add("--hand", "HAND", "gripper, vacuum or none: what is served (gripper)",
+      [](ArmOptions& arm, const std::string& hand) {
+        arm.tool = hand == "gripper"  ? Tool::kGripper
+                   : hand == "vacuum" ? Tool::kVacuum
+                                      : Tool::kNone;
+      })
+      ->check(CLI::IsMember({"gripper", "vacuum", "none"}));
+  app.add_flag_callback(
+         "--no-hand", [&arms] { arms.back().tool = Tool::kNone; }, "short for --hand none")
+      ->group("Of each robot")
+      ->trigger_on_parse()
+      ->disable_flag_override();
+  add("--control-port", "N",
+      "where lines of text press the user stop, push the arm and so on (1340;\n"
+      "0: nowhere); send the line help for all of them",
+      number(&ArmOptions::control_port))
+      ->check(within(0, 65535, "a number from 0 to 65535"))
+      ->check({wholeNumberFault, ""})
+      ->check({portFault, ""});
+}
+
+void addOptionsOfAll(CLI::App& app, Options& options) {
+  const auto pace = [&options](const std::string& text) { readPace(text, options.pace); };
+  const auto patience = [&options](const std::string& text) { readPatience(text, options.pace); };
+  app.option_defaults()->group("Of all")->take_last();
+  app.add_option_function<std::string>(
+         "--pace", pace, "realtime, patient, lockstep, or a factor such as 0.5 (realtime)")
+      ->option_text("PACE");
+  app.add_option_function<std::string>(
+         "--patience", patience,
+         "with --pace patient or lockstep: how long a client that is silent in its\n"
+         "motion is waited for, 0.01 to 86400, or forever (30)")
+      ->option_text("SECONDS");
+  app.add_option("--world", options.world,
+                 "the scene, MJCF or SDF: a file, or the name of one that comes along:\n"
+                 "stone.xml (an empty world)")
+      ->option_text("FILE");
+  app.add_option("--linger", options.linger,
+                 "when told to end by a signal, wait so long for clients to go first (0)")
+      ->option_text("SECONDS")
+      ->check(within(0, 60, "a number of seconds from 0 to 60"));
+  app.add_flag("--viewer", options.viewer, "open a window")->disable_flag_override();
+}
+
+// The words in the order that CLI::App::parse takes, last one first.
+std::vector<std::string> wordsOf(int argc, const char* const* argv) {
+  std::vector<std::string> words;
+  for (int i = argc - 1; i > 0; i--) {
+    std::string word = argv[i];
+    if (word.rfind("__", 0) == 0) {
+      continue;  // roslaunch tells every program its name and log file
+    }
+    if (word.rfind("--", 0) == 0 && word.back() == '=') {
+      words.emplace_back();  // CLI11 would take the next word for the value
+      word.pop_back();
+    }
+    words.push_back(word);
+  }
+  return words;
+}
+
 }  // namespace
 
 Options readOptions(int argc, const char* const* argv) {
   Options options;
-  std::string patience;
+  CLI::App app("Simulated robots that genuine libfranka programs can connect to.", "franka_sim");
   bool robot_named = false;
-  const auto arm = [&options]() -> ArmOptions& { return options.arms.back(); };
-  const std::map<std::string, std::function<void(const std::string&)>> with_value{
-      {"--robot",
-       [&](const std::string& value) {
-         if (robot_named) {
-           options.arms.emplace_back();
-         }
-         robot_named = true;
-         arm().robot = value;
-       }},
-      {"--ip", [&](const std::string& value) { arm().ip = toAddress(value); }},
-      {"--protocol", [&](const std::string& value) { arm().protocol = toProtocol(value); }},
-      {"--base", [&](const std::string& value) { readBase(value, arm()); }},
-      {"--urdf", [&](const std::string& value) { arm().urdf = value; }},
-      {"--arm-id", [&](const std::string& value) { arm().arm_id = value; }},
-      {"--friction", [&](const std::string& value) { arm().friction = toFriction(value); }},
-      {"--hand", [&](const std::string& value) { arm().tool = toTool(value); }},
-      {"--control-port", [&](const std::string& value) { arm().control_port = toPort(value); }},
-      {"--pace", [&](const std::string& value) { options.pace = toPace(value); }},
-      {"--patience", [&](const std::string& value) { patience = value; }},
-      {"--linger", [&](const std::string& value) { options.linger = toSeconds(value); }},
-      {"--world", [&](const std::string& value) { options.world = value; }},
-  };
-  const std::map<std::string, std::function<void()>> flags{
-      {"--no-hand", [&] { arm().tool = Tool::kNone; }},
-      {"--viewer", [&] { options.viewer = true; }},
-      {"--help", [&] { options.help = true; }},
-      {"-h", [&] { options.help = true; }},
-  };
-  for (int i = 1; i < argc; i++) {
-    std::string word = argv[i];
-    std::optional<std::string> value;
-    if (word.rfind("__", 0) == 0) {
-      continue;  // roslaunch tells every program its name and log file
+  addOptionsOfRobots(app, options.arms, robot_named);
+  addOptionsOfAll(app, options);
+  app.set_help_flag("-h,--help", "this text");
+  try {
+    app.parse(wordsOf(argc, argv));
+    if (app.count("--patience") > 0 && !options.pace.waitsForClients()) {
+      throw CLI::ValidationError("--patience",
+                                 "only a robot that waits for its client has patience; give "
+                                 "--pace patient or --pace lockstep as well.");
     }
-    if (const std::size_t equals = word.find('=');
-        word.rfind("--", 0) == 0 && equals != word.npos) {
-      value = word.substr(equals + 1);
-      word.erase(equals);
-    }
-    if (const auto flag = flags.find(word); flag != flags.end()) {
-      if (value) {
-        throw std::invalid_argument(word + " takes no value; see --help.");
-      }
-      flag->second();
-    } else if (const auto option = with_value.find(word); option == with_value.end()) {
-      throw std::invalid_argument("'" + word + "' is no option of franka_sim; see --help.");
-    } else if (value) {
-      option->second(*value);
-    } else if (i + 1 == argc) {
-      throw std::invalid_argument(word + " needs a value; see --help.");
-    } else {
-      option->second(argv[++i]);
-    }
+    checkTogether(options.arms);
+  } catch (const CLI::CallForHelp&) {
+    options.help = app.help();
+  } catch (const CLI::ParseError& error) {
+    throw std::invalid_argument(error.what());
   }
-  usePatience(patience, options.pace);
-  checkTogether(options.arms);
   return options;
 }
 

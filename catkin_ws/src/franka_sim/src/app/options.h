@@ -30,15 +30,13 @@ struct ArmOptions {
 
 /// What the user asks of franka_sim on the command line.
 struct Options {
-  bool help{false};
+  std::string help;  ///< to be printed instead of serving robots; empty: not asked for
   std::vector<ArmOptions> arms{1};
   std::string world;  ///< MJCF or SDF file, or the name of one that comes with the program
   fci::Pace pace;
   double linger{0.0};  ///< how long clients may take to go first when the program is to end [s]
   bool viewer{false};
 };
-
-extern const char* const kUsage;
 
 /// @throws std::invalid_argument with a sentence that names what is wrong.
 Options readOptions(int argc, const char* const* argv);

@@ -15,13 +15,7 @@
 namespace franka_sim {
 namespace {
 
-constexpr std::array<double, 7> kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
 constexpr double kFingersAtStart = 0.001;  // [m] each
-
-// Flange to the hand's nominal end effector: turned by -45 deg about z, 0.1034 m along it
-// (protocol 8.3).
-constexpr std::array<double, 16> kHandF_T_NE{
-    M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1};
 
 // The descriptions that come along name all links and joints after their robot.
 std::string withPrefix(std::string urdf, const std::string& robot, const std::string& arm_id) {
@@ -56,17 +50,15 @@ JointPhysics jointPhysics(const ArmOptions& options) {
 }
 
 RobotDescription describeRobot(const ArmOptions& options, const std::string& urdf,
-                               const JointPhysics& physics, bool hand,
-                               const std::array<double, 7>& q) {
+                               const JointPhysics& physics, bool hand) {
   RobotDescription robot;
   robot.name = options.arm_id;
   robot.urdf = urdf;
   robot.resolve = resolveUri;
   robot.base.position = options.base;
   robot.base.orientation = {std::cos(0.5 * options.yaw), 0, 0, std::sin(0.5 * options.yaw)};
-  for (std::size_t i = 0; i < 7; i++) {
-    robot.initial_positions[options.arm_id + "_joint" + std::to_string(i + 1)] = q[i];
-  }
+  startAt(kReadyPose, options.arm_id, robot);
+  comeToRest(kJointStiffness, options.arm_id, robot);
   if (hand) {
     for (const char* finger : {"_finger_joint1", "_finger_joint2"}) {
       robot.initial_positions[options.arm_id + finger] = kFingersAtStart;
@@ -84,47 +76,41 @@ fci::ProtocolRange protocolsOf(const ArmOptions& options) {
 ControlUnitParameters unitParameters(const ArmOptions& options, const std::string& urdf,
                                      const JointPhysics& physics, bool hand) {
   ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdf, options.arm_id)};
-  parameters.rotor_inertia = physics.rotor_inertia;
-  parameters.coulomb_friction = physics.coulomb_friction;
-  parameters.viscous_friction = physics.damping;
+  useJointPhysics(parameters, physics);
   parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, options.arm_id);
   if (hand) {
     parameters.F_T_NE = kHandF_T_NE;
   }
   parameters.has_hand = hand;
-  parameters.rules = InterfaceRules::kFci;
-  parameters.protocol_version = protocolsOf(options).newest;
   return parameters;
 }
 
-std::optional<fci::SimRobot::Hand> servedHand(const ArmOptions& options, World& world, bool hand) {
-  if (!hand || options.tool != Tool::kGripper) {
-    return {};
-  }
-  return fci::servedHand(world.hand(options.arm_id, options.arm_id));
-}
-
-}  // namespace
-
-ServedArm::ServedArm(const ArmOptions& options, World& world) : options_(options) {
+// Puts the arm into the world and on the network.
+fci::SimRobot makeRobot(const ArmOptions& options, World& world) {
+  const std::string& id = options.arm_id;
   const std::string urdf = robotText(options);
   const JointPhysics physics = jointPhysics(options);
-  const bool hand = urdf.find(options.arm_id + "_finger_joint1") != std::string::npos;
+  const bool hand = urdf.find(id + "_finger_joint1") != std::string::npos;
   const ControlUnitParameters unit = unitParameters(options, urdf, physics, hand);
-  world.addRobot(
-      describeRobot(options, urdf, physics, hand, fci::restingNear(kReady, unit.joint_stiffness)));
+  world.addRobot(describeRobot(options, urdf, physics, hand));
   std::optional<fci::SimRobot::Vacuum> vacuum;
   if (options.tool == Tool::kVacuum) {
     vacuum.emplace();
   }
-  robot_.emplace(unit, world.arm(options.arm_id, options.arm_id),
-                 fci::servedAt(options.ip, protocolsOf(options), unit.model),
-                 servedHand(options, world, hand), vacuum);
+  const bool gripper = hand && options.tool == Tool::kGripper;
+  return fci::servedRobot(options.ip, protocolsOf(options), unit, world.arm(id, id),
+                          gripper ? &world.hand(id, id) : nullptr, vacuum);
+}
+
+}  // namespace
+
+ServedArm::ServedArm(const ArmOptions& options, World& world)
+    : options_(options), robot_(makeRobot(options, world)) {
   const auto tell = [name = options.arm_id + " at " + options.ip](const std::string& what) {
     std::fprintf(stderr, "franka_sim: %s: %s\n", name.c_str(), what.c_str());
   };
-  robot_->onCollision(tell);
-  robot_->onRefusal(tell);
+  robot_.onCollision(tell);
+  robot_.onRefusal(tell);
 }
 
 std::string ServedArm::protocols() const {

@@ -5,7 +5,6 @@
 #include <franka_sim/fci/sim_robot.h>
 #include <franka_sim/physics/world.h>
 
-#include <optional>
 #include <string>
 
 #include "options.h"
@@ -20,14 +19,14 @@ class ServedArm {
   /// does not allow it.
   ServedArm(const ArmOptions& options, World& world);
 
-  fci::SimRobot& robot() noexcept { return *robot_; }
+  fci::SimRobot& robot() noexcept { return robot_; }
   const ArmOptions& options() const noexcept { return options_; }
   /// Protocol versions for the user, for example "3 to 5".
   std::string protocols() const;
 
  private:
   ArmOptions options_;
-  std::optional<fci::SimRobot> robot_;
+  fci::SimRobot robot_;
 };
 
 }  // namespace franka_sim

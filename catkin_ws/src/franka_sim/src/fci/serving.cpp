@@ -18,10 +18,6 @@ namespace {
 // Force laws of the fingers: gains of the original's FrankaGripperSim (decision 29).
 constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
 
-// External torque [Nm] that a real FR3 reports without contact: the error of its own model, from a
-// public recording (docs/fidelity.md).
-constexpr std::array<double, 7> kGravityError{-0.34, -0.39, -0.06, -0.23, -0.05, 0.14, -0.25};
-
 std::string toText(const std::array<double, 7>& values) {
   std::string text;
   for (const double value : values) {
@@ -74,10 +70,17 @@ RobotServerParameters servedAt(const std::string& address, const ProtocolRange& 
   return server;
 }
 
-SimRobot::Hand servedHand(HandPlant& fingers) {
-  SimRobot::Hand hand{&fingers, {}};
-  hand.parameters.gains = {kFingerGains, kFingerGains};
-  return hand;
+SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
+                     ControlUnitParameters unit, ArmPlant& arm, HandPlant* fingers,
+                     const std::optional<SimRobot::Vacuum>& vacuum) {
+  unit.rules = InterfaceRules::kFci;
+  unit.protocol_version = protocols.newest;
+  std::optional<SimRobot::Hand> hand;
+  if (fingers != nullptr) {
+    hand.emplace().plant = fingers;
+    hand->parameters.gains = {kFingerGains, kFingerGains};
+  }
+  return SimRobot(unit, arm, servedAt(address, protocols, unit.model), hand, vacuum);
 }
 
 std::string linksOf(const SelfCollision::Pair& pair) {
@@ -102,15 +105,6 @@ std::string collisionOf(const ControlUnit& unit, RobotError error) {
   return error == RobotError::kSelfCollisionAvoidanceViolation
              ? "its " + detail + " came too close to each other"
              : "it met something, " + detail;
-}
-
-std::array<double, 7> restingNear(const std::array<double, 7>& q,
-                                  const std::array<double, 7>& stiffness) noexcept {
-  std::array<double, 7> rest = q;
-  for (std::size_t i = 0; i < 7; i++) {
-    rest[i] -= stiffness[i] > 0.0 ? kGravityError[i] / stiffness[i] : 0.0;
-  }
-  return rest;
 }
 
 std::string describe(SimRobot& robot) {

@@ -16,9 +16,6 @@ using franka_core::RobotError;
 
 namespace {
 
-constexpr std::uint64_t kHashStart = 14695981039346656037ULL;  // FNV-1a's, 64 bit
-constexpr std::uint64_t kHashPrime = 1099511628211ULL;
-
 /// A joint slower than this stands still: 100 ticks of it are below what the arm's sensors resolve
 /// (our choice).
 constexpr double kRest = 1e-4;  // [rad/s]
@@ -29,7 +26,7 @@ std::string addressOf(const RobotServerParameters& parameters) { return paramete
 
 SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
                    const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum)
-    : unit_(unit), arm_(arm), handler_(unit_), server_(server, handler_), hash_(kHashStart) {
+    : unit_(unit), arm_(arm), handler_(unit_), server_(server, handler_) {
   if (hand) {
     hand_ = std::make_unique<ServedHand>(addressOf(server), *hand);
   }
@@ -56,7 +53,7 @@ void SimRobot::restart() noexcept {
     vacuum_->unit.restart();
   }
   hashing_ = false;
-  hash_ = kHashStart;
+  hash_ = {};
 }
 
 void SimRobot::observe() {
@@ -112,11 +109,10 @@ void SimRobot::updateHash() noexcept {
   for (; i + sizeof(std::uint64_t) <= bytes.size(); i += sizeof(std::uint64_t)) {
     std::uint64_t word;
     std::memcpy(&word, &bytes[i], sizeof(word));
-    hash_ = (hash_ ^ word) * kHashPrime;
-    hash_ ^= hash_ >> 32U;
+    hash_.addWord(word, 32);
   }
   for (; i < bytes.size(); i++) {
-    hash_ = (hash_ ^ bytes[i]) * kHashPrime;
+    hash_.addByte(bytes[i]);
   }
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/kept_files.h"
 
+#include <franka_core/fnv_hash.h>
+
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -29,11 +31,11 @@ Store& store() {
 }
 
 std::uint64_t hashOf(const std::string& content) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
+  franka_core::FnvHash hash;
   for (const char c : content) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+    hash.addByte(static_cast<std::uint8_t>(c));
   }
-  return hash;
+  return hash.value();
 }
 
 std::set<std::string> namedIn(const std::string& text) {

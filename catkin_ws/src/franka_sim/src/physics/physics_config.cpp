@@ -11,6 +11,14 @@ namespace franka_sim {
 
 namespace {
 
+// External torque [Nm] that a real FR3 reports although nothing touches it: the error of its own
+// model, from a public recording (docs/fidelity.md).
+constexpr std::array<double, 7> kGravityError{-0.34, -0.39, -0.06, -0.23, -0.05, 0.14, -0.25};
+
+std::string jointName(const std::string& arm_id, std::size_t index) {
+  return arm_id + "_joint" + std::to_string(index + 1);
+}
+
 /// A list of seven finite numbers under `parent`; if absent, `values` stays as it is.
 void readSeven(const YAML::Node& parent, const std::string& key, const std::string& where,
                std::array<double, 7>& values) {
@@ -75,12 +83,29 @@ JointPhysics readJointPhysics(const std::string& file, const std::string& robot_
 void applyJointPhysics(const JointPhysics& physics, const std::string& arm_id,
                        RobotDescription& description) {
   for (std::size_t i = 0; i < 7; ++i) {
-    const std::string joint = arm_id + "_joint" + std::to_string(i + 1);
+    const std::string joint = jointName(arm_id, i);
     description.rotor_inertia[joint] = physics.rotor_inertia[i];
     description.coulomb_friction[joint] = physics.coulomb_friction[i];
     description.damping[joint] = physics.damping[i];
     if (physics.stops) {
       description.stops[joint] = {physics.stops->lower[i], physics.stops->upper[i]};
+    }
+  }
+}
+
+void startAt(const std::array<double, 7>& q, const std::string& arm_id,
+             RobotDescription& description) {
+  for (std::size_t i = 0; i < 7; ++i) {
+    description.initial_positions[jointName(arm_id, i)] = q[i];
+  }
+}
+
+void comeToRest(const std::array<double, 7>& stiffness, const std::string& arm_id,
+                RobotDescription& description) {
+  for (std::size_t i = 0; i < 7; ++i) {
+    const auto start = description.initial_positions.find(jointName(arm_id, i));
+    if (start != description.initial_positions.end() && stiffness[i] > 0.0) {
+      start->second -= kGravityError[i] / stiffness[i];
     }
   }
 }

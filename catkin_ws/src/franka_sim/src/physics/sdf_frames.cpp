@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/sdf_frames.h"
 
+#include <franka_core/rotations.h>
+
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -78,10 +80,7 @@ Eigen::Isometry3d writtenPose(const XMLElement& element, const std::string& wher
     return result;
   }
   const double unit = pose->BoolAttribute("degrees") ? M_PI / 180 : 1.0;
-  result.linear() = (Eigen::AngleAxisd(unit * n[5], Eigen::Vector3d::UnitZ()) *
-                     Eigen::AngleAxisd(unit * n[4], Eigen::Vector3d::UnitY()) *
-                     Eigen::AngleAxisd(unit * n[3], Eigen::Vector3d::UnitX()))
-                        .toRotationMatrix();
+  result.linear() = franka_core::rotationFromRpy({unit * n[3], unit * n[4], unit * n[5]});
   return result;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/urdf_robot.h"
 
+#include <franka_core/rotations.h>
+
 #include <Eigen/Eigenvalues>
 #include <map>
 #include <stdexcept>
@@ -24,7 +26,6 @@ Eigen::Vector3d vector3(const XMLElement& element, const char* attribute,
   return {values[0], values[1], values[2]};
 }
 
-/// URDF's roll, pitch, yaw turn about fixed axes: R = Rz(yaw) Ry(pitch) Rx(roll).
 Eigen::Isometry3d readOrigin(const XMLElement& parent, const std::string& where) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const XMLElement* origin = parent.FirstChildElement("origin");
@@ -34,10 +35,7 @@ Eigen::Isometry3d readOrigin(const XMLElement& parent, const std::string& where)
   pose.translation() = vector3(*origin, "xyz", {0, 0, 0}, where);
   const Eigen::Vector3d rpy = vector3(*origin, "rpy", {0, 0, 0}, where);
   if (rpy != Eigen::Vector3d::Zero()) {
-    pose.linear() = (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-                     Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-                     Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
-                        .toRotationMatrix();
+    pose.linear() = franka_core::rotationFromRpy(rpy);
   }
   return pose;
 }

@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/fnv_hash.h>
+
 #include <cstring>
 
 #include "physics/world_impl.h"
@@ -7,14 +9,9 @@
 namespace franka_sim {
 namespace {
 
-/// FNV-1a over 64-bit words with a final mix: word by word is fast enough for every tick.
 class Hash {
  public:
-  void add(std::uint64_t word) noexcept {
-    state_ ^= word;
-    state_ *= 0x100000001b3ULL;
-    state_ ^= state_ >> 29;
-  }
+  void add(std::uint64_t word) noexcept { hash_.addWord(word, 29); }
   void add(const double* values, int count) noexcept {
     for (int i = 0; i < count; ++i) {
       std::uint64_t word;
@@ -22,10 +19,10 @@ class Hash {
       add(word);
     }
   }
-  std::uint64_t value() const noexcept { return state_; }
+  std::uint64_t value() const noexcept { return hash_.value(); }
 
  private:
-  std::uint64_t state_{0xcbf29ce484222325ULL};
+  franka_core::FnvHash hash_;
 };
 
 }  // namespace

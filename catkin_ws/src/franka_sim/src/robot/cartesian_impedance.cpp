@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/rotations.h>
 #include <franka_sim/robot/cartesian_impedance.h>
 
 #include <Eigen/Cholesky>
@@ -42,8 +43,7 @@ Task taskOf(const CartesianImpedanceInput& in) noexcept {
   Task task;
   const Eigen::Vector3d away = EE_d.topRightCorner<3, 1>() + r_d - EE.topRightCorner<3, 1>() - r;
   task.error.head<3>() = R.transpose() * away;
-  const Eigen::AngleAxisd rotation(Eigen::Matrix3d(R.transpose() * R_d));
-  task.error.tail<3>() = rotation.angle() * rotation.axis();
+  task.error.tail<3>() = franka_core::vectorOf(Eigen::Matrix3d(R.transpose() * R_d));
 
   for (int i = 0; i < 7; i++) {
     const Eigen::Vector3d w = J_EE.block<3, 1>(3, i);

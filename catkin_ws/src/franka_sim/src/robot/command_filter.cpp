@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/rotations.h>
 #include <franka_sim/robot/command_filter.h>
 #include <franka_sim/robot/tick.h>
 #include <franka_sim/robot/transforms.h>
@@ -8,8 +9,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
-
-#include "robot/motion/rotations.h"
 
 namespace franka_sim {
 
@@ -36,8 +35,8 @@ void smoothPose(double gain, const Transform& input, Transform& output) noexcept
   }
   const Eigen::Map<const Eigen::Matrix4d> next(input.data());
   Eigen::Map<Eigen::Matrix4d> last(output.data());
-  const Eigen::Quaterniond from(orthonormalised(last.topLeftCorner<3, 3>()));
-  const Eigen::Quaterniond to(orthonormalised(next.topLeftCorner<3, 3>()));
+  const Eigen::Quaterniond from(franka_core::orthonormalised(last.topLeftCorner<3, 3>()));
+  const Eigen::Quaterniond to(franka_core::orthonormalised(next.topLeftCorner<3, 3>()));
   last.topLeftCorner<3, 3>() = from.slerp(gain, to).toRotationMatrix();
   last.topRightCorner<3, 1>() += gain * (next.topRightCorner<3, 1>() - last.topRightCorner<3, 1>());
 }

@@ -4,6 +4,7 @@
 // The whole simulated robot over real sockets, stepped in lock-step and by the clock.
 #include <franka_sim/fci/host.h>
 #include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 
 #include <atomic>
@@ -29,8 +30,6 @@ using franka_core::ControllerMode;
 using franka_core::MotionGeneratorMode;
 using franka_core::RobotMode;
 using franka_test::TestClient;
-
-constexpr std::array<double, 7> kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
 
 std::string urdfText() {
   std::ifstream file(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
@@ -75,11 +74,8 @@ class Fixture {
     description.urdf = urdf;
     description.resolve = [](const std::string&) { return std::string(); };
     ControlUnitParameters unit{franka_core::ArmModel::fromUrdf(urdf, "panda")};
-    for (std::size_t i = 0; i < 7; i++) {
-      const std::string joint = "panda_joint" + std::to_string(i + 1);
-      description.initial_positions[joint] = kReady[i];
-      description.rotor_inertia[joint] = unit.rotor_inertia[i];
-    }
+    startAt(kReadyPose, "panda", description);
+    applyJointPhysics({}, "panda", description);
     unit.end_effector = franka_core::endEffectorFromUrdf(urdf, "panda");
     unit.rules = InterfaceRules::kFci;
     unit.protocol_version = 5;

@@ -10,6 +10,7 @@
 #include <franka_sim/fci/host.h>
 #include <franka_sim/fci/served_models.h>
 #include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +32,6 @@
 namespace franka_sim::fci {
 namespace {
 
-constexpr std::array<double, 7> kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
 constexpr std::array<double, 16> kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 std::array<double, 7> sevenTimes(double value) {
@@ -102,11 +102,8 @@ class SimulatedRobots {
     description.resolve = [](const std::string&) { return std::string(); };
     description.base.position = {place.x, 0, 0};
     description.base.orientation = {std::cos(0.5 * place.yaw), 0, 0, std::sin(0.5 * place.yaw)};
-    for (std::size_t i = 0; i < 7; i++) {
-      const std::string joint = name + "_joint" + std::to_string(i + 1);
-      description.initial_positions[joint] = kReady[i];
-      description.rotor_inertia[joint] = unit.rotor_inertia[i];
-    }
+    startAt(kReadyPose, name, description);
+    applyJointPhysics({}, name, description);
     unit.end_effector = franka_core::endEffectorFromUrdf(text.str(), name);
     unit.rules = InterfaceRules::kFci;
     unit.protocol_version = place.version;
@@ -179,7 +176,7 @@ TEST_P(OwnClient, NegotiatesTheVersionAndReadsStates) {
   const franka::RobotState first = robot.readOnce();
   EXPECT_EQ(first.robot_mode, franka::RobotMode::kIdle);
   for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(first.q[i], kReady[i], 1e-4);
+    EXPECT_NEAR(first.q[i], kReadyPose[i], 1e-4);
   }
   int count = 0;
   robot.read([&count](const franka::RobotState&) { return ++count < 10; });
@@ -359,8 +356,8 @@ TEST_P(TwoArms, MoveSimultaneouslyForOneClientEach) {
   auto other = std::async(std::launch::async, [&fr3] { swing(fr3, -kAngle); });
   swing(panda, kAngle);
   other.get();
-  EXPECT_NEAR(panda.readOnce().q[3], kReady[3] + kAngle, 2e-3);
-  EXPECT_NEAR(fr3.readOnce().q[3], kReady[3] - kAngle, 2e-3);
+  EXPECT_NEAR(panda.readOnce().q[3], kReadyPose[3] + kAngle, 2e-3);
+  EXPECT_NEAR(fr3.readOnce().q[3], kReadyPose[3] - kAngle, 2e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pace, TwoArms, ::testing::Bool());
@@ -378,7 +375,7 @@ TEST(StarvedMachine, ClientAndRobotWaitForEachOther) {
       simulated.holdUp(kLonger);
     }
   });
-  EXPECT_NEAR(robot.readOnce().q[3], kReady[3] + kAngle, 2e-3);
+  EXPECT_NEAR(robot.readOnce().q[3], kReadyPose[3] + kAngle, 2e-3);
 }
 
 TEST(StarvedMachine, ClientsWaitWhileAnotherClientIsAwaited) {
@@ -402,8 +399,8 @@ TEST(StarvedMachine, ClientsWaitWhileAnotherClientIsAwaited) {
   EXPECT_NO_THROW(fr3.readOnce());
   done = true;
   reading.join();
-  EXPECT_NEAR(panda.readOnce().q[3], kReady[3] + kAngle, 2e-3);
-  EXPECT_NEAR(fr3.readOnce().q[3], kReady[3] - kAngle, 2e-3);
+  EXPECT_NEAR(panda.readOnce().q[3], kReadyPose[3] + kAngle, 2e-3);
+  EXPECT_NEAR(fr3.readOnce().q[3], kReadyPose[3] - kAngle, 2e-3);
 }
 
 TEST(TwoArmsInOneWorld, CanCollide) {
@@ -432,7 +429,7 @@ TEST(TwoArmsInOneWorld, CanCollide) {
   const franka::RobotState pushed = fr3.readOnce();
   double displaced = 0.0;
   for (std::size_t i = 0; i < 7; i++) {
-    displaced = std::max(displaced, std::abs(pushed.q[i] - kReady[i]));
+    displaced = std::max(displaced, std::abs(pushed.q[i] - kReadyPose[i]));
   }
   EXPECT_TRUE(displaced > 1e-4 || pushed.robot_mode == franka::RobotMode::kReflex);
 }

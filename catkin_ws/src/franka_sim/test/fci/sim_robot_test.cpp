@@ -46,7 +46,7 @@ class SimRobotTest : public ::testing::Test {
   explicit SimRobotTest(unsigned version = 10, ProtocolRange protocols = {6, 10})
       : robot(unitOf(version), arm, serverOf(protocols), std::nullopt) {
     arm.payload = test::pandaHand();
-    arm.push_frame = test::handFrame();
+    arm.push_frame = kHandF_T_NE;
     tick();
   }
 
@@ -306,16 +306,6 @@ TEST_F(Panda, ReportsValueAndThresholdOfACollision) {
     EXPECT_NE(std::string::npos, reports.front().find(part)) << reports.front();
   }
   EXPECT_NE(std::string::npos, describe(robot).find("upper threshold")) << describe(robot);
-}
-
-// An encoder never shows a target to the last bit, and clients divide by the remaining distance.
-TEST(RestingNear, DiffersFromTheTargetByATenthOfAMilliradian) {
-  const ControlUnitParameters unit = unitOf(5);
-  const std::array<double, 7> rest = restingNear(test::kReady, unit.joint_stiffness);
-  for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_GT(std::abs(rest[i] - test::kReady[i]), 1e-5);
-    EXPECT_LT(std::abs(rest[i] - test::kReady[i]), 2e-4);
-  }
 }
 
 }  // namespace

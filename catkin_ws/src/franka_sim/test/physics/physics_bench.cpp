@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One tick of World against the bare mj_step calls of the same model, side by side in one run.
 #include <benchmark/benchmark.h>
+#include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 #include <mujoco/mujoco.h>
 
@@ -35,11 +36,8 @@ RobotDescription panda() {
   description.name = "panda";
   description.urdf = readFile(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
   description.base.position = {-0.5, 0, 0};
-  for (int i = 0; i < 7; ++i) {
-    const std::string joint = "panda_joint" + std::to_string(i + 1);
-    description.initial_positions[joint] = kHome[i];
-    description.rotor_inertia[joint] = 0.1;
-  }
+  startAt(kHome, "panda", description);
+  applyJointPhysics({}, "panda", description);
   return description;
 }
 

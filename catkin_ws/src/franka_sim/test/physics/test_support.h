@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 #include <gtest/gtest.h>
 
@@ -48,9 +49,9 @@ inline RobotDescription robot(const std::string& kind, const std::string& arm_id
   RobotDescription description;
   description.name = arm_id;
   description.urdf = replaceAll(urdfOf(kind), kind + "_", arm_id + "_");
+  startAt(kHome, arm_id, description);
   for (int i = 0; i < 7; ++i) {
     const std::string joint = arm_id + "_joint" + std::to_string(i + 1);
-    description.initial_positions[joint] = kHome[i];
     description.rotor_inertia[joint] = kRotorInertia;
     description.stops[joint] = {-4.7, 4.7};
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/urdf_robot.h"
 
+#include <franka_sim/robot/control_unit_parameters.h>
+
 #include <cmath>
 
 #include "physics/robot_model.h"
@@ -144,6 +146,19 @@ TEST(RobotModelTest, FusesFixedLinks) {
     if (model.urdf.links[segment.link].name == "panda_link7") {
       EXPECT_NEAR(0.735522 + 0.73, segment.inertial.mass, 1e-15);
     }
+  }
+}
+// An encoder never shows a target to the last bit, and clients divide by the way that is left.
+TEST(ComeToRest, IsAWayOfATenthOfAMilliradianFromTheTarget) {
+  RobotDescription description = robot("panda");
+  description.initial_positions.erase("panda_joint3");
+  const auto target = description.initial_positions;
+  comeToRest(kJointStiffness, "panda", description);
+  EXPECT_EQ(target.size(), description.initial_positions.size());
+  for (const auto& [joint, position] : target) {
+    const double way = std::abs(description.initial_positions[joint] - position);
+    EXPECT_GT(way, 1e-5) << joint;
+    EXPECT_LT(way, 2e-4) << joint;
   }
 }
 

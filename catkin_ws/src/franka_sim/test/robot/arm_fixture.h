@@ -12,7 +12,7 @@ namespace franka_sim::test {
 inline ControlUnitParameters pandaWithHand() {
   ControlUnitParameters parameters{pandaModel()};
   parameters.end_effector = pandaHand();
-  parameters.F_T_NE = handFrame();
+  parameters.F_T_NE = kHandF_T_NE;
   return parameters;
 }
 

@@ -17,7 +17,7 @@ using franka_sim::ControlUnitParameters;
 ControlUnitParameters parameters() {
   ControlUnitParameters parameters{franka_sim::test::pandaModel()};
   parameters.end_effector = franka_sim::test::pandaHand();
-  parameters.F_T_NE = franka_sim::test::handFrame();
+  parameters.F_T_NE = franka_sim::kHandF_T_NE;
   return parameters;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/robot_state.h>
+#include <franka_core/rotations.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -53,9 +54,9 @@ inline Plan planOfJoint(std::size_t joint, const Profile& profile) {
 }
 
 inline Vector7 velocityBetween(const Waypoint& from, const Waypoint& to) {
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(to.rotation * from.rotation.transpose()));
+  const Eigen::Matrix3d turn = to.rotation * from.rotation.transpose();
   Vector7 velocity;
-  velocity << to.position - from.position, turn.angle() * turn.axis(), to.q3 - from.q3;
+  velocity << to.position - from.position, franka_core::vectorOf(turn), to.q3 - from.q3;
   return velocity / kTick;
 }
 
@@ -218,11 +219,8 @@ class CartesianClient : public LimitClient {
   }
   void advance(const Vector7& velocity) override {
     velocity_ = velocity;
-    const Eigen::Vector3d turn = velocity.segment<3>(3) * kTick;
     now_.position += velocity.head<3>() * kTick;
-    if (turn.norm() > 0.0) {
-      now_.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * now_.rotation;
-    }
+    now_.rotation = franka_core::rotationFrom(velocity.segment<3>(3) * kTick) * now_.rotation;
     now_.q3 += velocity[6] * kTick;
   }
   RobotCommand makeCommand() override {

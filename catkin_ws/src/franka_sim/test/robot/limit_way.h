@@ -70,7 +70,7 @@ inline Waypoint along(const Way& way, const Waypoint& start, double distance) {
 
 /// One point per tick, from the start pose.
 inline std::vector<Waypoint> waypoints(const Way& way, const Profile& profile) {
-  Transform F_T_EE = handFrame();
+  Transform F_T_EE = kHandF_T_NE;
   F_T_EE[14] += way.rod;
   const Transform pose = model().pose(franka_core::ArmFrame::kEndEffector, way.start, F_T_EE);
   const Eigen::Map<const Eigen::Matrix4d> O_T_EE(pose.data());
@@ -100,7 +100,7 @@ class WayJudge {
 
   /// Stops early above `enough`.
   Judgement judge(const Way& way, const Profile& profile, double enough = 1.0) {
-    Transform F_T_EE = handFrame();
+    Transform F_T_EE = kHandF_T_NE;
     F_T_EE[14] += way.rod;
     worst_ = {};
     Joints q = way.start, dq{}, ddq{};

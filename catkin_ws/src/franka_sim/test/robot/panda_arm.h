@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_sim/robot/control_unit_parameters.h>
 
 #include <cmath>
 
@@ -63,12 +64,6 @@ inline franka_core::Payload pandaHand() {
   fingers.com = {{0, 0, 0.0584}};
   fingers.inertia = {{4.75e-6, 0, 0, 0, 4.75e-6, 0, 0, 0, 1.5e-6}};
   return franka_core::combine(hand, fingers);
-}
-
-/// F_T_NE of the hand: -45 degrees about z, 0.1034 m.
-inline std::array<double, 16> handFrame() {
-  const double s = std::sqrt(0.5);
-  return {{s, -s, 0, 0, s, s, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1}};
 }
 
 }  // namespace franka_sim::test

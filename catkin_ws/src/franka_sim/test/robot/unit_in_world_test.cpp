@@ -1,6 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Control unit and gripper unit on the MuJoCo physics, Panda and FR3.
+#include <franka_core/rotations.h>
+#include <franka_sim/physics/physics_config.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/gripper_unit.h>
 
@@ -45,16 +47,14 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
       description.base.position = {{-0.5, 0, 0.3}};
       description.initial_positions[id() + "_finger_joint1"] = 0.03;
     }
-    for (std::size_t i = 0; i < 7; i++) {
-      description.initial_positions[id() + "_joint" + std::to_string(i + 1)] = kReady[i];
-    }
+    startAt(kReady, id(), description);
     world = std::make_unique<World>(test::world(scene));
     world->addRobot(description);
     arm = &world->arm(id(), id());
     hand = &world->hand(id(), id());
     ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdfOf(id()), id())};
     parameters.end_effector = handPayload();
-    parameters.F_T_NE = handFrame();
+    parameters.F_T_NE = kHandF_T_NE;
     if (over_fci) {
       parameters.rules = InterfaceRules::kFci;
       parameters.protocol_version = id() == "fr3" ? 10 : 5;
@@ -422,9 +422,9 @@ TEST_P(UnitInWorldTest, CartesianImpedanceHasTheConfiguredStiffnessInSixAxes) {
     ASSERT_EQ(franka_core::RobotMode::kMove, unit->state().robot_mode);
     const Eigen::Matrix4d now = Eigen::Map<const Eigen::Matrix4d>(unit->state().O_T_EE.data());
     const Eigen::Matrix3d R = now.topLeftCorner<3, 3>();
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(from.topLeftCorner<3, 3>().transpose() * R));
+    const Eigen::Matrix3d turn = from.topLeftCorner<3, 3>().transpose() * R;
     Eigen::Matrix<double, 6, 1> moved;
-    moved << R.transpose() * (now - from).topRightCorner<3, 1>(), turn.angle() * turn.axis();
+    moved << R.transpose() * (now - from).topRightCorner<3, 1>(), franka_core::vectorOf(turn);
     EXPECT_NEAR(K[axis], size / moved[static_cast<int>(axis)], 0.005 * K[axis])
         << GetParam() << ", axis " << axis;
   }

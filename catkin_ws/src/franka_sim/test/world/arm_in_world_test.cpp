@@ -4,6 +4,8 @@
 // The control unit on the arm simulated by MuJoCo: rest, free motion, pushes, a load that is not
 // configured.
 #include <franka_core/arm_model.h>
+#include <franka_core/rotations.h>
+#include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/control_unit.h>
 #include <gtest/gtest.h>
@@ -25,8 +27,6 @@ using Matrix4 = Eigen::Matrix4d;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 using Jacobian = Eigen::Matrix<double, 6, 7>;
 using Array7 = std::array<double, 7>;
-
-constexpr Array7 kReady{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
 
 Eigen::Map<const Vector7> vector(const Array7& array) {
   return Eigen::Map<const Vector7>(array.data());
@@ -56,8 +56,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     ASSERT_FALSE(urdf.empty());
     model_ = std::make_unique<franka_core::ArmModel>(franka_core::ArmModel::fromUrdf(urdf, id));
     ControlUnitParameters parameters{*model_};
-    parameters.F_T_NE = {M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0,      0,
-                         0,         0,          1, 0, 0,         0,         0.1034, 1};
+    parameters.F_T_NE = kHandF_T_NE;
     parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, id);
     // The wrench is tested, so no collision may be raised.
     parameters.nominal.upper_force.fill(1e3);
@@ -71,11 +70,8 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     robot.name = id;
     robot.urdf = urdf;
     robot.resolve = [](const std::string&) { return std::string(); };
-    for (int i = 0; i < 7; ++i) {
-      const std::string joint = id + "_joint" + std::to_string(i + 1);
-      robot.initial_positions[joint] = kReady[i];
-      robot.rotor_inertia[joint] = parameters.rotor_inertia[i];
-    }
+    startAt(kReadyPose, id, robot);
+    applyJointPhysics({}, id, robot);
     world_->addRobot(robot);
     arm_ = &world_->arm(id, id);
     unit_ = std::make_unique<ControlUnit>(parameters);
@@ -123,11 +119,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
                    const Vector7& posture) const {
     const Matrix4 pose = Matrix4::Map(state.O_T_EE.data());
     const Jacobian J = jacobian(state);
-    Vector6 error;
-    error.head<3>() = pose.topRightCorner<3, 1>() - target.topRightCorner<3, 1>();
-    const Eigen::AngleAxisd turn(
-        Eigen::Matrix3d(pose.topLeftCorner<3, 3>() * target.topLeftCorner<3, 3>().transpose()));
-    error.tail<3>() = turn.angle() * turn.axis();
+    const Vector6 error = franka_core::twistBetween(target, pose, 1.0);
     Vector6 stiffness;
     stiffness << 600, 600, 600, 50, 50, 50;
     const Vector7 dq = vector(state.dq);
@@ -146,7 +138,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     idleTick();
     EXPECT_EQ(Status::kMotionStarted, unit_->request(torqueControl()));
     const Matrix4 target = Matrix4::Map(unit_->state().O_T_EE.data());
-    const Vector7 posture = vector(kReady);
+    const Vector7 posture = vector(kReadyPose);
     for (int k = 0; k < 6000; ++k) {
       const auto& pose = unit_->state().O_T_EE;
       const double ramp = std::min(1.0, k / 1000.0);
@@ -204,7 +196,7 @@ TEST_P(ArmInWorld, IdleHoldsAgainstAPush) {
   }
   double away = 0;
   for (int i = 0; i < 7; ++i) {
-    away = std::max(away, std::abs(unit_->state().q[i] - kReady[i]));
+    away = std::max(away, std::abs(unit_->state().q[i] - kReadyPose[i]));
     EXPECT_EQ(unit_->state().tau_J_d[i], 0);
   }
   EXPECT_LT(away, 5e-3);
@@ -213,7 +205,7 @@ TEST_P(ArmInWorld, IdleHoldsAgainstAPush) {
     idleTick();
   }
   for (int i = 0; i < 7; ++i) {
-    EXPECT_NEAR(kReady[i], unit_->state().q[i], 1e-4);
+    EXPECT_NEAR(kReadyPose[i], unit_->state().q[i], 1e-4);
   }
 }
 

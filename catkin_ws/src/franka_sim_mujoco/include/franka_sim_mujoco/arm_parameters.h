@@ -2,30 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim_mujoco/robot_hw_sim.h>
 #include <ros/node_handle.h>
 
 #include <array>
 #include <string>
 
-namespace franka_sim {
-class World;
-}
-
 namespace franka_sim_mujoco {
 
 /// The control unit's configuration from the parameters of a robot's namespace, with the names of
 /// the original franka_gazebo. Defaults come from the robot's URDF: the end effector is everything
-/// behind the flange (decision 7), F_T_NE that of the hand if there is one. @param gravity of the
-/// world [m/s^2], axes of the arm's base; overridden by the parameter gravity_vector
+/// behind the flange (decision 7), F_T_NE that of the hand if there is one. Gravity is the world's
+/// unless the parameter gravity_vector is set.
+/// @param robot stands in the world @param model of its description
 /// @throws std::invalid_argument with a sentence for the first error
 franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
-                                                    const std::string& urdf,
-                                                    const std::string& arm_id, bool has_hand,
-                                                    const std::array<double, 3>& gravity);
-
-/// The world's gravity in the axes of the arm's base [m/s^2]. @param base name of its body
-std::array<double, 3> gravityInBase(franka_sim::World& world, const std::string& base);
+                                                    const RobotHandle& robot,
+                                                    const urdf::Model& model,
+                                                    const std::string& arm_id);
 
 /// Stiffness of the internal joint impedance controller [Nm/rad]: the proportional gains
 /// `motion_generators/position/gains/<arm_id>_jointN/p`. The original follows positions by one PID

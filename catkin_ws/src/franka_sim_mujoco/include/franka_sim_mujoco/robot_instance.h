@@ -105,9 +105,8 @@ class RobotInstance {
  private:
   void start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
              BetweenTicks between_ticks);
-  void serve(const RobotPlan& plan, franka_sim::World& world, BetweenTicks between_ticks);
-  void startHardware(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
-                     BetweenTicks between_ticks);
+  void serve(const RobotPlan& plan, const RobotHandle& robot);
+  void startHardware(const RobotPlan& plan, const RobotHandle& robot, HardwareLoader& loader);
   void reviewStart();
   void updateControllers(const ros::Time& time, const ros::Duration& period);
 

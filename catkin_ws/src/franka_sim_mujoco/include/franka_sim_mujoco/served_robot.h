@@ -23,7 +23,7 @@ class ServedRobot {
  public:
   /// @param plan of a robot that is in the world
   /// @throws std::runtime_error, std::invalid_argument with a sentence
-  ServedRobot(const RobotPlan& plan, franka_sim::World& world, BetweenTicks between_ticks);
+  ServedRobot(const RobotPlan& plan, const RobotHandle& robot);
 
   franka_sim::fci::SimRobot& robot() noexcept { return robot_; }
   /// Whether a motion of a client runs.

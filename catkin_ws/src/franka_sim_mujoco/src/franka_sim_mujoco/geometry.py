@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
+from scipy.spatial.transform import Rotation
 from tf.transformations import quaternion_from_matrix, quaternion_matrix
 
 
@@ -38,13 +39,7 @@ def yaw_of(transform: np.ndarray) -> float:
 
 def rotation_vector(rotation: np.ndarray) -> np.ndarray:
     """Axis times angle [rad] of a 3x3 rotation by less than half a turn."""
-    transform = np.eye(4)
-    transform[:3, :3] = rotation
-    x, y, z, w = quaternion_from_matrix(transform)
-    sine = math.sqrt(x * x + y * y + z * z)
-    if sine < 1e-12:
-        return np.zeros(3)
-    return 2.0 * math.atan2(math.copysign(sine, w), abs(w)) / sine * np.array([x, y, z])
+    return Rotation.from_matrix(rotation).as_rotvec()
 
 
 def wrap(angle: float, period: float) -> float:

@@ -3,6 +3,7 @@
 #include "abort_measures.h"
 
 #include <franka_core/limits.h>
+#include <franka_core/rotations.h>
 #include <franka_core/tick.h>
 
 #include <Eigen/Geometry>
@@ -61,14 +62,8 @@ std::optional<Joints> velocityOf(const Step& step) {
 /// Commanded twist [m/s, rad/s] of either Cartesian generator; empty if none runs.
 std::optional<Twist> twistOf(const Step& step) {
   if (isUsed(step.command.O_T_EE_c)) {
-    const Matrix4 to(step.command.O_T_EE_c.data());
-    const Matrix4 from(step.before.O_T_EE_c.data());
-    const Eigen::AngleAxisd turn(
-        Eigen::Matrix3d(to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose()));
-    Twist twist;
-    twist << (to.topRightCorner<3, 1>() - from.topRightCorner<3, 1>()) / kTick,
-        turn.axis() * turn.angle() / kTick;
-    return twist;
+    return twistBetween(Matrix4(step.before.O_T_EE_c.data()), Matrix4(step.command.O_T_EE_c.data()),
+                        kTick);
   }
   if (isUsed(step.command.O_dP_EE_c)) {
     return Eigen::Map<const Twist>(step.command.O_dP_EE_c.data());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/exception.h>
 #include <franka/mobile_model.h>
+#include <franka_core/rotations.h>
 #include <tinyxml2.h>
 
 #include <Eigen/Geometry>
@@ -61,10 +62,7 @@ Joint jointOf(const tinyxml2::XMLElement& element) {
   const Eigen::Vector3d rpy = vectorOf(origin, "rpy", Eigen::Vector3d::Zero());
   Joint joint;
   joint.origin.translation() = vectorOf(origin, "xyz", Eigen::Vector3d::Zero());
-  joint.origin.linear() = (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-                           Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-                           Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
-                              .toRotationMatrix();
+  joint.origin.linear() = franka_core::rotationFromRpy(rpy);
   joint.axis = vectorOf(element.FirstChildElement("axis"), "xyz", Eigen::Vector3d::UnitX());
   if (!(joint.axis.norm() > 0.0)) {
     refuse("Its description (URDF) has a joint without an axis: " + attributeOf(&element, "name") +

@@ -3,6 +3,7 @@
 #include <franka/control_tools.h>
 #include <franka/rate_limiting.h>
 #include <franka_core/finite.h>
+#include <franka_core/rotations.h>
 #include <franka_core/transform.h>
 
 #include <Eigen/Geometry>
@@ -225,14 +226,14 @@ std::array<double, 16> limitRate(double max_translational_velocity,
   const Eigen::Map<const Eigen::Matrix4d> desired(O_T_EE_c.data());
   const Eigen::Map<const Eigen::Matrix4d> last(last_O_T_EE_c.data());
   const Eigen::Matrix3d last_rotation = nearestRotation(last_O_T_EE_c);
-  const Eigen::AngleAxisd step(
-      Eigen::Matrix3d(nearestRotation(O_T_EE_c) * last_rotation.transpose()));
 
   std::array<double, 6> twist{};
   Eigen::Map<Eigen::Vector3d> linear(twist.data());
   Eigen::Map<Eigen::Vector3d> angular(twist.data() + 3);
   linear = (desired.topRightCorner<3, 1>() - last.topRightCorner<3, 1>()) / kDeltaT;
-  angular = step.angle() / kDeltaT * step.axis();
+  angular = franka_core::vectorOf(
+                Eigen::Matrix3d(nearestRotation(O_T_EE_c) * last_rotation.transpose())) /
+            kDeltaT;
   twist =
       limitRate(max_translational_velocity, max_translational_acceleration, max_translational_jerk,
                 kFactorCartesianRotationPoseInterface * max_rotational_velocity,
@@ -243,12 +244,7 @@ std::array<double, 16> limitRate(double max_translational_velocity,
   std::array<double, 16> limited = last_O_T_EE_c;
   Eigen::Map<Eigen::Matrix4d> result(limited.data());
   result.topRightCorner<3, 1>() += linear * kDeltaT;
-  result.topLeftCorner<3, 3>() = last_rotation;
-  const double angle = angular.norm() * kDeltaT;
-  if (angle > kNormEps) {
-    result.topLeftCorner<3, 3>() =
-        Eigen::AngleAxisd(angle, angular.normalized()).toRotationMatrix() * last_rotation;
-  }
+  result.topLeftCorner<3, 3>() = franka_core::rotationFrom(angular * kDeltaT) * last_rotation;
   return limited;
 }
 

@@ -6,6 +6,7 @@
 #include <franka_sim/fci/sim_robot.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 /// @file
@@ -26,8 +27,13 @@ ProtocolRange protocolsOf(const std::string& robot) noexcept;
 RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
                                const franka_core::ArmModel& arm);
 
-/// The hand on its fingers. @param fingers must outlive it
-SimRobot::Hand servedHand(HandPlant& fingers);
+/// A robot that behaves as behind its own interface, of its newest protocol.
+/// @param unit the robot's own configuration, as the user enters it in Desk
+/// @param arm outlives the robot, as do the fingers @param fingers null: no hand is served
+/// @throws as SimRobot
+SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
+                     ControlUnitParameters unit, ArmPlant& arm, HandPlant* fingers,
+                     const std::optional<SimRobot::Vacuum>& vacuum = {});
 
 /// The two links that came too close, named as in the description without the arm's name: "link2
 /// and hand".
@@ -40,13 +46,6 @@ void setLoad(SimRobot& robot, const franka_core::Payload& load);
 /// Message about a collision that raised this error (self-collision, joint or Cartesian reflex):
 /// "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
 std::string collisionOf(const ControlUnit& unit, franka_core::RobotError error);
-
-/// Joint positions [rad] at which a real arm rests after a motion to q: its model of gravity is
-/// wrong by a few tenths of a newton metre, which the stiffness [Nm/rad] of the hold turns into
-/// about 1e-4 rad (docs/fidelity.md). Clients are never tested with a position that equals its
-/// target to the last bit.
-std::array<double, 7> restingNear(const std::array<double, 7>& q,
-                                  const std::array<double, 7>& stiffness) noexcept;
 
 /// Mode, client, errors (of collisions: the links or the axis) and joints in one line for the user.
 std::string describe(SimRobot& robot);

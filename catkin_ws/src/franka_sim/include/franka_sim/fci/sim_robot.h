@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/fnv_hash.h>
 #include <franka_sim/fci/command_link.h>
 #include <franka_sim/fci/gripper_server.h>
 #include <franka_sim/fci/host.h>
@@ -61,7 +62,7 @@ class SimRobot final : public HostedRobot {
 
   /// Hash of all states from the first answered one on, without their ids: equal hash, equal run
   /// (decision 21).
-  std::uint64_t hash() const noexcept { return hash_; }
+  std::uint64_t hash() const noexcept { return hash_.value(); }
   /// After the world was reset: as after the start; the hash begins anew. To be followed by
   /// `observe`, once: the one of the next tick, or within a tick one more.
   void restart() noexcept;
@@ -116,7 +117,7 @@ class SimRobot final : public HostedRobot {
   std::function<void(const std::string&)> tell_;
   bool halted_{false};
   bool hashing_{false};
-  std::uint64_t hash_{0};
+  franka_core::FnvHash hash_;
 };
 
 }  // namespace franka_sim::fci

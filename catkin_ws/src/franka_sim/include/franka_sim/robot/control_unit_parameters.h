@@ -3,8 +3,10 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_sim/robot/plant.h>
 
 #include <array>
+#include <cmath>
 
 namespace franka_sim {
 
@@ -37,6 +39,14 @@ constexpr bool judgesWrenchInBase(InterfaceRules rules) noexcept {
   return rules == InterfaceRules::kFci;
 }
 
+/// Flange to the hand's nominal end effector: turned by -45 deg about z, 0.1034 m along it
+/// (protocol 8.3).
+constexpr std::array<double, 16> kHandF_T_NE{
+    M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1};
+
+/// Of the idle hold, and of joint impedance control until it is set [Nm/rad] (decision 11).
+constexpr std::array<double, 7> kJointStiffness{3000, 3000, 3000, 2500, 2500, 2000, 2000};
+
 /// The configuration a control unit starts with. Thresholds are the defaults of the original
 /// franka_gazebo; the source of each other default stands beside it.
 struct ControlUnitParameters {
@@ -59,13 +69,19 @@ struct ControlUnitParameters {
                               {{20, 20, 20, 25, 25, 25}},
                               {{20, 20, 20, 25, 25, 25}}};
   CollisionThresholds acceleration{nominal};
-  /// Of the idle hold, and of joint impedance control until it is set [Nm/rad] (decision 11).
-  std::array<double, 7> joint_stiffness{{3000, 3000, 3000, 2500, 2500, 2000, 2000}};
+  std::array<double, 7> joint_stiffness{kJointStiffness};
   /// Of Cartesian impedance control until it is set [N/m, Nm/rad] (decision 11).
   std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
   bool has_hand{true};           ///< for the avoidance of self-collisions
   unsigned protocol_version{5};  ///< selects the limits (decisions 8, 25)
   InterfaceRules rules{InterfaceRules::kRosControl};
 };
+
+/// Sets the rotor inertia and the friction of the joints.
+inline void useJointPhysics(ControlUnitParameters& parameters, const JointPhysics& physics) {
+  parameters.rotor_inertia = physics.rotor_inertia;
+  parameters.coulomb_friction = physics.coulomb_friction;
+  parameters.viscous_friction = physics.damping;
+}
 
 }  // namespace franka_sim

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 namespace franka_sim {
 
@@ -13,6 +14,17 @@ struct ArmMeasurement {
   /// Link-side torque, mean over the last tick [Nm], of the motors or the closed brakes
   /// (decision 2).
   std::array<double, 7> tau_J{};
+};
+
+/// The joints' properties that no URDF carries (decision 1), joints 1 to 7.
+struct JointPhysics {
+  std::array<double, 7> rotor_inertia{{0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< [kg m^2]
+  std::array<double, 7> coulomb_friction{};                                  ///< [Nm]
+  std::array<double, 7> damping{};                                           ///< [Nm s/rad]
+  struct Stops {
+    std::array<double, 7> lower, upper;  ///< [rad]
+  };
+  std::optional<Stops> stops;  ///< (decision 8); without them the URDF's limits are the stops
 };
 
 /// A seven-joint arm as its control unit sees it. Implemented by physics/, faked by tests. Called

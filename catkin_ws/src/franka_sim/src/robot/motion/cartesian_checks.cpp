@@ -3,6 +3,7 @@
 #include "robot/motion/cartesian_checks.h"
 
 #include <franka_core/arm_model.h>
+#include <franka_core/rotations.h>
 #include <franka_sim/robot/tick.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <cstddef>
 
 #include "robot/motion/as_echoed.h"
-#include "robot/motion/rotations.h"
 
 namespace franka_sim {
 
@@ -126,8 +126,9 @@ Transform moved(const Transform& pose, const Derivative& twist) noexcept {
   const Matrix from(pose.data());
   Transform result = franka_core::kIdentityTransform;
   MutableMatrix to(result.data());
-  const Eigen::Matrix3d turned = rotationFrom(part(twist, 3) * kTick) * from.topLeftCorner<3, 3>();
-  to.topLeftCorner<3, 3>() = orthonormalised(turned);
+  const Eigen::Matrix3d turned =
+      franka_core::rotationFrom(part(twist, 3) * kTick) * from.topLeftCorner<3, 3>();
+  to.topLeftCorner<3, 3>() = franka_core::orthonormalised(turned);
   to.topRightCorner<3, 1>() = from.topRightCorner<3, 1>() + part(twist, 0) * kTick;
   return result;
 }
@@ -168,10 +169,8 @@ CartesianSample stepToPose(const CartesianSample& last, const Transform& pose, d
   const Matrix to(pose.data());
   CartesianSample step;
   step.pose = pose;
-  Eigen::Map<Vector3d>(step.twist.data()) =
-      (to.topRightCorner<3, 1>() - from.topRightCorner<3, 1>()) / kTick;
-  const Eigen::Matrix3d turn = to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose();
-  Eigen::Map<Vector3d>(step.twist.data() + 3) = vectorOf(turn) / kTick;
+  Eigen::Map<Eigen::Matrix<double, 6, 1>>(step.twist.data()) =
+      franka_core::twistBetween(from, to, kTick);
   differentiate(last, step);
   moveElbow(last.elbow, q3, step.elbow);
   return step;

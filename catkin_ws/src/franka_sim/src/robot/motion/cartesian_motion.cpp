@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/arm_model.h>
 #include <franka_core/finite.h>
+#include <franka_core/rotations.h>
 #include <franka_sim/robot/motion/cartesian_motion.h>
 #include <franka_sim/robot/tick.h>
 
@@ -9,7 +10,6 @@
 #include <cmath>
 
 #include "robot/motion/cartesian_checks.h"
-#include "robot/motion/rotations.h"
 
 namespace franka_sim {
 
@@ -30,7 +30,7 @@ Transform tidied(const Transform& pose) noexcept {
   Transform tidy = franka_core::kIdentityTransform;
   const Eigen::Map<const Eigen::Matrix4d> from(pose.data());
   Eigen::Map<Eigen::Matrix4d> to(tidy.data());
-  to.topLeftCorner<3, 3>() = orthonormalised(from.topLeftCorner<3, 3>());
+  to.topLeftCorner<3, 3>() = franka_core::orthonormalised(from.topLeftCorner<3, 3>());
   to.topRightCorner<3, 1>() = from.topRightCorner<3, 1>();
   return tidy;
 }

@@ -32,7 +32,7 @@ double seenBy(const CartesianClient& client, double value) {
 }
 
 Transform startPose() {
-  return model().pose(franka_core::ArmFrame::kEndEffector, kReady, handFrame());
+  return model().pose(franka_core::ArmFrame::kEndEffector, kReady, kHandF_T_NE);
 }
 
 /// Drives one part along (or about) an oblique direction by jerk, backward Euler; the rest stands.

@@ -18,12 +18,12 @@ namespace {
 
 using franka_core::ArmFrame;
 
-Transform forward(const Joints& q) { return model().pose(ArmFrame::kEndEffector, q, handFrame()); }
+Transform forward(const Joints& q) { return model().pose(ArmFrame::kEndEffector, q, kHandF_T_NE); }
 
 /// Of the Jacobian with a row for joint 3, by another decomposition than the tested one.
 double smallestSingularValue(const Joints& q) {
   Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();
-  const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, q, handFrame());
+  const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, q, kHandF_T_NE);
   matrix.topRows<6>() = Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data());
   matrix(6, 2) = 1.0;
   return Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues()(6);
@@ -60,7 +60,7 @@ TEST(InverseKinematics, RecoversTheJointsOfAPoseExactly) {
     for (double& value : near) {
       value += std::uniform_real_distribution<double>(-2e-3, 2e-3)(engine);
     }
-    const auto solution = InverseKinematics::solve(near, forward(q), q[2], handFrame(), model());
+    const auto solution = InverseKinematics::solve(near, forward(q), q[2], kHandF_T_NE, model());
     ASSERT_FALSE(solution.near_singularity);
     EXPECT_LT(largestDifference(forward(q), solution.O_T_EE), 1e-12);
     EXPECT_EQ(forward(solution.q), solution.O_T_EE);
@@ -79,7 +79,7 @@ TEST(InverseKinematics, RefusesSingularStartPoses) {
     if (std::abs(sigma - 0.01) < 1e-6) {
       continue;
     }
-    EXPECT_EQ(sigma < 0.01, InverseKinematics::isSingular(q, handFrame(), model())) << sigma;
+    EXPECT_EQ(sigma < 0.01, InverseKinematics::isSingular(q, kHandF_T_NE, model())) << sigma;
     singular += sigma < 0.01 ? 1 : 0;
   }
   EXPECT_GT(singular, 100);
@@ -95,11 +95,11 @@ TEST(InverseKinematics, TakesOneDampedStepNearASingularity) {
   ASSERT_GT(sigma, 0.005);
   Transform desired = forward(q);
   desired[12] += 1e-4;
-  const auto solution = InverseKinematics::solve(q, desired, q[2], handFrame(), model());
+  const auto solution = InverseKinematics::solve(q, desired, q[2], kHandF_T_NE, model());
   EXPECT_TRUE(solution.near_singularity);
   // Closed form by another decomposition: q += sum v s / (s^2 + lambda^2) (u . e).
   Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();
-  const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, q, handFrame());
+  const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, q, kHandF_T_NE);
   matrix.topRows<6>() = Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data());
   matrix(6, 2) = 1.0;
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);

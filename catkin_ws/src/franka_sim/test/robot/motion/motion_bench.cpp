@@ -22,7 +22,7 @@ constexpr int kPeriod = 4096;  // ticks of a slow swing that begins and ends at 
 std::vector<RobotCommand> swing(const franka_core::ArmModel& model) {
   std::vector<RobotCommand> commands(kPeriod);
   const auto start = model.pose(franka_core::ArmFrame::kEndEffector, franka_sim::test::kReady,
-                                franka_sim::test::handFrame());
+                                franka_sim::kHandF_T_NE);
   for (int i = 0; i < kPeriod; i++) {
     const double phase = 2.0 * 3.14159265358979 * i / kPeriod;
     const double rate = 2.0 * 3.14159265358979 / (kPeriod * 1e-3);
@@ -44,7 +44,7 @@ void tick(benchmark::State& state, MotionGeneratorMode mode, bool asynchronous) 
   MotionStart start;
   start.mode = mode;
   start.q_d = franka_sim::test::kReady;
-  start.F_T_EE = franka_sim::test::handFrame();
+  start.F_T_EE = franka_sim::kHandF_T_NE;
   start.asynchronous = asynchronous;
   start.maximum_velocity.fill(1.0);
   generator.start(start, model);

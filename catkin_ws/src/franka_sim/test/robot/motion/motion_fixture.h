@@ -83,7 +83,7 @@ struct Motion {
       : generator(motionLimitsOfProtocol(protocol)) {
     start.mode = mode;
     start.q_d = q;
-    start.F_T_EE = handFrame();
+    start.F_T_EE = kHandF_T_NE;
     EXPECT_EQ(MotionStartResult::kStarted, generator.start(start, model()));
   }
 

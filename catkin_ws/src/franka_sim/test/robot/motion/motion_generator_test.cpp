@@ -24,7 +24,7 @@ constexpr double kPi = 3.14159265358979323846;
 /// A smooth path from 0 to 1 in one second and its derivative.
 double way(double t) { return 0.5 * (1.0 - std::cos(kPi * std::min(t, 1.0))); }
 
-Transform forward(const Joints& q) { return model().pose(ArmFrame::kEndEffector, q, handFrame()); }
+Transform forward(const Joints& q) { return model().pose(ArmFrame::kEndEffector, q, kHandF_T_NE); }
 
 /// The hand's frame moved by 5 cm and turned by 0.2 rad, by share s.
 Transform movedBy(double s) {
@@ -100,7 +100,7 @@ TEST_P(EachGenerator, ShowsConsistentStatesAlongASmoothMotion) {
       const DesiredMotion& now = motion.desired();
       expectNear(forward(now.q_d), now.O_T_EE_d, 1e-15, "pose of q_d");
       expectNear(now.O_T_EE_c, now.O_T_EE_d, 1e-12, "O_T_EE_c and O_T_EE_d");
-      const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, now.q_d, handFrame());
+      const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, now.q_d, kHandF_T_NE);
       for (std::size_t i = 0; i < 6; i++) {
         double rate = 0.0;
         for (std::size_t k = 0; k < 7; k++) {

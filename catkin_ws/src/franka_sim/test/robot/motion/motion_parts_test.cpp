@@ -18,7 +18,7 @@ using franka_core::RobotError;
 namespace {
 
 Transform startPose() {
-  return model().pose(franka_core::ArmFrame::kEndEffector, kReady, handFrame());
+  return model().pose(franka_core::ArmFrame::kEndEffector, kReady, kHandF_T_NE);
 }
 
 Transform shifted(double x) {
