@@ -6,10 +6,13 @@
 
 namespace franka_sim {
 
+/// Damping of both impedance laws, times sqrt(stiffness * inertia): 0.7 of critical
+/// (decisions 10, 11).
+constexpr double kDampingFactor = 1.4;
+
 /// The unit's joint impedance law (decision 10): a spring K to the desired position, a damper
-/// D_i = 1.4 sqrt(K_i (M_ii + B_i)) to the desired velocity, and the Coriolis torques.
-/// D is 0.7 of critical for the inertia the spring sees; a joint without stiffness is not damped
-/// either. Real-time safe; one thread.
+/// D_i = kDampingFactor sqrt(K_i (M_ii + B_i)) to the desired velocity, and the Coriolis torques.
+/// A joint without stiffness is not damped either. Real-time safe; one thread.
 class JointImpedance {
  public:
   /// @param stiffness K [Nm/rad] @param rotor_inertia B [kg m^2]
