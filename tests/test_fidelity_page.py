@@ -1,15 +1,31 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/fidelity.md: each line says what kind it is and names tests that hold it, and those tests exist."""
+"""docs/fidelity.md: each line says what kind it is and names tests that hold it, and those tests exist.
+
+Its figures, and those of docs/limits.md, are those of the code (page_figures.py).
+"""
 
 import re
 from pathlib import Path
 
+import page_figures
 import pytest
 
 TOP = Path(__file__).resolve().parent.parent
 SOURCES = TOP / "catkin_ws/src"
 TEST = re.compile(r"`((?:[A-Z]\w*\.[A-Za-z]\w*)|(?:test_\w+(?:\.py)?))`")
+# What is no figure: text in backticks and targets of links (names, paths, expressions), digits that belong to
+# a name (q4, FR3), and numbers that name a joint or a version of the protocol.
+NAMES = re.compile(
+    r"`[^`]*`|\]\([^)]*\)|\b(?:joints?|protocol|version)\s\d+(?:(?:,| to| and|, and)\s\d+)*", re.IGNORECASE
+)
+# A quantity in words is one as well: it is written in digits, so that it can be compared.
+IN_WORDS = (
+    r"\b(?:an?|half|one|two|three|four|five|six|seven|eight|nine|ten|twenty|hundred|thousand)\s"
+    r"(?:(?:milli|micro)?seconds?|minutes?|(?:milli|centi)?metres?|degrees|percent|times)\b"
+)
+FIGURE = re.compile(rf"(?<![\w.]){page_figures.NUMBER}(?!\w)|{IN_WORDS}")
+ENTRIES = {"docs/fidelity.md": page_figures.fidelity, "docs/limits.md": page_figures.limits}
 KINDS = {"physics", "exact", "approximation"}
 
 
@@ -50,3 +66,57 @@ def test_rows_have_a_known_kind():
         cells = [cell.strip() for cell in line.strip("|").split(" | ")]
         if len(cells) == 4:
             assert cells[1] in KINDS, line
+
+
+def text_of(page):
+    """In one line; without the table of docs/limits.md, which test_limits_page.py compares."""
+    text = (TOP / page).read_text()
+    if page == "docs/limits.md":
+        text = re.sub(r"^\|.*$", "", text, flags=re.MULTILINE)
+    return " ".join(text.split())
+
+
+def faults(text, entries):
+    """What is wrong with the figures of a text, in sentences."""
+    known = {place for name in NAMES.finditer(text) for place in range(*name.span())}
+    for words, value in entries:
+        expected = value if isinstance(value, list) else [value]
+        places = list(page_figures.pattern(words).finditer(text))
+        if not places:
+            yield f"No such words on the page: {words}"
+        for place in places:
+            shown = [page_figures.number(figure) for figure in place.groups()]
+            size = max(len(shown), len(expected))
+            pairs = [numbers * size if len(numbers) == 1 else numbers for numbers in (shown, expected)]
+            if pairs[0] != pytest.approx(pairs[1], rel=1e-9, abs=0):
+                yield f"{words}: the page says {shown}, the code {expected}"
+            known.update(place.start(i + 1) for i in range(len(shown)))
+    for figure in FIGURE.finditer(text):
+        if figure.start() not in known:
+            yield f"Not compared with the code: {text[max(0, figure.start() - 30) : figure.end() + 20]}"
+
+
+@pytest.mark.parametrize("page", ENTRIES)
+def test_figures_are_those_of_the_code(page):
+    found = list(faults(text_of(page), ENTRIES[page]()))
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize(
+    "text, entries",
+    [
+        ("a 100 Hz low-pass", [("# Hz low-pass", 30.0)]),
+        ("the 1, 2 and 4 Nm", [("#, # and # Nm", [1.0, 2.0, 3.0])]),
+        ("1.4·√K", [("#·√K", [1.4, 1.5])]),
+        ("no filter", [("# Hz low-pass", 100.0)]),
+        ("joint 5 of an FR3 within 0.2 s", []),
+        ("half a millisecond", []),
+    ],
+)
+def test_wrong_missing_and_unknown_figures_are_reported(text, entries):
+    assert len(list(faults(text, entries))) == 1
+
+
+def test_a_constant_that_is_gone_is_reported():
+    with pytest.raises(AssertionError, match="low_pass.h has 0 values of: kNothing = #;"):
+        page_figures.constant("franka_sim/include/franka_sim/robot/low_pass.h", "kNothing = #;")

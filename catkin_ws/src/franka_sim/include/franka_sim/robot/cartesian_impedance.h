@@ -25,7 +25,7 @@ struct CartesianImpedanceInput {
 /// The unit's Cartesian impedance law (decision 11): springs and dampers between the desired and
 /// the measured stiffness frame, along and about the axes of the measured one; a soft, critically
 /// damped spring holds the joints' null space; Coriolis torques are added.
-/// D_i = 1.4 sqrt(K_i / (J (M + B)^-1 J^T)_ii). The rotation error is a rotation vector.
+/// D_i = kDampingFactor sqrt(K_i / (J (M + B)^-1 J^T)_ii). The rotation error is a rotation vector.
 /// Real-time safe. @returns torques without gravity [Nm]
 std::array<double, 7> cartesianImpedance(const CartesianImpedanceInput& input) noexcept;
 

@@ -6,10 +6,13 @@
 
 namespace franka_sim {
 
-/// Joint impedance law (decision 10): a spring K to the desired position, a damper D_i = 1.4
-/// sqrt(K_i (M_ii + B_i)) to the desired velocity, and the Coriolis torques. D is 0.7 of critical
-/// for the inertia at the spring; a joint without stiffness has no damping either. Real-time safe;
-/// one thread.
+/// Damping of both impedance laws, times sqrt(stiffness * inertia): 0.7 of critical
+/// (decisions 10, 11).
+constexpr double kDampingFactor = 1.4;
+
+/// Joint impedance law (decision 10): a spring K to the desired position, a damper D_i =
+/// kDampingFactor sqrt(K_i (M_ii + B_i)) to the desired velocity, and the Coriolis torques. A joint
+/// without stiffness has no damping either. Real-time safe; one thread.
 class JointImpedance {
  public:
   /// @param stiffness K [Nm/rad] @param rotor_inertia B [kg m^2]
