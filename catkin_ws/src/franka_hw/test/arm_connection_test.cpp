@@ -10,6 +10,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 
 namespace franka_hw {
 namespace {
@@ -108,6 +109,21 @@ TEST(RobotMutex, IsTakenWhileThereIsAReasonOnly) {
   int attempts = 0;
   EXPECT_FALSE(mutex.takeWhile([&] { return ++attempts < 5; }));
   EXPECT_EQ(5, attempts);
+}
+
+TEST(RobotMutex, IsWaitedForAShortTimeOnly) {
+  std::mutex mutex;
+  const std::lock_guard<std::mutex> held(mutex);
+  int attempts = 0;
+  EXPECT_FALSE(RobotMutex::takeSoon(mutex, [&] { attempts++; }));
+  EXPECT_GT(attempts, 1);
+}
+
+TEST(RobotMutex, IsNotWaitedForWithAReasonAgainstIt) {
+  std::mutex mutex;
+  const std::lock_guard<std::mutex> held(mutex);
+  const auto refuse = [] { throw std::runtime_error("a motion has the robot"); };
+  EXPECT_THROW(RobotMutex::takeSoon(mutex, refuse), std::runtime_error);
 }
 
 TEST(RobotMutex, LoopThatReadsGivesWayToARequest) {
