@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Two arms on franka_combined_control_node whose robots are killed one after the other; prints all as JSON.
+"""Two arms on franka_combined_control_node whose robots are killed one after the other; prints a report as JSON.
 
 Run by test_combined_gone.py with ROS's interpreter. Arguments: options of the simulated robots, and the arms
-with their addresses and processes, as panda_1=127.0.0.1=4711. The second arm connects by itself.
+with their addresses and processes, as panda_1=127.0.0.1=4711. The second arm reconnects automatically.
 """
 
 import json
@@ -48,7 +48,7 @@ class Node:
         return [answer.success, answer.message]
 
     def offers(self, arm):
-        """Services of an arm, of those that are asked for here."""
+        """Services of an arm, out of those that this test uses."""
         wanted = ("connect", "disconnect", "set_load")
         _, _, (_, _, services) = rospy.get_master().getSystemState()
         names = {name for name, _ in services}
@@ -60,7 +60,7 @@ def kill(pid):
 
 
 def loses(node, arm, other):
-    """What a user sees when the first robot is gone."""
+    """Reports of the node after the loss of the first robot."""
     report = {"noticed": waits(lambda: arm.has_error and other.mode == FrankaState.ROBOT_MODE_IDLE)}
     report["diagnosis"] = node.diagnosis.shows(arm.name, "Not connected to the robot")
     waits(lambda: other.has_error)
@@ -83,7 +83,7 @@ def loses(node, arm, other):
 
 
 def load_alone(other):
-    """A controller of the other arm only, as the one of both is configured."""
+    """Loads a controller for the other arm only, configured like the one for both."""
     parameters = rospy.get_param(f"{NODE}/{CONTROLLER}")
     parameters["joints"] = [joint for joint in parameters["joints"] if joint.startswith(other.name)]
     rospy.set_param(f"{NODE}/{ALONE}", parameters)
@@ -113,10 +113,10 @@ def is_taken_again(node, arm, other):
 
 
 def comes_back_by_itself(node, arm, other):
-    """The second robot was killed and started anew."""
+    """After the second robot was killed and restarted."""
     report = {"back": node.diagnosis.says(arm.name, lambda _, v: v.get("Mode") == "Idle")[1] == arm.name}
     waits(lambda: "set_load" in node.offers(arm))
-    time.sleep(1.0)  # in which nothing should move
+    time.sleep(1.0)  # in which no arm may move
     report["waits"] = arm.has_error and FrankaState.ROBOT_MODE_MOVE not in (arm.mode, other.mode)
     report["recovery"] = recovery(f"{NODE}/error_recovery")
     report["move"] = all_move([arm, other])

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a node says of itself on /diagnostics. For clients that run with ROS's interpreter."""
+"""A node's diagnostics. For clients that run with ROS's interpreter."""
 
 import time
 
@@ -18,7 +18,7 @@ class Diagnosis:
             self.kept[status.name] = status
 
     def shows(self, what, text, patience=15.0, **expected):
-        """The status of one kind, once it says that: [level, hardware, values], or what it says instead."""
+        """One status, once it has that text: [level, hardware, values], or its text after a timeout."""
         return self.says(
             what, lambda said, values: said == text and values.items() >= expected.items(), patience
         )

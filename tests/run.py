@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs every test of the built workspace and closes with one line, `N passed, N failed`.
+"""Runs every test of the built workspace and ends with one line, `N passed, N failed`.
 
 In this order: style, compiler warnings, gtest and rostest (as many at a time as there are processors), and
 pytest (`test/test_*.py` of each package, then `tests/`). Cases are counted from the result files, since
@@ -27,7 +27,7 @@ PYTEST_RESULTS = TOP / "out" / "pytest"
 
 @dataclass
 class Tally:
-    """What the result files say."""
+    """Counts from the result files."""
 
     passed: int = 0
     failed: list[str] = field(default_factory=list)
@@ -124,7 +124,7 @@ def main() -> int:
 
     tally = Tally()
     for path in sorted(RESULTS.glob("**/*.xml")):
-        # A rostest writes its cases to rosunit-*.xml; its own file repeats them as one, and tells when a
+        # A rostest writes its cases to rosunit-*.xml; its own file repeats them as one, and reports if a
         # node died or a test never ended.
         tally.add(path, only_failures=path.name.startswith("rostest-"))
     for path in sorted(PYTEST_RESULTS.glob("*.xml")):

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Controllers and errors on both nodes of franka_control, and in the simulation.
 
-One that throws, in starting() or in update(), ends none of them; and where the nodes are told not to start
-controllers again after a recovery, no arm moves by itself.
+A controller that throws, in starting() or in update(), ends none of them; and with
+restart_controllers_after_recovery false no arm moves by itself after a recovery.
 """
 
 import json
@@ -52,7 +52,7 @@ def launch(node, arms, restart):
 
 
 def told(what, node, arms, restart, folder):
-    """What the client reports, and the log."""
+    """The client's report, and the log."""
     (folder / "package.xml").write_text(PACKAGE)
     (folder / "plugins.xml").write_text(PLUGINS)
     (folder / "robot.launch").write_text(launch(node, arms, restart))

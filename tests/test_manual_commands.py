@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The manual's simulation chapter as a reader follows it: command lines in a shell, with rviz on a screen."""
+"""The command lines of the manual's simulation chapter in a shell, with rviz on a screen."""
 
 import json
 import re
@@ -24,8 +24,8 @@ PATIENCE = 120  # wall seconds
 WINDOW_WIDTH = 1200  # of the simulation and of rviz
 STONE_WIDTH = 0.032  # [m] between the fingers
 
-# What may be said: of the stop; by Debian's joint_state_publisher, which after a stall of the machine
-# publishes twice at one moment of the simulation; by Debian's rviz, which looks for an optional package.
+# Allowed warnings: about the stop; by Debian's joint_state_publisher, which after a stall of the machine
+# publishes twice at the same simulated time; by Debian's rviz, which searches for an optional package.
 LAWFUL = ["panda: user stop (pressed|released)", "TF_REPEATED_DATA", "no such package media_export"]
 
 

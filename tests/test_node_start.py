@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""How the hardware nodes begin where something is wrong, and how they end: with a sentence, and in time."""
+"""Errors at the start of the hardware nodes, and their exit: with a message, and in time."""
 
 import os
 import signal
@@ -17,10 +17,10 @@ from fci_session import simulated
 from fci_wire import CONNECT, HEADER, PORT
 
 ADDRESS, OTHER, SILENT, ODD, NOBODY = (f"127.0.32.{i}" for i in range(1, 6))
-IN_TIME = 2.0  # to end after an interruption [s]
+IN_TIME = 2.0  # for the exit after an interrupt [s]
 ONE, ALL = "/franka_control", "/combined_panda"  # names of the nodes
 
-# The robot falls silent, and a moment later somebody wants it to recover.
+# The robot becomes silent, and shortly later a recovery is requested.
 ASK_RECOVERY = f"""
 import actionlib, os, rospy, rospy_connections, signal, sys
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
@@ -60,7 +60,7 @@ def master(bare, urdf):
 
 
 def prepared(bare, urdf):
-    """A master with the parameters of a node for each kind of hardware, where nothing is wrong."""
+    """A master with valid parameters for each of the two nodes."""
     bare.set("/robot_description", urdf)
     one = configured("franka_control_node.yaml", arm_id="panda")
     bare.set(ONE, dict(one, robot_ip=ADDRESS, connect_timeout=0.0, realtime_config="ignore"))
@@ -87,7 +87,7 @@ def combined(master, through=()):
 
 @contextmanager
 def listening(address: str, answer: bytes = b""):
-    """A robot that takes connections and then says nothing, or the same to everybody who asks."""
+    """A robot that accepts connections and then is silent, or sends the same answer to all."""
     with socket.socket() as server:
         server.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         server.bind((address, PORT))
@@ -115,10 +115,10 @@ def listening(address: str, answer: bytes = b""):
                 connection.close()
 
 
-# --- what is wrong from the start -----------------------------------------------------------------------
+# --- errors at the start --------------------------------------------------------------------------------
 
 WRONG = [
-    # parameter, value (None: missing), what is said
+    # parameter, value (None: missing), error text
     ("/franka_control/robot_ip", "no.such.robot.invalid", "no.such.robot.invalid"),
     ("/franka_control/robot_ip", NOBODY, "Connection to FCI refused"),
     ("/franka_control/robot_ip", None, "'/franka_control/robot_ip' is missing"),
@@ -174,13 +174,13 @@ def test_an_older_robot_is_accepted(master, version):
         assert node.interrupt() < IN_TIME
 
 
-# --- robots that are other ones than the parameters say -----------------------------------------------------
+# --- robots that do not match the parameters ----------------------------------------------------------------
 
 TRAJECTORY, STATES = "effort_joint_trajectory_controller", "franka_state_controller"
 
 
 def manager(master, *arguments):
-    """What is said to somebody who asks the controller manager."""
+    """Answers of the controller manager."""
     result = master.run("rosrun", "controller_manager", "controller_manager", *arguments)
     return result.stdout + result.stderr
 
@@ -234,7 +234,7 @@ def test_an_arm_with_another_name_is_reported_and_not_commanded(master, robot, u
         assert node.says("is ready"), node.output
         assert node.says(sentence), node.output
         assert "Started" not in manager(master, "spawn", TRAJECTORY)
-        # A controller that finds its joints in the description is refused, another one does not load.
+        # A controller whose joints are in the description is refused, another one does not load.
         assert node.output.count(sentence) == (2 if name == "arm_id" else 1), node.output
 
 
@@ -290,14 +290,14 @@ WRONG_FOR_ALL = [
 def test_a_node_with_several_arms_reports_errors_and_exits(master, robot, name, value, sentence):
     put(master, name, value)
     if name == ALL + "/robot_description":
-        master.delete("/robot_description")  # which would do in the place of its own
+        master.delete("/robot_description")  # which it would use instead of its own
     with combined(master) as node:
         assert node.ends() == 1, node.output
         assert sentence in node.output
         assert "could not be set up (see above)" in node.output
 
 
-# --- the end --------------------------------------------------------------------------------------------
+# --- exit -----------------------------------------------------------------------------------------------
 
 
 def test_an_idle_node_exits_on_interrupt(master, robot):
@@ -364,11 +364,11 @@ def test_a_controller_without_real_time_privileges_is_not_started(master):
     master.set(ONE + "/realtime_config", "enforce")
     master.set(ONE + "/robot_ip", OTHER)
     sentence = "Start with realtime_config:=ignore"
-    through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with a robot that is not simulated
+    through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with a real robot
     with simulated("panda", OTHER, "lockstep", "--no-hand") as robot, one(master, through) as node:
         assert node.says("is ready"), node.output
         assert node.says(sentence), node.output
-        for times, order in ((2, "spawn"), (3, "start")):  # each time it is asked
+        for times, order in ((2, "spawn"), (3, "start")):  # at each request
             assert "Started" not in manager(master, order, TRAJECTORY)
             assert node.says(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
             assert node.output.count(sentence) == times
@@ -378,7 +378,7 @@ def test_a_controller_without_real_time_privileges_is_not_started(master):
         assert node.interrupt() < IN_TIME
 
 
-# A kernel with real-time support is made use of, unless this says otherwise.
+# Otherwise a kernel with real-time support would be used.
 HAS_REALTIME = Path("/sys/kernel/realtime").exists()
 ANYHOW = ("env", "FRANKA_REALTIME=ignore") if HAS_REALTIME else ()
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A lock-step robot and its client on a machine that starves them: slower, never red, never another result.
+"""A lock-step robot and its client on a starved machine: slower, but without failures or other results.
 
 Either of the two is stopped in the middle of a motion, on a machine with as many busy processes as
 processors (the long form: eight for each).
@@ -43,7 +43,7 @@ def stop_for_a_while(pid):
 
 
 def moved(sim, client, torque, stopped=None):
-    """One motion from a reset world. @returns the hash of what the robot did."""
+    """One motion from a reset world. @returns the robot's hash."""
     sim.ask("reset")
     client.give("move", seconds=4.0, amplitude=0.0 if torque else 0.1, torque=torque, announce=True)
     begun = client.line()
