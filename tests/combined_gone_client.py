@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Two arms on franka_combined_control_node whose robots are killed one after the other; prints a report as JSON.
+"""Two arms on franka_combined_control_node whose robots are killed in turn; prints a report as JSON.
 
 Run by test_combined_gone.py with ROS's interpreter. Arguments: options of the simulated robots, and the arms
 with their addresses and processes, as panda_1=127.0.0.1=4711. The second arm reconnects automatically.

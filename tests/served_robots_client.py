@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clients of served robots in a ROS world, and their operator; prints a report as JSON.
 
-Run by test_served_robots.py with the interpreter that ROS uses. Clients use fci_wire: each of their cycles is a
-call, so that services act between two cycles.
+Run by test_served_robots.py with the interpreter that ROS uses. Clients use fci_wire: each of their cycles is
+a call, so that services act between two cycles.
 """
 
 import json

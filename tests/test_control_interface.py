@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Effects of franka_sim's control interface on a running motion: physics and protocol.
 
-The client uses fci_wire in lock-step, so that each line acts between two of its cycles and all results repeat.
+The client uses fci_wire in lock-step, so that each line acts between two of its cycles and results repeat.
 """
 
 import struct

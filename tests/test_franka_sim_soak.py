@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_sim needs little memory, and its use does not grow: in a minute, and in the long form an hour, of the
-robot's time in lock-step."""
+"""franka_sim needs little memory, and its use does not grow: in a minute (long form: an hour) of the robot's
+time in lock-step."""
 
 import os
 

@@ -40,8 +40,8 @@ def saw_its_cycles(motion: dict) -> bool:
 
 
 def undisturbed(seen: dict) -> bool:
-    """Whether the machine did not stall: no successful motion had a reflex or missed many cycles, and the intended
-    reflexes have no other reason."""
+    """Whether the machine did not stall: no successful motion had a reflex or missed many cycles, and the
+    intended reflexes have no other reason."""
     lost = [
         seen["leap"].count('"') != 2,  # one error, in quotes
         "communication_constraints_violation" in seen["leap"] + seen["contact"],

@@ -68,7 +68,7 @@ def losing_from(first: int, count: int):
 
 
 def bursts(begin: float, end: float, longest: int):
-    """Gilbert's two-state loss: a burst starts and ends with these probabilities, and lasts at most `longest`.
+    """Gilbert's two-state loss: bursts start and end with these probabilities and lose at most `longest`.
 
     At least one datagram passes between two bursts.
     """

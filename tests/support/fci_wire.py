@@ -185,7 +185,7 @@ class Client:
         self.udp.sendto(datagram, self.robot)
 
     def start(self, controller: int, generator: int) -> State:
-        """Starts a motion. @returns the first state to answer: as for all clients, the second that shows it."""
+        """Starts a motion. @returns the state to answer: as for all clients, the second that shows it."""
         self.request(START, move_request(self.version, controller, generator))
         _, reply = self.reply()
         assert reply[0] == 1, f"The motion was not started but answered with status {reply[0]}."

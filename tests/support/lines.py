@@ -9,8 +9,8 @@ import threading
 class Lines:
     """Reads a pipe in its own thread.
 
-    select() on the pipe is not enough: it does not see lines that readline() has already buffered, so a program
-    that writes two lines at once seems to have written one.
+    select() on the pipe is not enough: it does not see lines that readline() has already buffered, so a
+    program that writes two lines at once seems to have written one.
     """
 
     def __init__(self, stream):
