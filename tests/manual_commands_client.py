@@ -3,7 +3,7 @@
 """The manual's pick and place with its own command lines, typed into a shell; prints a report as JSON.
 
 Where the manual lets the user drag rviz's marker, the marker's feedback is published as rviz does it.
-Run by test_manual_commands.py with the interpreter that ROS uses. Argument: simulated seconds a wall second.
+Run by test_manual_commands.py with the interpreter that ROS uses. Argument: the real-time factor.
 """
 
 import json
