@@ -49,10 +49,10 @@ class Node:
 
     def offers(self, arm):
         """Services of an arm, out of those that this test uses."""
-        wanted = ("connect", "disconnect", "set_load")
+        expected = ("connect", "disconnect", "set_load")
         _, _, (_, _, services) = rospy.get_master().getSystemState()
         names = {name for name, _ in services}
-        return [name for name in wanted if f"{NODE}/{arm.name}/{name}" in names]
+        return [name for name in expected if f"{NODE}/{arm.name}/{name}" in names]
 
 
 def kill(pid):
@@ -78,7 +78,9 @@ def loses(node, arm, other):
     count = other.state.header.seq
     report["fresh"] = waits(lambda: other.state.header.seq > count + 5)
     report["stays"] = max(abs(a - b) for a, b in zip(at, other.state.q))
-    report["diagnosis of the other"] = node.diagnosis.says(other.name, lambda _, v: v.get("Mode") == "Idle")
+    report["diagnosis of the other"] = node.diagnosis.status_when(
+        other.name, lambda _, v: v.get("Mode") == "Idle"
+    )
     return report
 
 
@@ -114,7 +116,9 @@ def is_taken_again(node, arm, other):
 
 def comes_back_by_itself(node, arm, other):
     """After the second robot was killed and restarted."""
-    report = {"back": node.diagnosis.says(arm.name, lambda _, v: v.get("Mode") == "Idle")[1] == arm.name}
+    report = {
+        "back": node.diagnosis.status_when(arm.name, lambda _, v: v.get("Mode") == "Idle")[1] == arm.name
+    }
     waits(lambda: "set_load" in node.offers(arm))
     time.sleep(1.0)  # in which no arm may move
     report["waits"] = arm.has_error and FrankaState.ROBOT_MODE_MOVE not in (arm.mode, other.mode)
@@ -135,7 +139,7 @@ def main():
     report = {"started": node.switch([CONTROLLER]), "moves": all_move(arms)}
     move(arms, 0.05)
     report["diagnosis"] = {arm.name: node.diagnosis.shows(arm.name, "Ready", Mode="Move") for arm in arms}
-    report["diagnosis"]["Control loop"] = node.diagnosis.says("Control loop", lambda *_: True)
+    report["diagnosis"]["Control loop"] = node.diagnosis.status_when("Control loop", lambda *_: True)
     first, second = arms
     started = []
     try:

@@ -335,7 +335,9 @@ def soft_joints(robot, operator, services, topics, diagnosis):
     report["contacts"] = [any(last.cartesian_contact), any(last.joint_contact), last.robot_mode]
     report["contact_before"] = any(before.cartesian_contact)
     report["diagnosis"] = diagnosis.shows("Robot", "Ready", Mode="Move")
-    report["response"] = diagnosis.says("Robot", lambda _, v: int(v["Commands since the last report"]) > 0)
+    report["response"] = diagnosis.status_when(
+        "Robot", lambda _, v: int(v["Commands since the last report"]) > 0
+    )
     report["topics"] = topics.compare(20)
     refused = {"set_joint_impedance": {"joint_stiffness": [3000.0] * 7}}
     refused["set_cartesian_impedance"] = {"cartesian_stiffness": SOFT_HAND}

@@ -65,13 +65,13 @@ def joint_impedance_torques(error, error_rate):
     return k_gains * error + d_gains * error_rate
 
 
-def cartesian_impedance_torques(J, pose, wanted, q, dq, q_nullspace, stiffness, nullspace_stiffness):
+def cartesian_impedance_torques(J, pose, desired, q, dq, q_nullspace, stiffness, nullspace_stiffness):
     """(7,) [Nm] without Coriolis torques, after the gains have reached their targets.
 
     @param J (6, 7); pose, wanted (4, 4); stiffness its two, [N/m] and [Nm/rad]
     """
-    turn = turn_of(pose[:3, :3].T @ wanted[:3, :3])
-    error = np.concatenate([wanted[:3, 3] - pose[:3, 3], pose[:3, :3] @ turn])
+    turn = turn_of(pose[:3, :3].T @ desired[:3, :3])
+    error = np.concatenate([desired[:3, 3] - pose[:3, 3], pose[:3, :3] @ turn])
     gains = np.repeat(stiffness, 3)
     wrench = gains * error - 2 * np.sqrt(gains) * (J @ dq)
     own = nullspace_stiffness * (q_nullspace - q) - 2 * np.sqrt(nullspace_stiffness) * dq
@@ -85,12 +85,12 @@ def turn_of(rotation):
     return np.array([skew[2, 1], skew[0, 2], skew[1, 0]]) / (4 * cosine)
 
 
-def begin_of(times, wanted, formula, earliest, latest):
+def start_time(times, desired, formula, earliest, latest):
     """Start time of a controller: the time at which desired values match its formula, to 0.1 ms.
 
     @param times (n,) of the states [s]; wanted (n, ...) their desired values
     @param formula of times (n,) since the begin, constant before it
     """
     candidates = np.arange(earliest, latest, 1e-4)
-    deviations = [np.abs(formula(np.maximum(times - begin, 0.0)) - wanted).max() for begin in candidates]
+    deviations = [np.abs(formula(np.maximum(times - begin, 0.0)) - desired).max() for begin in candidates]
     return candidates[int(np.argmin(deviations))]

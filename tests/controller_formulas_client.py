@@ -178,12 +178,12 @@ def lead(arm):
     Returns where it comes to rest, and the states from the push's begin to after its end.
     """
     begin = arm.step(0.5)[-1]
-    wanted = pose_of(begin)
-    wanted[:3, 3] += SHIFT
+    desired = pose_of(begin)
+    desired[:3, 3] += SHIFT
     topic = f"/{full('cartesian_impedance')}/equilibrium_pose"
     hand = rospy.Publisher(topic, PoseStamped, queue_size=1)
     arm.wait(hand.get_num_connections, "The controller's interest in an equilibrium")
-    x, y, z = wanted[:3, 3]
+    x, y, z = desired[:3, 3]
     message = PoseStamped()
     message.header.frame_id = arm.arm_id + "_link0"
     message.pose.position = Point(x, y, z)
@@ -199,7 +199,7 @@ def lead(arm):
     pushed = arm.step(PUSH_LASTS - 0.1)[-1]
     arm.step(1.0)
     hand.unregister()
-    poses = {"wanted": wanted, "reached": pose_of(reached), "pushed": pose_of(pushed)}
+    poses = {"wanted": desired, "reached": pose_of(reached), "pushed": pose_of(pushed)}
     found = {name: pose.tolist() for name, pose in poses.items()}
     return {**found, "q_nullspace": begin.q}, arm.states[count:]
 

@@ -19,11 +19,11 @@ class Diagnosis:
 
     def shows(self, what, text, patience=15.0, **expected):
         """One status, once it has that text: [level, hardware, values], or its text after a timeout."""
-        return self.says(
+        return self.status_when(
             what, lambda said, values: said == text and values.items() >= expected.items(), patience
         )
 
-    def says(self, what, condition, patience=15.0):
+    def status_when(self, what, condition, patience=15.0):
         """The same, once a condition on its text and its values holds."""
         name = f"{self.node}: {what}"
         deadline = time.monotonic() + patience

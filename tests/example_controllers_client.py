@@ -55,8 +55,8 @@ def main():
         while time.monotonic() < deadline and max(abs(a - b) for a, b in zip(state().q, home)) > 0.02:
             time.sleep(0.1)
         if max(abs(a - b) for a, b in zip(state().q, home)) > 0.02:
-            told = f"status {client.get_state()} {client.get_goal_status_text()} {client.get_result()}"
-            print(f"The arm did not come home: {told}", file=sys.stderr, flush=True)
+            result = f"status {client.get_state()} {client.get_goal_status_text()} {client.get_result()}"
+            print(f"The arm did not come home: {result}", file=sys.stderr, flush=True)
         switch(stop_controllers=[RETURNS], strictness=STRICT, timeout=5.0)
 
     report = {}

@@ -80,7 +80,7 @@ class DraggedArm(Arm):
 
     def __init__(self, arm_id: str, shell: Shell):
         super().__init__(arm_id)
-        self._shell, self._told = shell, 0.0
+        self._shell, self._last_sent = shell, 0.0
         topic = "equilibrium_pose_marker/feedback"
         self._publisher = rospy.Publisher(topic, InteractiveMarkerFeedback, queue_size=1)
 
@@ -91,9 +91,9 @@ class DraggedArm(Arm):
         """Does nothing: the manual sets no load."""
 
     def _lead(self, target) -> None:
-        if time.monotonic() - self._told < RVIZ_PERIOD:
+        if time.monotonic() - self._last_sent < RVIZ_PERIOD:
             return
-        self._told = time.monotonic()
+        self._last_sent = time.monotonic()
         feedback = InteractiveMarkerFeedback(client_id="/rviz", marker_name="equilibrium_pose")
         feedback.header.frame_id = f"{self.arm_id}_link0"
         feedback.event_type = InteractiveMarkerFeedback.POSE_UPDATE

@@ -67,17 +67,17 @@ class Robot:
     def shows(self, mode):
         return self.waits(lambda: self.state.robot_mode == mode) is not None
 
-    def ask_recovery(self):
+    def send_recovery(self):
         return self._recovery.send_goal(ErrorRecoveryGoal())
 
-    def told(self, goal):
+    def result_of(self, goal):
         """[status, text] of a requested recovery."""
         if self.waits(lambda: goal.get_comm_state() == actionlib.CommState.DONE) is None:
             return [None, "no answer"]
         return [goal.get_terminal_state(), goal.get_goal_status_text()]
 
     def recover(self):
-        return self.told(self.ask_recovery())
+        return self.result_of(self.send_recovery())
 
     def runs(self):
         return {c.name: c.state for c in self._list().controller}.get(CONTROLLER)
@@ -135,8 +135,8 @@ def main():
     operator.does(f"push {sys.argv[1]}_link7 {PUSH}")
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     robot.waits(lambda: robot.has_error)
-    both = [robot.ask_recovery(), robot.ask_recovery()]
-    report["twice"] = [robot.told(goal) for goal in both]
+    both = [robot.send_recovery(), robot.send_recovery()]
+    report["twice"] = [robot.result_of(goal) for goal in both]
     report["follows_after_both"] = robot.shows(FrankaState.ROBOT_MODE_MOVE) and robot.follows()
     report["user_stop"] = user_stop(robot, operator)
     report["stopped"] = switch(stop_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok

@@ -91,7 +91,7 @@ def main():
     Operator(address).does(f"push {sys.argv[1]}_link7 {PUSH}")
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     os.kill(pid, signal.SIGSTOP)
-    robot.ask_recovery()
+    robot.send_recovery()
     time.sleep(0.5)
     os.kill(pid, signal.SIGKILL)
     report["death_noticed"] = robot.waits(lambda: robot.has_error) is not None

@@ -94,7 +94,7 @@ def main() -> int:
             file=sys.stderr,
         )
         return 2
-    wanted = [name for name in arguments.packages if name != "tests"]
+    selected = [name for name in arguments.packages if name != "tests"]
     end_to_end = not arguments.packages or "tests" in arguments.packages
     if arguments.long:
         os.environ["FRANKA_TEST_LONG"] = "1"
@@ -107,13 +107,13 @@ def main() -> int:
     compiler_warnings = [sys.executable, str(TOP / "tests" / "compiler_warnings.py")]
     warned = not arguments.packages and run("compiler warnings", compiler_warnings)
     pytest_broken = 0
-    if wanted or not arguments.packages:
-        run_ctest("gtest", wanted)
-        run_ctest("rostest", wanted)
+    if selected or not arguments.packages:
+        run_ctest("gtest", selected)
+        run_ctest("rostest", selected)
         tests = [
             p
             for n, folder in known.items()
-            if not wanted or n in wanted
+            if not selected or n in selected
             for p in sorted(folder.glob("test/**/test_*.py"))
         ]
         pytest_broken |= run_pytest("packages", tests, arguments.long) > 1

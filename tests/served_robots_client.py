@@ -137,7 +137,7 @@ def stopped(client, operator):
     return outcome
 
 
-def robbed(client, operator, count):
+def with_lost_commands(client, operator, count):
     """The link loses a number of consecutive commands."""
     motion = Motion(client)
     motion.run(150, finish=False)
@@ -176,7 +176,7 @@ def configured(client, operator):
     return outcome
 
 
-def halted(client):
+def paused(client):
     """A motion pauses with the world for longer than a client's timeout, then continues."""
     motion = Motion(client)
     motion.run(100, finish=False)
@@ -205,10 +205,10 @@ def check_robot(robot, report):
         report["move"] = moves(client)
         report["ros"] = shown_by_ros(robot, client)
         report["stop"] = stopped(client, operator)
-        report["lose 10"] = robbed(client, operator, 10)
-        report["lose 20"] = robbed(client, operator, 20)
+        report["lose 10"] = with_lost_commands(client, operator, 10)
+        report["lose 20"] = with_lost_commands(client, operator, 20)
         report["configured"] = configured(client, operator)
-        report["halted"] = halted(client)
+        report["halted"] = paused(client)
     reset = call("/gazebo/reset", Trigger)
     report["reset"] = reset.success
     report["after_reset"] = list(operator.sees().q)

@@ -201,7 +201,7 @@ FILES = {
 }
 
 
-def says(loaded, expected, path: str = "") -> list[str]:
+def differences(loaded, expected, path: str = "") -> list[str]:
     """Expected values that are missing or different."""
     if isinstance(expected, dict):
         if not isinstance(loaded, dict):
@@ -210,7 +210,9 @@ def says(loaded, expected, path: str = "") -> list[str]:
             line
             for key, value in expected.items()
             for line in (
-                says(loaded[key], value, f"{path}/{key}") if key in loaded else [f"{path}/{key} is missing"]
+                differences(loaded[key], value, f"{path}/{key}")
+                if key in loaded
+                else [f"{path}/{key} is missing"]
             )
         ]
     return [] if loaded == expected else [f"{path}: {loaded!r} instead of {expected!r}"]
@@ -221,7 +223,7 @@ def test_file_loads_without_changes(name):
     arguments, expected = FILES[name]
     ((loaded, _),) = rosparam.load_file(str(CONFIG[name]))
     if not arguments:
-        assert says(loaded, expected) == []
+        assert differences(loaded, expected) == []
     for argument in re.findall(r"\$\(arg (\w+)\)", CONFIG[name].read_text()):
         assert argument in arguments, f"the original's file has no argument {argument}"
 
@@ -231,7 +233,7 @@ def test_file_matches_the_original_with_the_originals_arguments(name):
     arguments, expected = FILES[name]
     text = resolve_args(CONFIG[name].read_text(), context={"arg": arguments})
     ((loaded, _),) = rosparam.load_str(text, name)
-    assert says(loaded, expected) == []
+    assert differences(loaded, expected) == []
 
 
 def test_files_with_the_same_name_are_identical():

@@ -150,19 +150,19 @@ def ramp(first):
 
 
 def test_a_delay_shifts_commands_by_whole_cycles(sim, client):
-    told = {}
+    desired = {}
     for ticks in (0, 1, 2):
         sim.ask("reset")
         sim.ask(f"delay {ticks}")
         state, first = begin(client)
         states = drive(client, state, ramp(first), 600)
-        told[ticks] = [s.joints("q_d")[3] - first[3] for s in states]
+        desired[ticks] = [s.joints("q_d")[3] - first[3] for s in states]
         finish(client, states[-1], ramp(first)(600))
     resolution = 1e-12 if client.version == 5 else 5e-7  # of the state's numbers
     for ticks in (1, 2):
-        shifted = told[ticks][ticks:]
-        assert shifted == pytest.approx(told[0][: len(shifted)], abs=resolution)
-        assert max(abs(a - b) for a, b in zip(told[ticks], told[0])) > 1e-4 * ticks
+        shifted = desired[ticks][ticks:]
+        assert shifted == pytest.approx(desired[0][: len(shifted)], abs=resolution)
+        assert max(abs(a - b) for a, b in zip(desired[ticks], desired[0])) > 1e-4 * ticks
 
 
 def test_a_wrong_load_appears_as_an_upward_force(sim, client):

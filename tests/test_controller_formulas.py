@@ -17,7 +17,7 @@ HERE = Path(__file__).resolve().parent
 
 MOVE = 2
 JOINT_ERROR, POSE_ERROR = 1e-3, 5e-4  # [rad], [m] of measured values
-WANTED_ERROR = 1e-5  # [rad] or [m] of desired values
+DESIRED_ERROR = 1e-5  # [rad] or [m] of desired values
 FORCE_ERROR = 0.05  # share of the largest
 RECORDS_A_SECOND = 30
 PERIOD = 0.035  # [s] between two recorded states, at most
@@ -72,13 +72,13 @@ class Run:
 
     def led_by(self, formula, field):
         """A formula's value for each state, with the start time found from a field of desired values."""
-        wanted = getattr(self, field)
-        formula = partial(formula, start=wanted[0])
+        desired = getattr(self, field)
+        formula = partial(formula, start=desired[0])
         first = self.time[self.moving][0]
-        begin = formulas.begin_of(self.time, wanted, formula, first - PERIOD, first + LAG)
-        says = formula(np.maximum(self.time - begin, 0.0))
-        assert np.abs(wanted - says).max() < WANTED_ERROR
-        return says
+        begin = formulas.start_time(self.time, desired, formula, first - PERIOD, first + LAG)
+        expected = formula(np.maximum(self.time - begin, 0.0))
+        assert np.abs(desired - expected).max() < DESIRED_ERROR
+        return expected
 
     def coriolis(self, states):
         return np.array([rigid_arm.coriolis(self.q[i], self.dq[i], self.bodies) for i in states])
@@ -100,22 +100,22 @@ def share(difference, of):
 @pytest.mark.parametrize("controller", ["joint_position", "joint_velocity"])
 def test_joints_follow_the_formula(recorded, controller):
     states = recorded(controller)
-    says = states.led_by(getattr(formulas, controller), "q_d")
-    assert np.abs(states.q - says).max() < JOINT_ERROR
+    expected = states.led_by(getattr(formulas, controller), "q_d")
+    assert np.abs(states.q - expected).max() < JOINT_ERROR
 
 
 @pytest.mark.parametrize("controller", ["cartesian_pose", "cartesian_velocity"])
 def test_the_end_effector_follows_the_formula(recorded, controller):
     states = recorded(controller)
-    says = states.led_by(getattr(formulas, controller), "O_T_EE_d")
-    assert distances(states.O_T_EE, says).max() < POSE_ERROR
-    assert np.abs(states.O_T_EE - says)[:, :3, :3].max() < JOINT_ERROR
+    expected = states.led_by(getattr(formulas, controller), "O_T_EE_d")
+    assert distances(states.O_T_EE, expected).max() < POSE_ERROR
+    assert np.abs(states.O_T_EE - expected)[:, :3, :3].max() < JOINT_ERROR
 
 
 def test_the_elbow_moves_while_the_end_effector_rests(recorded):
     states = recorded("elbow")
-    says = states.led_by(formulas.elbow, "elbow_d")
-    assert np.abs(states.q[:, 2] - says).max() < JOINT_ERROR
+    expected = states.led_by(formulas.elbow, "elbow_d")
+    assert np.abs(states.q[:, 2] - expected).max() < JOINT_ERROR
     assert distances(states.O_T_EE, states.O_T_EE[0]).max() < POSE_ERROR
 
 
@@ -154,26 +154,26 @@ def test_model_prints_the_textbook_values(run, number):
 
 
 def test_cartesian_impedance_reaches_its_equilibrium_and_yields_like_a_spring(run):
-    wanted, reached, pushed = (np.array(run.report["led"][name]) for name in ("wanted", "reached", "pushed"))
-    assert distances(reached, wanted) < POSE_ERROR
-    np.testing.assert_allclose(reached[:3, :3], wanted[:3, :3], atol=JOINT_ERROR)
+    desired, reached, pushed = (np.array(run.report["led"][name]) for name in ("wanted", "reached", "pushed"))
+    assert distances(reached, desired) < POSE_ERROR
+    np.testing.assert_allclose(reached[:3, :3], desired[:3, :3], atol=JOINT_ERROR)
     gave_way = (pushed - reached)[:3, 3]
     np.testing.assert_allclose(STIFFNESS[0] * gave_way, PUSH, atol=FORCE_ERROR * np.linalg.norm(PUSH))
 
 
 def test_cartesian_impedance_commands_match_its_control_law(run):
     """While the hand is pushed and released; the null space target is the start position."""
-    states, wanted = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["wanted"])
+    states, desired = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["wanted"])
     q_nullspace = run.report["led"]["q_nullspace"]
     some = np.arange(2, len(states.time), 15)
-    says = []
+    expected = []
     for i in some:
         pose, links = states.O_T_EE[i], rigid_arm.poses(states.q[i])
         J = rigid_arm.jacobian(links, pose[:3, 3])
-        where = (J, pose, wanted, states.q[i], states.dq[i], q_nullspace)
-        says.append(formulas.cartesian_impedance_torques(*where, STIFFNESS, NULLSPACE_STIFFNESS))
-    says += states.coriolis(some)
-    assert max(share(states.tau_J_d[some] - says, of=says)) < FORCE_ERROR
+        where = (J, pose, desired, states.q[i], states.dq[i], q_nullspace)
+        expected.append(formulas.cartesian_impedance_torques(*where, STIFFNESS, NULLSPACE_STIFFNESS))
+    expected += states.coriolis(some)
+    assert max(share(states.tau_J_d[some] - expected, of=expected)) < FORCE_ERROR
 
 
 def test_restarted_cartesian_impedance_holds_its_position(run):

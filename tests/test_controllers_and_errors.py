@@ -51,7 +51,7 @@ def launch(node, arms, restart):
     return LAUNCH.format(node=node, restart=restart, file=file, arguments=arguments)
 
 
-def told(what, node, arms, restart, folder):
+def report_of(what, node, arms, restart, folder):
     """The client's report, and the log."""
     (folder / "package.xml").write_text(PACKAGE)
     (folder / "plugins.xml").write_text(PLUGINS)
@@ -71,17 +71,17 @@ def told(what, node, arms, restart, folder):
 
 @pytest.fixture(scope="module", params=[ONE, TWO], ids=["one arm", "two arms"])
 def report(request, tmp_path_factory):
-    return told("throw", *request.param, "true", tmp_path_factory.mktemp("throwing"))
+    return report_of("throw", *request.param, "true", tmp_path_factory.mktemp("throwing"))
 
 
 @pytest.fixture(scope="module")
 def simulated(tmp_path_factory):
-    return told("simulate", *SIMULATED, "true", tmp_path_factory.mktemp("simulated"))
+    return report_of("simulate", *SIMULATED, "true", tmp_path_factory.mktemp("simulated"))
 
 
 @pytest.fixture(scope="module", params=[ONE, TWO], ids=["one arm", "two arms"])
 def without_restart(request, tmp_path_factory):
-    return told("stop", *request.param, "false", tmp_path_factory.mktemp("stopping"))
+    return report_of("stop", *request.param, "false", tmp_path_factory.mktemp("stopping"))
 
 
 WORDS = {"starting": "I do not want to start", "update": "I have had enough"}

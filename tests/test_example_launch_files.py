@@ -30,7 +30,7 @@ def launch(name: str, robot: str, folder: Path) -> Session:
     return Session("franka_example_controllers", name, *given, log=folder / "launch.log")
 
 
-def complaints(session: Session) -> list[str]:
+def log_problems(session: Session) -> list[str]:
     """Warnings and errors in the log."""
     marks = ("[ERROR]", "[WARN]", "[FATAL]", "[ WARN]", "Traceback", "process has died")
     lines = [line for line in session.log.read_text().splitlines() if any(mark in line for mark in marks)]
@@ -57,7 +57,7 @@ def test_a_launched_example_runs(name, robot, tmp_path, long_run):
             assert time.monotonic() - begin < WAIT, f"{running(session)}\n{session.tail(60)}"
         time.sleep(1.0)  # the controller runs
         assert expected <= running(session), session.tail(60)
-    assert complaints(session) == []
+    assert log_problems(session) == []
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
@@ -68,4 +68,4 @@ def test_the_arm_moves_to_its_start_pose(robot, tmp_path):
             assert time.monotonic() - begin < WAIT, session.tail(60)
             time.sleep(0.1)
         assert session.returncode() == 0, session.tail(60)
-    assert complaints(session) == []
+    assert log_problems(session) == []

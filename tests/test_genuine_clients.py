@@ -289,13 +289,13 @@ print(before, robot.read_once().O_T_EE[14])
 
     with running("--robot", "panda", "--ip", address, "--pace", "lockstep"):
         ask(address, "wall 2 0.3 0 0.2 1 1 0.5 0 0 0 2")  # rotated by half a turn: the same wall
-        told, before, after = go_down()
+        text, before, after = go_down()
         assert before > 0.48
-        assert '["cartesian_position_limits_violation"]' in told
+        assert '["cartesian_position_limits_violation"]' in text
         assert after == pytest.approx(0.45, abs=0.005)
         ask(address, "wall 2 off")
-        told, before, after = go_down()
-        assert "ended well" in told
+        text, before, after = go_down()
+        assert "ended well" in text
         assert after == pytest.approx(before - 0.1, abs=1e-3)
         for line, sentence in (
             ("wall 8 off", "no number of a wall"),

@@ -85,8 +85,8 @@ def declared(path: Path) -> dict[str, str | None]:
     """A launch file's own arguments and their defaults; None for a required one."""
     loader = XmlLoader(resolve_anon=False, args_only=True)
     read(path, list(needed(path)), loader)
-    told = loader.root_context.resolve_dict.get("arg_doc", {})
-    return {name: default for name, (_, default) in told.items()}
+    values = loader.root_context.resolve_dict.get("arg_doc", {})
+    return {name: default for name, (_, default) in values.items()}
 
 
 @functools.cache
@@ -129,10 +129,10 @@ def check_rviz(config: ROSLaunchConfig) -> int:
 
 def check_names(config: ROSLaunchConfig) -> None:
     """With another arm's name nothing is called panda, except the pair of two arms."""
-    told = {name: param.value for name, param in config.params.items()}
-    told.update({f"node {node.name}": node.args for node in config.nodes})
+    values = {name: param.value for name, param in config.params.items()}
+    values.update({f"node {node.name}": node.args for node in config.nodes})
     of_others = re.compile("description|/dual_arm_|/robot_type$")
-    offending = {key: value for key, value in told.items() if re.search(r"\bpanda", f"{key} {value}")}
+    offending = {key: value for key, value in values.items() if re.search(r"\bpanda", f"{key} {value}")}
     assert not [key for key in offending if not of_others.search(key)]
 
 

@@ -68,8 +68,8 @@ def end_motion(fixture):
     while fixture.sim.ask("state").startswith("Move") and time.monotonic() < deadline:
         time.sleep(0.05)
     if "Reflex" in fixture.sim.ask("state"):
-        fixture.client.tell("connect", address=fixture.proxy.address)
-        fixture.client.tell("recover")
+        fixture.client.run_task("connect", address=fixture.proxy.address)
+        fixture.client.run_task("recover")
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +101,7 @@ def patient():
 @pytest.mark.parametrize("percent", [0, 0.1, 1, 5, 10, 20] if LONG else [20])
 def test_uniform_loss_of_commands_is_survived_and_counted(slow, percent):
     survive(slow, commands=lambda: losing(percent / 100))
-    assert all(fixture.client.tell("mode")["mode"] == "Idle" for fixture in slow)
+    assert all(fixture.client.run_task("mode")["mode"] == "Idle" for fixture in slow)
 
 
 @pytest.mark.parametrize("percent", [1, 5, 20] if LONG else [5])
@@ -245,8 +245,8 @@ def test_our_client_reports_invalid_states(stepped):
         begin = time.monotonic()
         while own[0].sim.ask("state").startswith("Move"):
             assert time.monotonic() - begin < 5.0, "The motion goes on without a client."
-        own[0].client.tell("connect", address=own[0].proxy.address)
-        own[0].client.tell("recover")
+        own[0].client.run_task("connect", address=own[0].proxy.address)
+        own[0].client.run_task("recover")
     assert run(own, seconds=0.2, amplitude=0.0)[0]["outcome"] == "ok"
 
 

@@ -170,7 +170,7 @@ def test_a_robot_of_no_known_version_is_refused(master):
 def test_an_older_robot_is_accepted(master, version):
     master.set(ONE + "/robot_ip", OTHER)
     with simulated("panda", OTHER, "realtime", "--no-hand", "--protocol", str(version)), one(master) as node:
-        assert node.says("is ready", 20), node.output
+        assert node.prints("is ready", 20), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -191,22 +191,22 @@ def set_controllers(master, arm_id):
 
 
 @pytest.mark.parametrize("there, told", [("fr3", "panda"), ("panda", "fr3")])
-def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, told):
+def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, described):
     set_controllers(master, "panda")
-    master.set("/robot_description", ros_nodes.robot_description(told, arm_id="panda"))
+    master.set("/robot_description", ros_nodes.robot_description(described, arm_id="panda"))
     master.set(ONE + "/robot_ip", OTHER)
-    is_there, is_told = [{"fr3": "an FR3", "panda": "a Panda"}[kind] for kind in (there, told)]
+    is_there, is_described = [{"fr3": "an FR3", "panda": "a Panda"}[kind] for kind in (there, described)]
     sentence = f"the robot is {is_there} "
     with simulated(there, OTHER, "lockstep", "--no-hand") as robot, one(master) as node:
-        assert node.says("is ready"), node.output
-        assert node.says(sentence), node.output
-        assert node.says(f"robot_description is {is_told}'s"), node.output
-        assert node.says("'/franka_control/ignore_robot_mismatch' is not true"), node.output
+        assert node.prints("is ready"), node.output
+        assert node.prints(sentence), node.output
+        assert node.prints(f"robot_description is {is_described}'s"), node.output
+        assert node.prints("'/franka_control/ignore_robot_mismatch' is not true"), node.output
         said = node.output.count(sentence)
         assert said == 1
         assert "Started" in manager(master, "spawn", STATES), "who only looks does no harm"
         assert "Started" not in manager(master, "spawn", TRAJECTORY)
-        assert node.says(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
+        assert node.prints(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
         assert node.output.count(sentence) == 2
         assert robot.ask("state").startswith("Idle")
         master.set(ONE + "/ignore_robot_mismatch", True)
@@ -231,8 +231,8 @@ def test_an_arm_with_another_name_is_reported_and_not_commanded(master, robot, u
     else:
         master.set(name, urdf.replace("panda_", value + "_"))
     with one(master) as node:
-        assert node.says("is ready"), node.output
-        assert node.says(sentence), node.output
+        assert node.prints("is ready"), node.output
+        assert node.prints(sentence), node.output
         assert "Started" not in manager(master, "spawn", TRAJECTORY)
         # A controller whose joints are in the description is refused, another one does not load.
         assert node.output.count(sentence) == (2 if name == "arm_id" else 1), node.output
@@ -242,9 +242,9 @@ def test_one_arm_of_several_with_another_type_is_reported(master, robot, urdf):
     master.set(ALL + "/panda_2/robot_ip", NOBODY)
     master.set(ALL + "/robot_description", urdf.replace("panda_", "panda_2_"))
     with simulated("fr3", NOBODY, "realtime", "--no-hand"), combined(master) as node:
-        assert node.says(f"no controller can command 'panda_2' at {NOBODY}"), node.output
-        assert node.says("the robot is an FR3"), node.output
-        assert node.says("'/combined_panda/panda_2/ignore_robot_mismatch' is not true"), node.output
+        assert node.prints(f"no controller can command 'panda_2' at {NOBODY}"), node.output
+        assert node.prints("the robot is an FR3"), node.output
+        assert node.prints("'/combined_panda/panda_2/ignore_robot_mismatch' is not true"), node.output
 
 
 def test_read_only_nodes_warn_about_another_robot(bare, master):
@@ -256,14 +256,14 @@ def test_read_only_nodes_warn_about_another_robot(bare, master):
     bare.set("/hand", dict(looks, joint_names=fingers))
     with simulated("fr3", OTHER, "realtime"):
         with bare.node("franka_visualization", "robot_joint_state_publisher", "arm_looks") as node:
-            assert node.says("the robot is an FR3"), node.output
-            assert node.says("robot_description is a Panda's"), node.output
+            assert node.prints("the robot is an FR3"), node.output
+            assert node.prints("robot_description is a Panda's"), node.output
         for package, kind, name in (
             ("franka_visualization", "gripper_joint_state_publisher", "hand_looks"),
             ("franka_gripper", "franka_gripper_node", "hand"),
         ):
             with bare.node(package, kind, name) as node:
-                assert node.says("'left_finger_joint1', which is no joint of '/robot_description'"), (
+                assert node.prints("'left_finger_joint1', which is no joint of '/robot_description'"), (
                     node.output
                 )
 
@@ -271,7 +271,7 @@ def test_read_only_nodes_warn_about_another_robot(bare, master):
 def test_joints_missing_in_the_description_are_named(master, robot, urdf):
     master.set("/robot_description", urdf.replace("panda_", "somebody_"))
     with one(master) as node:
-        assert node.says("is ready"), node.output
+        assert node.prints("is ready"), node.output
         assert "joint 'panda_joint1' has no <limit>" in node.output
 
 
@@ -302,7 +302,7 @@ def test_a_node_with_several_arms_reports_errors_and_exits(master, robot, name, 
 
 def test_an_idle_node_exits_on_interrupt(master, robot):
     with one(master) as node:
-        assert node.says("is ready"), node.output
+        assert node.prints("is ready"), node.output
         assert node.interrupt() < IN_TIME
         assert node.process.returncode == 0
 
@@ -312,7 +312,7 @@ def test_a_node_connecting_to_a_silent_robot_exits_on_interrupt(master, patience
     master.set(ONE + "/robot_ip", SILENT)
     master.set(ONE + "/connect_timeout", patience)
     with listening(SILENT), one(master) as node:
-        assert node.says("Connecting to the robot"), node.output
+        assert node.prints("Connecting to the robot"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -320,14 +320,14 @@ def test_a_node_waiting_for_a_robot_exits_on_interrupt(master):
     master.set(ONE + "/robot_ip", NOBODY)
     master.set(ONE + "/connect_timeout", 60.0)
     with one(master) as node:
-        assert node.says("Connecting to the robot"), node.output
+        assert node.prints("Connecting to the robot"), node.output
         assert node.interrupt() < IN_TIME
 
 
 def test_a_node_with_several_arms_connecting_to_a_silent_robot_exits_on_interrupt(master, robot):
     master.set(ALL + "/panda_2/robot_ip", SILENT)
     with listening(SILENT), combined(master) as node:
-        assert node.says(f"at {SILENT}"), node.output
+        assert node.prints(f"at {SILENT}"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -337,7 +337,7 @@ def test_a_node_that_lost_its_robot_exits_on_interrupt(master, reconnect):
     master.set(ONE + "/reconnect", reconnect)
     with one_with_robot(master) as (node, robot), woken_at_last(robot):
         os.kill(robot.process.pid, signal.SIGSTOP)
-        assert node.says("the robot is lost"), node.output
+        assert node.prints("the robot is lost"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -366,11 +366,11 @@ def test_a_controller_without_real_time_privileges_is_not_started(master):
     sentence = "Start with realtime_config:=ignore"
     through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with a real robot
     with simulated("panda", OTHER, "lockstep", "--no-hand") as robot, one(master, through) as node:
-        assert node.says("is ready"), node.output
-        assert node.says(sentence), node.output
+        assert node.prints("is ready"), node.output
+        assert node.prints(sentence), node.output
         for times, order in ((2, "spawn"), (3, "start")):  # at each request
             assert "Started" not in manager(master, order, TRAJECTORY)
-            assert node.says(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
+            assert node.prints(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
             assert node.output.count(sentence) == times
         assert "running" not in manager(master, "list")
         assert robot.ask("state").startswith("Idle")
@@ -397,7 +397,7 @@ def test_a_node_with_several_simulated_arms_needs_no_real_time_kernel(master, ro
         simulated("panda", OTHER, "realtime", "--no-hand"),
         combined(master, (*ANYHOW, *UNPRIVILEGED)) as node,
     ):
-        assert node.says("going on without real-time priority"), node.output
+        assert node.prints("going on without real-time priority"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -415,11 +415,11 @@ def test_a_motion_continues_without_the_master(tmp_path, urdf):
 def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
     with moving(master) as (node, robot):
         robot.ask("push panda_link7 0 0 -220 60")
-        assert node.says("reflex"), node.output
+        assert node.prints("reflex"), node.output
         with woken_at_last(robot):
             asked = master.run("/usr/bin/python3", "-c", ASK_RECOVERY, str(robot.process.pid))
             assert asked.returncode == 0, asked
-            assert node.says("recovering") and node.says("the robot is lost"), node.output
+            assert node.prints("recovering") and node.prints("the robot is lost"), node.output
             assert node.interrupt() < IN_TIME
 
 
@@ -434,7 +434,7 @@ def woken_at_last(robot):
 @contextmanager
 def one_with_robot(master, pace="patient", through=()):
     with simulated("panda", OTHER, pace, "--no-hand") as robot, one(master, through) as node:
-        assert node.says("is ready"), node.output
+        assert node.prints("is ready"), node.output
         yield node, robot
 
 

@@ -92,8 +92,8 @@ class Robot:
         wait_for(self._session, stays, f"a push of {PUSH} N moves the arm by {distance} m")
 
     def parameters(self):
-        told = self._session.run("rosrun", "dynamic_reconfigure", "dynparam", "get", SERVER).stdout
-        return {name: float(value) for name, value in re.findall(r"'(\w+_stiffness)': ([\d.]+)", told)}
+        output = self._session.run("rosrun", "dynamic_reconfigure", "dynparam", "get", SERVER).stdout
+        return {name: float(value) for name, value in re.findall(r"'(\w+_stiffness)': ([\d.]+)", output)}
 
     def set(self, **values):
         self._session.run("rosrun", "dynamic_reconfigure", "dynparam", "set", SERVER, json.dumps(values))

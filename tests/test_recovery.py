@@ -41,8 +41,8 @@ def report(request, tmp_path_factory, long_run):
 def test_a_controller_survives_reflexes(report):
     assert report["started"] and report["moves"]
     for outcome in report["reflexes"]:
-        told = outcome.pop("reported")
-        assert "reflex" in told, told
+        text = outcome.pop("reported")
+        assert "reflex" in text, text
         assert outcome == {
             "reflex": True,
             "has_error": True,

@@ -31,7 +31,7 @@ def report(tmp_path_factory, long_run):
             master.set(f"/{name}", values)
         master.set("/franka_state_controller/publish_rate", STATES)
         with master.node("franka_control", "franka_control_node", "franka_control") as node:
-            assert node.says("is ready"), node.output
+            assert node.prints("is ready"), node.output
             spawn = ["rosrun", "controller_manager", "controller_manager", "spawn", *CONTROLLERS]
             spawned = master.run(*spawn)
             assert "Started" in spawned.stdout, f"{spawned}\n{node.output}"

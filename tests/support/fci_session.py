@@ -118,7 +118,7 @@ class ClientProcess:
         self._lines = Lines(self.process.stdout)
         self._due = False  # a result
 
-    def tell(self, do: str, **task) -> dict:
+    def run_task(self, do: str, **task) -> dict:
         self.give(do, **task)
         return self.result()
 

@@ -59,7 +59,7 @@ def run(group, commands=None, states=None, seed=1, seconds=SECONDS, amplitude=AM
 
 def recover(group):
     for fixture in group:
-        answer = fixture.client.tell("recover")
+        answer = fixture.client.run_task("recover")
         assert answer["outcome"] == "ok" and answer["mode"] == "Idle", answer
 
 

@@ -45,7 +45,7 @@ class Node:
     def output(self) -> str:
         return self.log.read_text(errors="replace")
 
-    def says(self, text: str, timeout: float = 30.0) -> bool:
+    def prints(self, text: str, timeout: float = 30.0) -> bool:
         """Waits for this output, at most until the node exits."""
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
