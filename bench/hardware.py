@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The hardware nodes against a simulated robot in real time: what is lost, and what they weigh."""
+"""The hardware nodes with a simulated robot in real time: losses and memory."""
 
 import json
 import tempfile
@@ -13,8 +13,8 @@ from stalls import Stalls
 
 CONTROLLER = "effort_joint_trajectory_controller"
 
-# Counts the milliseconds of the robot's time that no message shows. Messages are not decoded, for Python
-# would hardly keep up: `time` and the success rate stand 99 and 91 bytes before the end of a FrankaState.
+# Counts the milliseconds of the robot's time without a message. Messages are not decoded, because Python
+# is too slow: `time` and the success rate are 99 and 91 bytes before the end of a FrankaState.
 LISTENER = """
 import json, struct, sys, time
 import rospy
@@ -39,7 +39,7 @@ print(json.dumps({"messages": len(seen), "missing": sum(s - 1 for s in steps), "
 def hardware() -> None:
     """A minute of torque control in real time, with all publishers on; half a minute with a patient robot.
 
-    What is lost with the latter the nodes lose, and not the robot.
+    Losses with the latter are those of the nodes, not of the robot.
     """
     for pace, seconds in (("realtime", 60.0), ("patient", 30.0)):
         torque_control(pace, seconds)

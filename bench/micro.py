@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The google-benchmark executables, each subject over a reference of the same run."""
+"""The google-benchmark executables: each subject relative to a reference of the same run."""
 
 import json
 import subprocess
@@ -46,7 +46,7 @@ RATIOS = [
 
 @dataclass
 class Counter:
-    """What a benchmark counts beside its time; `subtract` names one that counts the machine's own share."""
+    """A counter of a benchmark; `subtract` names one with the machine's own share."""
 
     executable: str
     benchmark: str
@@ -74,7 +74,7 @@ COUNTERS = [
 def micro() -> None:
     print("Parts, by google-benchmark (ratio to the reference in the same run)")
     found = executables()
-    # The benchmarks of controllers keep their parameters at a master.
+    # The benchmarks of controllers need a master for their parameters.
     with tempfile.TemporaryDirectory() as folder, Session("--core", log=Path(folder) / "core.log") as core:
         core.wait_for_master()
         for name in dict.fromkeys(ratio.executable for ratio in RATIOS):
@@ -117,7 +117,7 @@ def print_ratio(ratio: Ratio, times: dict[str, float]) -> None:
 def google_benchmark(
     executable: Path, environment: dict[str, str]
 ) -> tuple[dict[str, float], dict[str, dict[str, float]]]:
-    """Median time of each benchmark [ns], the processor's unless it says otherwise, and its counters."""
+    """Median time of each benchmark [ns], processor time by default, and its counters."""
     unit = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
         command = [str(executable), f"--benchmark_out={out.name}", "--benchmark_out_format=json"]

@@ -35,7 +35,7 @@ print(10.0 / (time.monotonic() - begin))
 
 
 def bench_client(address: str, seconds: float) -> dict[str, float]:
-    """This project's C++ client, for so many seconds of the robot's time."""
+    """This project's C++ client, for a number of seconds of the robot's time."""
     program = executables()["client_of_franka_sim_bench"]
     result = subprocess.run(
         [str(program), address, str(seconds)], capture_output=True, text=True, timeout=600, check=True
@@ -44,7 +44,7 @@ def bench_client(address: str, seconds: float) -> dict[str, float]:
 
 
 def genuine_client(library: str, address: str) -> float | None:
-    """Times real time of a genuine Python client; nothing where it is not installed."""
+    """Speed of a genuine Python client, in times real time; None if it is not installed."""
     python = TOP / "out" / "genuine" / library / "bin" / "python"
     if not python.exists():
         return None
@@ -76,7 +76,7 @@ def fci() -> None:
         with Stalls() as stalls:
             try:
                 figure(title, bench_client(sim.address, 60)["lost"], "", 0)
-            except subprocess.CalledProcessError as error:  # twenty in a row
+            except subprocess.CalledProcessError as error:  # twenty lost in a row
                 print(f"  {title}: {error.stderr.strip()}")
                 failures.append(title)
         print_stalls(stalls)

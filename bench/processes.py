@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Asking a running launch: whether a controller runs, what a process weighs."""
+"""Queries of a running launch: whether a controller runs, memory of a process."""
 
 import time
 from pathlib import Path
@@ -9,7 +9,7 @@ from franka_sim_mujoco.session import Session
 
 
 def wait_running(session: Session, controller: str, timeout: float = 90.0, namespace: str = "") -> None:
-    """Until the controller runs, as `controller_manager/list_controllers` says."""
+    """Waits until the controller runs, according to `controller_manager/list_controllers`."""
     deadline = time.monotonic() + timeout
     service = f"{namespace}/controller_manager/list_controllers"
     while time.monotonic() < deadline:

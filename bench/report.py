@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What all benchmarks share: where the workspace is, and how a figure is printed."""
+"""Helpers of all benchmarks: the workspace's path, and printing of results."""
 
 from pathlib import Path
 
@@ -26,6 +26,6 @@ def figure(text: str, value: float, unit: str, goal: float | None = None, at_lea
 
 
 def print_stalls(stalls) -> None:
-    """What the machine did to a thread that only sleeps: the reference of what goes by the clock."""
+    """Prints the machine's delays of a thread that only sleeps: the reference for real-time results."""
     figure("meanwhile a bare thread was woken up more than 1 ms late", stalls.late, "times")
     figure("its longest delay", 1e3 * stalls.worst, "ms")

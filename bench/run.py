@@ -4,7 +4,7 @@
 """Runs the benchmarks; each prints its figure as a ratio to a reference measured in the same run.
 
 `./franka bench` runs all, `./franka bench NAME...` some of: fci, hardware, micro, tick, arms, cameras,
-memory, start. Exit status 1 when a figure misses its goal. Needs the built workspace's environment, which
+memory, start. Exit status 1 if a figure misses its goal. Needs the built workspace's environment, which
 `./franka bench` provides.
 """
 

@@ -95,7 +95,7 @@ print(ready, max(duration(service) for _ in range(10) for service in services))
 
 
 def arms() -> None:
-    """Several arms with impedance controllers in one simulation, launched as the manual launches two."""
+    """Several arms with impedance controllers in one simulation, launched like the manual's two."""
     print("Several arms in one simulation, each with an impedance controller")
     for count, factor in ((1, 0), (2, 0), (4, 0), (8, 1), (8, 0)):
         title = f"{count} arm{'s' if count > 1 else ''}, {'real time' if factor else 'flat out'}"
@@ -122,7 +122,7 @@ def arms() -> None:
 
 
 def one_of_many(index: int, factor: float) -> str:
-    """The launch element of one arm; the first one brings the simulation."""
+    """The launch element of one arm; the first one starts the simulation."""
     arguments = {
         "arm_id": f"arm_{index}",
         "gazebo": "true" if index == 0 else "false",
@@ -137,7 +137,7 @@ def one_of_many(index: int, factor: float) -> str:
     return f'<group ns="arm_{index}"><include file="{file}">{inner}</include></group>'
 
 
-# A camera that looks at the robot as often as it can; then its pictures of so many wall seconds are counted.
+# A camera at its maximum rate; then its pictures in a number of wall seconds are counted.
 COUNT_PICTURES = """
 import sys, time
 import rospy
@@ -186,7 +186,7 @@ def memory() -> None:
         before = resident(session, SIMULATION)
         figure("resident before the first picture", before, "MB", 150)
         begin = simulated_seconds(session)
-        wait_simulated(session, begin + 30)  # threads, publishers and buffers have come up
+        wait_simulated(session, begin + 30)  # threads, publishers and buffers exist then
         settled = resident(session, SIMULATION)
         wait_simulated(session, begin + 630)
         figure("growth over 10 simulated minutes", resident(session, SIMULATION) - settled, "MB", 1)
@@ -198,7 +198,7 @@ def simulated_seconds(session: Session) -> float:
 
 
 def wait_simulated(session: Session, until: float, timeout: float = 200.0) -> None:
-    """Lets the simulation run flat out until its clock has passed a time [s]."""
+    """Runs the simulation as fast as possible until its clock has passed a time [s]."""
     deadline = time.monotonic() + timeout
     while simulated_seconds(session) < until:
         if time.monotonic() > deadline:

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Several arms on franka_combined_control_node, one of which hits something; prints what came of it as JSON.
+"""Several arms on franka_combined_control_node, one of which hits something; prints a report as JSON.
 
 Run by test_combined.py with ROS's interpreter. Arguments: the arms with their addresses, as
 panda_1=127.0.0.1.
@@ -22,7 +22,7 @@ from trajectory_msgs.msg import JointTrajectoryPoint
 
 NODE = "/combined_panda"
 CONTROLLER = "effort_joint_trajectory_controller"
-PATIENCE = 15.0  # for whatever should happen at once [s]
+PATIENCE = 15.0  # limit for immediate reactions [s]
 
 
 class Arm:
@@ -49,12 +49,12 @@ def waits(condition, patience=PATIENCE):
 
 
 def recover(name):
-    """How a recovery ended."""
+    """State of a finished recovery."""
     return recovery(name)[0]
 
 
 def recovery(name):
-    """The same, and its text."""
+    """The same, and its message."""
     client = actionlib.ActionClient(name, ErrorRecoveryAction)
     if not client.wait_for_server(rospy.Duration(PATIENCE)):
         return ["no server", ""]
@@ -92,7 +92,7 @@ def all_move(arms):
 
 
 def hit(arm, others):
-    """One arm is pushed until its reflex; the others must not care."""
+    """Pushes one arm until its reflex; the others must not change."""
     arm.operator.does(f"push {arm.name}_link7 {PUSH}")
     outcome = {"reflex": waits(lambda: arm.mode == FrankaState.ROBOT_MODE_REFLEX and arm.has_error)}
     time.sleep(1.0)

@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Two arms on franka_combined_control_node whose robots are killed one after the other; prints all as JSON.
+"""Two arms on franka_combined_control_node whose robots are killed in turn; prints a report as JSON.
 
 Run by test_combined_gone.py with ROS's interpreter. Arguments: options of the simulated robots, and the arms
-with their addresses and processes, as panda_1=127.0.0.1=4711. The second arm connects by itself.
+with their addresses and processes, as panda_1=127.0.0.1=4711. The second arm reconnects automatically.
 """
 
 import json
@@ -48,11 +48,11 @@ class Node:
         return [answer.success, answer.message]
 
     def offers(self, arm):
-        """Services of an arm, of those that are asked for here."""
-        wanted = ("connect", "disconnect", "set_load")
+        """Services of an arm, out of those that this test uses."""
+        expected = ("connect", "disconnect", "set_load")
         _, _, (_, _, services) = rospy.get_master().getSystemState()
         names = {name for name, _ in services}
-        return [name for name in wanted if f"{NODE}/{arm.name}/{name}" in names]
+        return [name for name in expected if f"{NODE}/{arm.name}/{name}" in names]
 
 
 def kill(pid):
@@ -60,7 +60,7 @@ def kill(pid):
 
 
 def loses(node, arm, other):
-    """What a user sees when the first robot is gone."""
+    """Reports of the node after the loss of the first robot."""
     report = {"noticed": waits(lambda: arm.has_error and other.mode == FrankaState.ROBOT_MODE_IDLE)}
     report["diagnosis"] = node.diagnosis.shows(arm.name, "Not connected to the robot")
     waits(lambda: other.has_error)
@@ -78,12 +78,14 @@ def loses(node, arm, other):
     count = other.state.header.seq
     report["fresh"] = waits(lambda: other.state.header.seq > count + 5)
     report["stays"] = max(abs(a - b) for a, b in zip(at, other.state.q))
-    report["diagnosis of the other"] = node.diagnosis.says(other.name, lambda _, v: v.get("Mode") == "Idle")
+    report["diagnosis of the other"] = node.diagnosis.status_when(
+        other.name, lambda _, v: v.get("Mode") == "Idle"
+    )
     return report
 
 
 def load_alone(other):
-    """A controller of the other arm only, as the one of both is configured."""
+    """Loads a controller for the other arm only, configured like the one for both."""
     parameters = rospy.get_param(f"{NODE}/{CONTROLLER}")
     parameters["joints"] = [joint for joint in parameters["joints"] if joint.startswith(other.name)]
     rospy.set_param(f"{NODE}/{ALONE}", parameters)
@@ -113,10 +115,12 @@ def is_taken_again(node, arm, other):
 
 
 def comes_back_by_itself(node, arm, other):
-    """The second robot was killed and started anew."""
-    report = {"back": node.diagnosis.says(arm.name, lambda _, v: v.get("Mode") == "Idle")[1] == arm.name}
+    """After the second robot was killed and restarted."""
+    report = {
+        "back": node.diagnosis.status_when(arm.name, lambda _, v: v.get("Mode") == "Idle")[1] == arm.name
+    }
     waits(lambda: "set_load" in node.offers(arm))
-    time.sleep(1.0)  # in which nothing should move
+    time.sleep(1.0)  # in which no arm may move
     report["waits"] = arm.has_error and FrankaState.ROBOT_MODE_MOVE not in (arm.mode, other.mode)
     report["recovery"] = recovery(f"{NODE}/error_recovery")
     report["move"] = all_move([arm, other])
@@ -135,7 +139,7 @@ def main():
     report = {"started": node.switch([CONTROLLER]), "moves": all_move(arms)}
     move(arms, 0.05)
     report["diagnosis"] = {arm.name: node.diagnosis.shows(arm.name, "Ready", Mode="Move") for arm in arms}
-    report["diagnosis"]["Control loop"] = node.diagnosis.says("Control loop", lambda *_: True)
+    report["diagnosis"]["Control loop"] = node.diagnosis.status_when("Control loop", lambda *_: True)
     first, second = arms
     started = []
     try:

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fails when the last build has printed a compiler warning about a file of this repository.
+"""Fails if the last build has printed a compiler warning about a file of this repository.
 
-The build itself goes on after a warning: a user with another compiler must get programs. Warnings about
-system headers do not count: what the optimiser says of them differs from release to release. ccache repeats
-the warnings of what it has kept, so a clean clone shows all of them.
+The build itself continues after a warning: a user with another compiler must get programs. Warnings about
+system headers do not count, because the optimiser's warnings about them depend on the release. ccache repeats
+the warnings of cached objects, so a clean clone shows all of them.
 """
 
 import re

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What all end-to-end tests share."""
+"""Fixtures of all end-to-end tests."""
 
 import os
 import shutil
@@ -15,7 +15,7 @@ WORKSPACE = TOP / "catkin_ws"
 
 @pytest.fixture(scope="session")
 def installed(tmp_path_factory) -> Path:
-    """The workspace's packages in a prefix of their own."""
+    """The workspace's packages, installed in a separate prefix."""
     prefix = tmp_path_factory.mktemp("install")
     environment = dict(os.environ, PATH=f"/usr/bin:{os.environ['PATH']}")
     subprocess.run(

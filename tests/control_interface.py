@@ -9,7 +9,7 @@ PORT = 1340
 
 def answer(address: str, line: str) -> str:
     """Sends one command; returns the answer, `ok ...` or `error: ...`."""
-    # One connection a line: the robot closes those that stay silent.
+    # One connection per line: the robot closes silent ones.
     with socket.create_connection((address, PORT), timeout=60) as connection:
         stream = connection.makefile("rw", newline="\n")
         stream.write(line + "\n")

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every service and every topic of franka_control_node; prints what came of it as JSON.
+"""Uses every service and every topic of franka_control_node; prints a report as JSON.
 
 Run by test_control_node.py with the interpreter that ROS uses, against a robot in lock-step. Arguments: the
 arm, the address of the simulated robot.
@@ -33,7 +33,7 @@ CONTROLLER = "position_joint_trajectory_controller"
 PUSH = [0.0, 0.0, -8.0]  # at the seventh link [N]
 BRIEFLY = 50  # [ms]
 SETTLED, SLOWLY_SETTLED = 0.6, 3.0  # [s] of the robot, from the first state that shows a push
-WIDE = {"torque": [60.0] * 7, "force": [60.0] * 6}  # thresholds that nothing here reaches [Nm], [N, Nm]
+WIDE = {"torque": [60.0] * 7, "force": [60.0] * 6}  # thresholds that are never reached here [Nm], [N, Nm]
 SOFT_JOINTS = [600.0] * 7  # [Nm/rad]
 SOFT_HAND = [800.0, 800.0, 800.0, 60.0, 60.0, 60.0]  # [N/m], [Nm/rad]
 
@@ -80,7 +80,7 @@ def apart(a, b):
 
 
 def shown_pose_is_apart(state):
-    """How far a state's O_T_EE is from what its joints and frames say."""
+    """Difference between a state's O_T_EE and the pose from its joints and frames."""
     pose = rigid_arm.poses(state.q)[rigid_arm.FLANGE] @ matrix(state.F_T_NE) @ matrix(state.NE_T_EE)
     return apart(matrix(state.O_T_EE), pose)
 
@@ -108,7 +108,7 @@ class Services:
 
 
 def thresholds(**changed):
-    """Arguments of set_full_collision_behavior, everything wide that is not named as in lower_force=5."""
+    """Arguments of set_full_collision_behavior: wide, except those named as in lower_force=5."""
     arguments = {}
     for bound in ("lower", "upper"):
         for what, wide in WIDE.items():
@@ -124,7 +124,7 @@ def nominal(**changed):
 
 
 def good_values():
-    """What each setter gets, and where its effect is seen in the state (None: in what the arm does)."""
+    """Request of each setter, and the state's field that shows it (None: only the motion shows it)."""
     hand = transform((0.01, -0.02, 0.15), 0.0, 0.5)
     stiffness = transform((0.0, 0.0, 0.05), 0.3)
     inertia = np.diag([1e-3, 2e-3, 2.5e-3]).flatten().tolist()
@@ -139,7 +139,7 @@ def good_values():
 
 
 def bad_values():
-    """Values that no robot takes."""
+    """Values that every robot refuses."""
     nan = float("nan")
     mirrored = np.diag([1.0, 1.0, -1.0, 1.0])
     stretched = np.diag([1.1, 1.0, 1.0, 1.0])
@@ -168,13 +168,13 @@ def bad_values():
 
 
 def rate_of(headers):
-    """Of messages one after the other [Hz]. The median: a machine that stands still delays some of them."""
+    """Rate of consecutive messages [Hz]. The median, because a busy machine delays some of them."""
     pairs = zip(headers, headers[1:])
     return 1.0 / median((b.stamp - a.stamp).to_sec() for a, b in pairs if b.seq == a.seq + 1)
 
 
 class Topics:
-    """Everything that the state controller publishes, kept by its number."""
+    """All messages of the state controller, by their number."""
 
     NAMES = {
         "franka_states": FrankaState,
@@ -201,7 +201,7 @@ class Topics:
             self.kept["tf"][message.transforms[0].header.stamp.to_nsec()] = message
 
     def compare(self, count):
-        """How far the topics of one cycle are apart, over so many cycles."""
+        """Largest differences between topics of one cycle, over a number of cycles."""
         self.forget()
         complete = []
         deadline = time.monotonic() + 8 * PATIENCE
@@ -258,12 +258,12 @@ def idle(robot, operator, services, topics, diagnosis):
         report["good"][name] = [*answer[:2], robot.waits(seen) is not None]
     report["m_total"] = apart(robot.state.m_total, robot.state.m_ee + 0.4)
     report["still"] = apart(robot.state.q, before.q)
-    operator.does(f"push {ARM}_link7 0 0 0 10")  # lets the world go on: what the setters change shows
+    operator.does(f"push {ARM}_link7 0 0 0 10")  # the world runs: states show the settings
     robot.waits(lambda: shown_pose_is_apart(robot.state) < 1e-5)
     report["topics"] = topics.compare(20)
     report["second_source"] = apart(operator.does("state").rsplit(" q ", 1)[1].split(), robot.state.q)
     report["tree"] = tree(robot)
-    # Back to a hand that carries nothing.
+    # Resets the load to zero.
     services.set("set_load", mass=0.0, F_x_center_load=[0.0] * 3, load_inertia=[0.0] * 9)
     services.set("set_EE_frame", NE_T_EE=list(before.NE_T_EE))
     services.set("set_K_frame", EE_T_K=list(before.EE_T_K))
@@ -272,7 +272,7 @@ def idle(robot, operator, services, topics, diagnosis):
 
 
 def tree(robot):
-    """How far the whole way through /tf, from base to end effector, is from the robot's O_T_EE."""
+    """Difference between the chain of /tf from base to end effector and the robot's O_T_EE."""
     buffer = tf2_ros.Buffer()
     listener = tf2_ros.TransformListener(buffer)
     difference = 1.0
@@ -289,8 +289,8 @@ def tree(robot):
 def pushed(robot, operator, topics, settling=SETTLED):
     """Pushes the arm until it rests under the push; returns its state before, and one at rest.
 
-    Topics drop what a busy machine has no time for: when too much is missing, the arm is pushed again, for
-    twice as long each time.
+    Topics drop messages on a busy machine: if too many are missing, the arm is pushed again, for twice as
+    long each time.
     """
     robot.waits(lambda: robot.state.robot_mode == FrankaState.ROBOT_MODE_MOVE)
     before = robot.state
@@ -304,7 +304,7 @@ def pushed(robot, operator, topics, settling=SETTLED):
 
 
 def states_of_push(topics, seconds):
-    """The states that show a push of that duration, once it is over by the time of published states."""
+    """States during a push of that duration, collected until published states are past its end."""
     deadline = time.monotonic() + 8 * PATIENCE  # the robot waits for each answer
     states, felt = [], []
     while not states or states[-1].time < (felt[-1].time + 0.3 if felt else states[0].time + 2 * seconds):
@@ -317,7 +317,7 @@ def states_of_push(topics, seconds):
 
 
 def soft_joints(robot, operator, services, topics, diagnosis):
-    """Joint impedance, contacts by force; and what a moving robot answers."""
+    """Joint impedance, contacts by force; and answers of a moving robot."""
     report = {
         "set": [
             services.set("set_joint_impedance", joint_stiffness=SOFT_JOINTS)[0],
@@ -325,7 +325,7 @@ def soft_joints(robot, operator, services, topics, diagnosis):
         ]
     }
     report["started"] = services.switch([CONTROLLER])
-    # For the next switch: the node is told in the background.
+    # For the next switch: the node processes this in the background.
     rospy.set_param("/franka_control/internal_controller", "cartesian_impedance")
     before, last = pushed(robot, operator, topics)
     expected = torques_of_push(np.array(last.q))
@@ -335,7 +335,9 @@ def soft_joints(robot, operator, services, topics, diagnosis):
     report["contacts"] = [any(last.cartesian_contact), any(last.joint_contact), last.robot_mode]
     report["contact_before"] = any(before.cartesian_contact)
     report["diagnosis"] = diagnosis.shows("Robot", "Ready", Mode="Move")
-    report["response"] = diagnosis.says("Robot", lambda _, v: int(v["Commands since the last report"]) > 0)
+    report["response"] = diagnosis.status_when(
+        "Robot", lambda _, v: int(v["Commands since the last report"]) > 0
+    )
     report["topics"] = topics.compare(20)
     refused = {"set_joint_impedance": {"joint_stiffness": [3000.0] * 7}}
     refused["set_cartesian_impedance"] = {"cartesian_stiffness": SOFT_HAND}
@@ -367,7 +369,7 @@ def soft_hand(robot, operator, services, topics):
 
 
 def reflex(robot, operator, services, diagnosis):
-    """A push above a threshold; what is published and written about it."""
+    """A push above a threshold, and the node's reports about it."""
     services.set("set_full_collision_behavior", **thresholds(upper_force=4.0))
     report = {"started": services.switch([CONTROLLER])}
     robot.waits(lambda: robot.state.robot_mode == FrankaState.ROBOT_MODE_MOVE)
@@ -375,9 +377,9 @@ def reflex(robot, operator, services, diagnosis):
     report["reflex"] = robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     report["flagged"] = robot.waits(lambda: robot.state.current_errors.cartesian_reflex) is not None
     report["has_error"] = robot.waits(lambda: robot.has_error) is not None
-    # A report of the moment of the reflex may still hold the last state of the motion.
+    # A diagnostics message at the time of the reflex may still hold the last state of the motion.
     report["diagnosis"] = diagnosis.shows("Robot", "In error; call the action error_recovery", Mode="Reflex")
-    # Latched: whoever asks afterwards is told.
+    # Latched: late subscribers get it too.
     report["abort"] = rospy.wait_for_message("/franka_control/abort", String, PATIENCE).data
     report["log"] = log_of(report["abort"], robot.state)
     report["recovered"] = robot.recover()
@@ -388,7 +390,7 @@ def reflex(robot, operator, services, diagnosis):
 
 
 def log_of(text, state):
-    """What the file holds that the text names."""
+    """Content of the file that the text names."""
     words, path = text.splitlines()[-1].split(": ", 1)
     with open(path, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

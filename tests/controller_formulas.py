@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the example controllers lead an arm along, by their description, over time.
+"""Desired motions of the example controllers over time, from their description.
 
 Times `t` are seconds since a controller's start (n,). Poses are those of the end effector in the base (4, 4).
 """
@@ -17,14 +17,14 @@ def joint_position(t, start):
 
 
 def there_and_back(t, period, highest):
-    """The integral of highest / 2 (1 - cos(2 pi t / period)), which every other period goes back."""
+    """Integral of highest / 2 (1 - cos(2 pi t / period)), with reversed sign in every other period."""
     number, rest = np.divmod(t, period)
     way = highest / 2 * (rest - period / (2 * np.pi) * np.sin(2 * np.pi * rest / period))
     return np.where(number % 2 == 0, way, highest / 2 * period - way)
 
 
 def joint_velocity(t, start):
-    """Joint positions (n, 7) [rad] to which the commanded velocities lead."""
+    """Joint positions (n, 7) [rad]: the integral of the commanded velocities."""
     return start + there_and_back(t, 8.0, 0.1)[:, None] * np.ones(7)
 
 
@@ -41,7 +41,7 @@ def cartesian_pose(t, start):
 
 
 def cartesian_velocity(t, start):
-    """Poses (n, 4, 4) [m] to which the commanded velocities lead."""
+    """Poses (n, 4, 4) [m]: the integral of the commanded velocities."""
     way = there_and_back(t, 4.0, 0.05)
     return shifted(start, way * np.cos(np.pi / 4), 0 * t, -way * np.sin(np.pi / 4))
 
@@ -52,26 +52,26 @@ def elbow(t, start):
 
 
 def joint_impedance(t, start, radius=0.1, highest=0.15, acceleration_time=ACCELERATION_TIME):
-    """Poses (n, 4, 4) [m] on a circle that begins with a steady acceleration."""
+    """Poses (n, 4, 4) [m] on a circle that starts with constant acceleration."""
     gaining = np.minimum(t, acceleration_time)
     angle = highest * (gaining**2 / (2 * acceleration_time) + (t - gaining)) / radius
     return shifted(start, 0 * t, radius * (1 - np.cos(angle)), radius * np.sin(angle))
 
 
 def joint_impedance_torques(error, error_rate):
-    """(n, 7) [Nm] beside the Coriolis torques, of what is left of q_d and dq_d [rad], [rad/s]."""
+    """(n, 7) [Nm] without Coriolis torques, from the errors of q and dq [rad], [rad/s]."""
     k_gains = np.array([600.0, 600.0, 600.0, 600.0, 250.0, 150.0, 50.0])
     d_gains = np.array([50.0, 50.0, 50.0, 20.0, 20.0, 20.0, 10.0])
     return k_gains * error + d_gains * error_rate
 
 
-def cartesian_impedance_torques(J, pose, wanted, q, dq, q_nullspace, stiffness, nullspace_stiffness):
-    """(7,) [Nm] beside the Coriolis torques, once the gains have come up.
+def cartesian_impedance_torques(J, pose, desired, q, dq, q_nullspace, stiffness, nullspace_stiffness):
+    """(7,) [Nm] without Coriolis torques, after the gains have reached their targets.
 
     @param J (6, 7); pose, wanted (4, 4); stiffness its two, [N/m] and [Nm/rad]
     """
-    turn = turn_of(pose[:3, :3].T @ wanted[:3, :3])
-    error = np.concatenate([wanted[:3, 3] - pose[:3, 3], pose[:3, :3] @ turn])
+    turn = turn_of(pose[:3, :3].T @ desired[:3, :3])
+    error = np.concatenate([desired[:3, 3] - pose[:3, 3], pose[:3, :3] @ turn])
     gains = np.repeat(stiffness, 3)
     wrench = gains * error - 2 * np.sqrt(gains) * (J @ dq)
     own = nullspace_stiffness * (q_nullspace - q) - 2 * np.sqrt(nullspace_stiffness) * dq
@@ -85,12 +85,12 @@ def turn_of(rotation):
     return np.array([skew[2, 1], skew[0, 2], skew[1, 0]]) / (4 * cosine)
 
 
-def begin_of(times, wanted, formula, earliest, latest):
-    """When a controller began: the time for which what was wanted is what its formula says, to 0.1 ms.
+def start_time(times, desired, formula, earliest, latest):
+    """Start time of a controller: the time at which desired values match its formula, to 0.1 ms.
 
-    @param times (n,) of the states [s]; wanted (n, ...) what they say was wanted
+    @param times (n,) of the states [s]; wanted (n, ...) their desired values
     @param formula of times (n,) since the begin, constant before it
     """
     candidates = np.arange(earliest, latest, 1e-4)
-    deviations = [np.abs(formula(np.maximum(times - begin, 0.0)) - wanted).max() for begin in candidates]
+    deviations = [np.abs(formula(np.maximum(times - begin, 0.0)) - desired).max() for begin in candidates]
     return candidates[int(np.argmin(deviations))]

@@ -3,8 +3,8 @@
 """Runs every example controller twice on a FrankaHWSim and records the robot's states.
 
 Run by test_controller_formulas.py with the interpreter that ROS uses. Arguments: the arm, a file for the
-recording (numpy), simulated seconds of a first and of a second run. The simulation is stepped, so what
-happens does not depend on how fast this is. A JSON report is the last line of the output.
+recording (numpy), simulated seconds of a first and of a second run. The simulation is stepped, so the results
+do not depend on the speed of this program. A JSON report is the last line of the output.
 """
 
 import json
@@ -42,9 +42,9 @@ WAIT = 60.0  # [s] of the wall
 REST = 1e-5  # [rad/s]
 SHIFT, PUSH = [0.05, -0.04, -0.06], [0.0, 4.0, 0.0]  # [m], [N]
 PUSH_LASTS = 30.0  # [s]: the null space comes to rest slowly
-# The fingers end so far beyond the end effector, and so far above the block at first [m].
+# Distances from the end effector to the fingertips, and from them to the block at first [m].
 TIP, GAP = 0.0584 + 0.04525 + 0.0185 / 2 - 0.1034, 1e-4
-PRESSES = [  # what the force controller is told in its first and its second run
+PRESSES = [  # parameters of the force controller in its first and its second run
     {"desired_mass": 1.0, "k_p": 0.0, "k_i": 0.0},
     {"desired_mass": 1.5, "k_p": 0.5, "k_i": 0.5},
 ]
@@ -71,7 +71,7 @@ def at_rest(state):
 
 
 class Arm:
-    """A simulated arm whose time passes only when it is told to."""
+    """A simulated arm whose time advances only by steps."""
 
     def __init__(self, arm_id):
         self.arm_id, self.states = arm_id, []
@@ -83,17 +83,17 @@ class Arm:
 
     @staticmethod
     def wait(condition, what, limit=WAIT):
-        """For what does not need the simulation's time to pass."""
+        """Waits for a condition that needs no simulated time."""
         end = time.monotonic() + limit
         while not condition():
             assert time.monotonic() < end, f"{what} did not come within {limit} s."
             time.sleep(0.001)
 
     def step(self, seconds):
-        """Lets so much time pass; returns the states that it brought."""
+        """Advances the time; returns the new states."""
         begin = len(self.states)
         now = call("/gazebo/step", Step, round(1000 * seconds)).time
-        # One comes every 34 ms, unless the last one is still being sent.
+        # A state is published every 34 ms, unless the last one is still being sent.
         recent = rospy.Duration(0.08)
         for _ in range(100):
             end = time.monotonic() + 0.5
@@ -105,7 +105,7 @@ class Arm:
         raise AssertionError("No states come any more.")
 
     def until(self, condition, what, limit=60.0):
-        """Lets time pass until a state meets a condition; not longer than so many simulated seconds."""
+        """Advances the time until a state meets a condition, at most by a limit of simulated seconds."""
         seen = self.step(0.1)
         for _ in range(round(limit / 0.1)):
             if condition(seen[-1]):
@@ -114,7 +114,7 @@ class Arm:
         raise AssertionError(f"{what} did not come within {limit} s: {self.states[-1]}")
 
     def during(self, service, kind, **fields):
-        """A call that is answered only when time passes."""
+        """A call that is answered only if time advances."""
         answers = []
         thread = threading.Thread(target=lambda: answers.append(call(service, kind, **fields)))
         thread.start()
@@ -157,7 +157,7 @@ class Recording(dict):
 
 
 def refused_beside(arm, running):
-    """What each other controller's start beside a running one comes to, and what becomes of that one."""
+    """Results of starting each other controller beside a running one, and the state of that one."""
     started = {}
     for name in MOTIONS + OTHERS:
         if name != running:
@@ -173,21 +173,21 @@ def refused_beside(arm, running):
 
 
 def lead(arm):
-    """Leads the hand of a running impedance controller, then pushes it.
+    """Moves the hand of a running impedance controller, then pushes it.
 
     Returns where it comes to rest, and the states from the push's begin to after its end.
     """
     begin = arm.step(0.5)[-1]
-    wanted = pose_of(begin)
-    wanted[:3, 3] += SHIFT
+    desired = pose_of(begin)
+    desired[:3, 3] += SHIFT
     topic = f"/{full('cartesian_impedance')}/equilibrium_pose"
     hand = rospy.Publisher(topic, PoseStamped, queue_size=1)
     arm.wait(hand.get_num_connections, "The controller's interest in an equilibrium")
-    x, y, z = wanted[:3, 3]
+    x, y, z = desired[:3, 3]
     message = PoseStamped()
     message.header.frame_id = arm.arm_id + "_link0"
     message.pose.position = Point(x, y, z)
-    message.pose.orientation.x = 1.0  # it looks down: half a turn about x
+    message.pose.orientation.x = 1.0  # it points down: half a turn about x
     hand.publish(message)
     near = lambda state: np.linalg.norm(pose_of(state)[:3, 3] - [x, y, z]) < 0.01  # noqa: E731
     arm.until(near, "The motion to the equilibrium")
@@ -199,13 +199,13 @@ def lead(arm):
     pushed = arm.step(PUSH_LASTS - 0.1)[-1]
     arm.step(1.0)
     hand.unregister()
-    poses = {"wanted": wanted, "reached": pose_of(reached), "pushed": pose_of(pushed)}
+    poses = {"wanted": desired, "reached": pose_of(reached), "pushed": pose_of(pushed)}
     found = {name: pose.tolist() for name, pose in poses.items()}
     return {**found, "q_nullspace": begin.q}, arm.states[count:]
 
 
 def press(arm, settings):
-    """Sets what a running force controller presses with; returns forces on the block [N]."""
+    """Sets the desired mass of a running force controller; returns forces on the block [N]."""
     doubles = [DoubleParameter(name, value) for name, value in settings.items()]
     call(FORCE_SETTINGS, Reconfigure, Config(doubles=doubles))
     arm.step(10.0)  # its targets approach with a time constant of 1 s
@@ -222,7 +222,7 @@ def force_on_block(arm):
 
 
 def put_block(arm):
-    """Under the fingers: they are to rest on something when the force controller starts."""
+    """Puts it under the fingers: they must touch something when the force controller starts."""
     side = 0.1
     x, y, z = pose_of(arm.states[-1])[:3, 3]
     xml = (
@@ -234,7 +234,7 @@ def put_block(arm):
 
 
 def read_model(arm, lines):
-    """What the model example prints next, and the state it prints it for."""
+    """The next output of the model example, and the state it belongs to."""
     begin = len(lines)
     state = arm.step(1.5)[-1]
     arm.wait(lambda: any("joint_zero_jacobian" in line for line in lines[begin:]), "The model's print")

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Controllers and the errors of robots; prints what came of it as JSON.
+"""Controllers and the errors of robots; prints a report as JSON.
 
 Run by test_controllers_and_errors.py with ROS's interpreter. Arguments: what to do (throw; simulate: the same
 in the simulation's process; stop: the node was told to stop controllers before a recovery), the node, and its
@@ -20,7 +20,7 @@ from recovery_client import PUSH, Operator
 from std_msgs.msg import Bool
 
 BEST_EFFORT, STRICT = 1, 2
-PATIENCE = 20.0  # for whatever should happen at once [s]
+PATIENCE = 20.0  # limit for immediate reactions [s]
 
 
 def waits(condition):
@@ -101,7 +101,7 @@ def states_go_on(node):
 
 
 def thrown_in_simulation(node, where):
-    """The same where the controllers run in the simulation's process: no error, but a robot at rest."""
+    """The same for controllers in the simulation's process: no error, but a robot at rest."""
     node.start("thrower", where)
     outcome = {"moved": where == "starting" or node.all(Arm.moves)}
     outcome["rests"] = node.all(Arm.rests)
@@ -114,7 +114,7 @@ def thrown_in_simulation(node, where):
 
 
 def thrown(node, where):
-    """What happens when a controller throws, and afterwards."""
+    """Results of a controller that throws, and the state afterwards."""
     node.start("thrower", where)
     outcome = {"has_error": node.all(lambda arm: arm.has_error)}
     outcome["states_go_on"] = states_go_on(node)
@@ -128,7 +128,7 @@ def thrown(node, where):
 
 
 def stays_at_rest(node):
-    """After an error is gone: whether the controller was stopped, and nothing moves."""
+    """After a cleared error: whether the controller was stopped and the arm rests."""
     outcome = {"error_gone": node.all(lambda arm: not arm.has_error)}
     outcome["running"] = "good" in node.running()
     time.sleep(0.5)  # in which it would move

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a node says of itself on /diagnostics. For clients that run with ROS's interpreter."""
+"""A node's diagnostics. For clients that run with ROS's interpreter."""
 
 import time
 
@@ -18,12 +18,12 @@ class Diagnosis:
             self.kept[status.name] = status
 
     def shows(self, what, text, patience=15.0, **expected):
-        """The status of one kind, once it says that: [level, hardware, values], or what it says instead."""
-        return self.says(
+        """One status, once it has that text: [level, hardware, values], or its text after a timeout."""
+        return self.status_when(
             what, lambda said, values: said == text and values.items() >= expected.items(), patience
         )
 
-    def says(self, what, condition, patience=15.0):
+    def status_when(self, what, condition, patience=15.0):
         """The same, once a condition on its text and its values holds."""
         name = f"{self.node}: {what}"
         deadline = time.monotonic() + patience

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Starts one example controller after the other on franka_control_node; prints what the robot did as JSON.
+"""Starts the example controllers in turn on franka_control_node; prints the robot's motions as JSON.
 
 Run by test_example_controllers.py with the interpreter that ROS uses. Arguments: the arm, then controllers.
 """
@@ -50,13 +50,13 @@ def main():
             )
         ]
         client.send_goal(goal)
-        # The client's callbacks may come late; where the arm stands is what counts.
+        # The client's callbacks may be late; only the arm's position counts.
         deadline = time.monotonic() + 10.0
         while time.monotonic() < deadline and max(abs(a - b) for a, b in zip(state().q, home)) > 0.02:
             time.sleep(0.1)
         if max(abs(a - b) for a, b in zip(state().q, home)) > 0.02:
-            told = f"status {client.get_state()} {client.get_goal_status_text()} {client.get_result()}"
-            print(f"The arm did not come home: {told}", file=sys.stderr, flush=True)
+            result = f"status {client.get_state()} {client.get_goal_status_text()} {client.get_result()}"
+            print(f"The arm did not come home: {result}", file=sys.stderr, flush=True)
         switch(stop_controllers=[RETURNS], strictness=STRICT, timeout=5.0)
 
     report = {}

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Two arms hand a bar over; prints for each go what became of it as JSON.
+"""Two arms hand a bar over; prints the result of each run as JSON.
 
 Run by test_hand_over.py with the interpreter that ROS uses. Arguments: the kind of robot, a folder for a
 picture, seeds.
@@ -24,7 +24,7 @@ BAR_SIZE, BAR_MASS = (0.34, 0.03, 0.03), 0.08  # [m], [kg], as in hand_over.sdf
 REST_HEIGHT = 0.465  # of the bar's centre on a stand [m]
 FIRST, MIDDLE, SECOND = -0.2, 0.0, 0.2  # y of the stands, and of the place between them [m]
 LIFT = 0.08  # [m]
-GRIP = 0.13  # from the bar's centre to where an arm takes it: the last links must not meet [m]
+GRIP = 0.13  # from the bar's centre to an arm's grasp: the last links must not touch [m]
 FORCE = 40.0  # [N]
 STIFFNESS = {"nullspace_stiffness": 10.0, "translational_stiffness": 400.0, "rotational_stiffness": 30.0}
 
@@ -50,7 +50,7 @@ class Side:
         self.errors |= {name for name in errors.__slots__ if getattr(errors, name)}
 
     def at(self, bar: np.ndarray, above: float = 0.0) -> np.ndarray:
-        """Where the hand is when it holds its end of a bar that lies there (world, 4x4), or above it."""
+        """Pose of the hand that holds its end of a bar at this pose (world, 4x4), or is above it."""
         place = self._base_inverse @ bar
         x, y, z, _ = place @ self._end
         return downwards(x, y, z + above, wrap(yaw_of(place), np.pi))
@@ -74,7 +74,7 @@ class Side:
 
 
 class Watch:
-    """Keeps the least height of the bar from a moment on."""
+    """Records the smallest height of the bar from now on."""
 
     def __init__(self, scene: Scene):
         self._scene, self._ended, self.lowest = scene, threading.Event(), np.inf
@@ -94,7 +94,7 @@ class Watch:
 
 
 def bar_at(y: float, lift: float = 0.0, x: float = 0.0, yaw: float = 0.0) -> np.ndarray:
-    """A bar along the line between the arms, or turned from it."""
+    """Pose of a bar along the line between the arms, or rotated from it."""
     bar = np.eye(4)
     c, s = np.cos(yaw), np.sin(yaw)
     bar[:2, :2] = [[c, -s], [s, c]]

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a user does with franka_control_node and franka_gripper_node; prints what came of it as JSON.
+"""Uses franka_control_node and franka_gripper_node like a user; prints a report as JSON.
 
 Run by test_hardware.py with the interpreter that ROS uses.
 """
@@ -53,7 +53,7 @@ def action(name, kind, goal, timeout=30.0):
 
 
 def move_arm(controller, joints, by, seconds):
-    """Moves all joints by the same angle; returns how the action ended and the largest error."""
+    """Moves all joints by the same angle; returns the action's result and the largest error."""
     begin = state()
     goal = FollowJointTrajectoryGoal()
     goal.trajectory.joint_names = joints

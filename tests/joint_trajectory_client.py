@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Sends goals to a trajectory controller of a simulated Panda and prints how they ended, as JSON."""
+"""Sends goals to a trajectory controller of a simulated Panda and prints the results as JSON."""
 
 import json
 import math
@@ -78,7 +78,7 @@ def action_of(interface):
 
 
 def other_interfaces(home):
-    """The same way there and back, by positions and by velocities."""
+    """The same motion there and back, with positions and with velocities."""
     switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
     report, running = {}, "effort"
     for interface, target in (("position", TARGET), ("velocity", home)):

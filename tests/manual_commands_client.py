@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The manual's pick and place with its own command lines, typed into a shell; prints what came of it as JSON.
+"""The manual's pick and place with its own command lines, typed into a shell; prints a report as JSON.
 
 Where the manual lets the user drag rviz's marker, the marker's feedback is published as rviz does it.
-Run by test_manual_commands.py with the interpreter that ROS uses. Argument: simulated seconds a wall second.
+Run by test_manual_commands.py with the interpreter that ROS uses. Argument: the real-time factor.
 """
 
 import json
@@ -41,12 +41,12 @@ CONFIGURE = """rosservice call /set_franka_model_configuration "joint_names: [pa
 joint_positions: [{:.3f}]\""""
 
 JOINT_STEP = 0.05  # [rad]
-RVIZ_PERIOD = 1 / 30  # [s] in which rviz tells where its marker is while it is dragged
-LIMIT = 120.0  # wall seconds for whatever is waited for
+RVIZ_PERIOD = 1 / 30  # [s] between rviz's messages while its marker is dragged
+LIMIT = 120.0  # wall seconds for any wait
 
 
 class Shell:
-    """Types lines; a line that goes on for a while (rostopic pub, after its message) is not waited for."""
+    """Types lines; does not wait for a line that keeps running (rostopic pub, after its message)."""
 
     def __init__(self):
         self._lines = []
@@ -76,11 +76,11 @@ class Shell:
 
 
 class DraggedArm(Arm):
-    """Its target is where the user drags the marker to."""
+    """An arm whose target is the dragged marker."""
 
     def __init__(self, arm_id: str, shell: Shell):
         super().__init__(arm_id)
-        self._shell, self._told = shell, 0.0
+        self._shell, self._last_sent = shell, 0.0
         topic = "equilibrium_pose_marker/feedback"
         self._publisher = rospy.Publisher(topic, InteractiveMarkerFeedback, queue_size=1)
 
@@ -88,12 +88,12 @@ class DraggedArm(Arm):
         self._shell.run(NULLSPACE)
 
     def set_load(self, *_) -> None:
-        """The manual leaves the load out."""
+        """Does nothing: the manual sets no load."""
 
     def _lead(self, target) -> None:
-        if time.monotonic() - self._told < RVIZ_PERIOD:
+        if time.monotonic() - self._last_sent < RVIZ_PERIOD:
             return
-        self._told = time.monotonic()
+        self._last_sent = time.monotonic()
         feedback = InteractiveMarkerFeedback(client_id="/rviz", marker_name="equilibrium_pose")
         feedback.header.frame_id = f"{self.arm_id}_link0"
         feedback.event_type = InteractiveMarkerFeedback.POSE_UPDATE
@@ -102,7 +102,7 @@ class DraggedArm(Arm):
 
 
 class TypedGripper(Gripper):
-    """Its goals are typed, and their widths, speeds and forces are the manual's."""
+    """A gripper whose goals are typed, with the manual's widths, speeds and forces."""
 
     RESULTS = {
         "homing": HomingActionResult,
@@ -139,7 +139,7 @@ class TypedGripper(Gripper):
 
 
 class Observed(PickAndPlace):
-    """Notes on the way what the manual says one sees."""
+    """Records the observations that the manual describes."""
 
     def __init__(self, arm, gripper, scene):
         super().__init__(arm, gripper, scene, lambda _: None)
@@ -173,7 +173,7 @@ class Observed(PickAndPlace):
 
 
 def stops(arm: Arm, shell: Shell) -> dict:
-    """The user stop; while the controller is cut off, a joint is put elsewhere; then recovery."""
+    """The user stop; a joint is moved while the controller is disconnected; then recovery."""
     recoveries = []
     rospy.Subscriber("franka_control/error_recovery/result", ErrorRecoveryActionResult, recoveries.append)
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Waits for a circle to be driven and prints the wanted positions of the end effector as JSON [m].
+"""Waits for the end of a circle and prints the desired positions of the end effector as JSON [m].
 
 Run by test_example_controllers.py with the interpreter that ROS uses. Argument: seconds of the circle.
 """
@@ -13,7 +13,7 @@ import rospy
 import rospy_connections
 from franka_msgs.msg import FrankaState
 
-WAIT = 90.0  # [s] of the wall, for what takes the robot a few seconds
+WAIT = 90.0  # [s] of wall time, for a few seconds of the robot
 
 
 def main():

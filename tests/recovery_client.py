@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Reflexes and the user stop while a controller runs, as a user meets them; prints what came of it as JSON.
+"""Causes reflexes and user stops while a controller runs; prints a report as JSON.
 
 Run by test_recovery.py with the interpreter that ROS uses. Arguments: the arm, the address of the simulated
 robot, how many reflexes.
@@ -21,12 +21,12 @@ from geometry_msgs.msg import PoseStamped
 from std_msgs.msg import Bool, String
 
 CONTROLLER = "cartesian_impedance_example_controller"
-PATIENCE = 15.0  # for whatever should happen at once [s]
+PATIENCE = 15.0  # limit for immediate reactions [s]
 PUSH = "0 0 -220 60"  # far beyond the thresholds [N, ms]
 
 
 class Operator:
-    """The user beside the robot: pushes it, presses the user stop."""
+    """The operator: pushes the robot, presses the user stop."""
 
     def __init__(self, address):
         self._address = address
@@ -37,7 +37,7 @@ class Operator:
 
 
 class Robot:
-    """What the topics, services and actions of the node show."""
+    """The node's topics, services and actions."""
 
     def __init__(self):
         self.state = None
@@ -56,7 +56,7 @@ class Robot:
         self.state = state
 
     def waits(self, condition):
-        """How long it took until a condition held [s], or None."""
+        """Time until a condition held [s], or None."""
         begin = time.monotonic()
         while time.monotonic() - begin < PATIENCE:
             if self.state is not None and condition():
@@ -67,23 +67,23 @@ class Robot:
     def shows(self, mode):
         return self.waits(lambda: self.state.robot_mode == mode) is not None
 
-    def ask_recovery(self):
+    def send_recovery(self):
         return self._recovery.send_goal(ErrorRecoveryGoal())
 
-    def told(self, goal):
-        """[status, text] of a recovery that was asked for."""
+    def result_of(self, goal):
+        """[status, text] of a requested recovery."""
         if self.waits(lambda: goal.get_comm_state() == actionlib.CommState.DONE) is None:
             return [None, "no answer"]
         return [goal.get_terminal_state(), goal.get_goal_status_text()]
 
     def recover(self):
-        return self.told(self.ask_recovery())
+        return self.result_of(self.send_recovery())
 
     def runs(self):
         return {c.name: c.state for c in self._list().controller}.get(CONTROLLER)
 
     def follows(self):
-        """Whether the end effector goes where the controller is told: 3 cm up or down."""
+        """Whether the end effector reaches the controller's target: 3 cm up or down."""
         target = PoseStamped()
         target.header.frame_id = f"{sys.argv[1]}_link0"
         x, y, z = self.state.O_T_EE[12:15]
@@ -135,8 +135,8 @@ def main():
     operator.does(f"push {sys.argv[1]}_link7 {PUSH}")
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     robot.waits(lambda: robot.has_error)
-    both = [robot.ask_recovery(), robot.ask_recovery()]
-    report["twice"] = [robot.told(goal) for goal in both]
+    both = [robot.send_recovery(), robot.send_recovery()]
+    report["twice"] = [robot.result_of(goal) for goal in both]
     report["follows_after_both"] = robot.shows(FrankaState.ROBOT_MODE_MOVE) and robot.follows()
     report["user_stop"] = user_stop(robot, operator)
     report["stopped"] = switch(stop_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok

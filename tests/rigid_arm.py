@@ -1,8 +1,8 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""An arm's kinematics and dynamics by the textbook, to hold other models against.
+"""An arm's kinematics and dynamics by the textbook, as a reference for other models.
 
-Sums over the links' Jacobians, as no model of the product does. Joint positions are (7,) [rad], poses 4x4 in
+Sums over the links' Jacobians, unlike all models of the product. Joint positions are (7,) [rad], poses 4x4 in
 the base, Jacobians 6x7 (linear over angular), all of a Panda or FR3 with a load fixed to its flange.
 """
 
@@ -31,7 +31,7 @@ TABLE = [
 
 @dataclass
 class Body:
-    """Its mass [kg], centre (3,) [m] and inertia about it (3, 3) [kg m^2], in the frame of a link."""
+    """Mass [kg], centre (3,) [m] and inertia about it (3, 3) [kg m^2], in the frame of a link."""
 
     link: int
     mass: float
@@ -52,7 +52,7 @@ def bodies(load: Body) -> list[Body]:
 
 
 def poses(q) -> np.ndarray:
-    """(9, 4, 4): of the base, the links 1 to 7 and the flange."""
+    """(9, 4, 4): poses of the base, the links 1 to 7 and the flange."""
     found = [np.eye(4)]
     for (a, d, alpha), angle in zip(TABLE, [*q, 0.0]):
         ca, sa, cq, sq = np.cos(alpha), np.sin(alpha), np.cos(angle), np.sin(angle)
@@ -67,7 +67,7 @@ def poses(q) -> np.ndarray:
 
 
 def jacobian(links: np.ndarray, point: np.ndarray, link: int = 7) -> np.ndarray:
-    """Of a point [m] in the base that moves with a link; `links` are its `poses`."""
+    """Jacobian of a point [m] in the base that moves with a link; `links` are the arm's `poses`."""
     found = np.zeros((6, 7))
     for i in range(min(link, 7)):
         axis = links[i + 1, :3, 2]
@@ -91,13 +91,13 @@ def centre_jacobian(links: np.ndarray, body: Body) -> np.ndarray:
 
 
 def gravity(q, parts: list[Body]) -> np.ndarray:
-    """Torques that carry the arm (7,) [Nm]"""
+    """Torques that compensate gravity (7,) [Nm]"""
     links = poses(q)
     return -sum(body.mass * centre_jacobian(links, body)[:3].T @ GRAVITY for body in parts)
 
 
 def coriolis(q, dq, parts: list[Body]) -> np.ndarray:
-    """(7,) [Nm], by the masses' differences: dM/dt dq - d(dq M dq)/dq / 2."""
+    """(7,) [Nm], from differences of the mass matrix: dM/dt dq - d(dq M dq)/dq / 2."""
     h = 1e-6
     slopes = [
         (mass(q + h * direction, parts) - mass(q - h * direction, parts)) / (2 * h) for direction in np.eye(7)

@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a user sees while the robot comes and goes; prints what came of it as JSON.
+"""Observes the node while its robot is lost and returns; prints a report as JSON.
 
 Run by test_robot_gone.py with ROS's interpreter. Arguments: the arm, the simulated robot's process
-id, whether the node connects again by itself, then the command that starts another robot.
+id, whether the node reconnects automatically, then the command that starts another robot.
 """
 
 import json
@@ -20,7 +20,7 @@ from franka_msgs.msg import FrankaState
 from recovery_client import CONTROLLER, PUSH, Operator, Robot
 from std_srvs.srv import Trigger
 
-GONE = 10.0  # how long the robot keeps silent, at least once [s]
+GONE = 10.0  # time of one silence of the robot [s]
 
 
 def call(name):
@@ -33,13 +33,13 @@ def node_answers():
 
 
 def fresh_state(robot):
-    """Whether states arrive that are not those of before."""
+    """Whether new states arrive."""
     robot.state = None
     return robot.waits(lambda: True) is not None
 
 
 def comes_back(robot, reconnects):
-    """The robot is there again: connection, recovery, and the controller goes on."""
+    """After the robot's return: connection, recovery, and the controller continues."""
     report = {"connect": None if reconnects else connect_patiently()}
     robot.waits(lambda: robot.state.robot_mode == FrankaState.ROBOT_MODE_IDLE and robot.has_error)
     deadline = time.monotonic() + 20.0
@@ -53,7 +53,7 @@ def comes_back(robot, reconnects):
 
 
 def refusal():
-    """What connect says while there is no robot, once the node knows."""
+    """Answer of connect without a robot, once the node has noticed."""
     deadline = time.monotonic() + 20.0
     answer = call("connect")
     while "Already connected" in answer[1] and time.monotonic() < deadline:
@@ -63,7 +63,7 @@ def refusal():
 
 
 def connect_patiently():
-    """Connects as soon as the robot listens."""
+    """Connects as soon as the robot accepts connections."""
     deadline = time.monotonic() + 20.0
     answer = call("connect")
     while not answer[0] and time.monotonic() < deadline:
@@ -91,7 +91,7 @@ def main():
     Operator(address).does(f"push {sys.argv[1]}_link7 {PUSH}")
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     os.kill(pid, signal.SIGSTOP)
-    robot.ask_recovery()
+    robot.send_recovery()
     time.sleep(0.5)
     os.kill(pid, signal.SIGKILL)
     report["death_noticed"] = robot.waits(lambda: robot.has_error) is not None

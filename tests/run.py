@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs every test of the built workspace and closes with one line, `N passed, N failed`.
+"""Runs every test of the built workspace and ends with one line, `N passed, N failed`.
 
 In this order: style, compiler warnings, gtest and rostest (as many at a time as there are processors), and
 pytest (`test/test_*.py` of each package, then `tests/`). Cases are counted from the result files, since
@@ -27,7 +27,7 @@ PYTEST_RESULTS = TOP / "out" / "pytest"
 
 @dataclass
 class Tally:
-    """What the result files say."""
+    """Counts from the result files."""
 
     passed: int = 0
     failed: list[str] = field(default_factory=list)
@@ -94,7 +94,7 @@ def main() -> int:
             file=sys.stderr,
         )
         return 2
-    wanted = [name for name in arguments.packages if name != "tests"]
+    selected = [name for name in arguments.packages if name != "tests"]
     end_to_end = not arguments.packages or "tests" in arguments.packages
     if arguments.long:
         os.environ["FRANKA_TEST_LONG"] = "1"
@@ -107,13 +107,13 @@ def main() -> int:
     compiler_warnings = [sys.executable, str(TOP / "tests" / "compiler_warnings.py")]
     warned = not arguments.packages and run("compiler warnings", compiler_warnings)
     pytest_broken = 0
-    if wanted or not arguments.packages:
-        run_ctest("gtest", wanted)
-        run_ctest("rostest", wanted)
+    if selected or not arguments.packages:
+        run_ctest("gtest", selected)
+        run_ctest("rostest", selected)
         tests = [
             p
             for n, folder in known.items()
-            if not wanted or n in wanted
+            if not selected or n in selected
             for p in sorted(folder.glob("test/**/test_*.py"))
         ]
         pytest_broken |= run_pytest("packages", tests, arguments.long) > 1
@@ -124,7 +124,7 @@ def main() -> int:
 
     tally = Tally()
     for path in sorted(RESULTS.glob("**/*.xml")):
-        # A rostest writes its cases to rosunit-*.xml; its own file repeats them as one, and tells when a
+        # A rostest writes its cases to rosunit-*.xml; its own file repeats them as one, and reports if a
         # node died or a test never ended.
         tally.add(path, only_failures=path.name.startswith("rostest-"))
     for path in sorted(PYTEST_RESULTS.glob("*.xml")):

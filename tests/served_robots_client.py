@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Clients of robots that live in a ROS world, and the user beside them; prints what came of it as JSON.
+"""Clients of served robots in a ROS world, and their operator; prints a report as JSON.
 
-Run by test_served_robots.py with the interpreter that ROS uses. Clients go byte by byte (fci_wire): each of
-their cycles is a call, so that what a service does falls between two cycles.
+Run by test_served_robots.py with the interpreter that ROS uses. Clients use fci_wire: each of their cycles is
+a call, so that services act between two cycles.
 """
 
 import json
@@ -31,7 +31,7 @@ from geometry_msgs.msg import Point, Pose, Quaternion  # noqa: E402
 from sensor_msgs.msg import JointState  # noqa: E402
 from std_srvs.srv import Empty, SetBool, Trigger  # noqa: E402
 
-WAIT = 60.0  # wall seconds, for whatever has to come up
+WAIT = 60.0  # wall seconds, for any start
 ROBOTS = {"panda": ("127.0.31.1", 5), "fr3": ("127.0.31.2", 10)}
 
 
@@ -45,7 +45,7 @@ def at(x, y, z):
 
 
 class Operator:
-    """The user beside a robot."""
+    """The operator of a robot."""
 
     def __init__(self, robot):
         self._services = f"/{robot}/franka_sim/"
@@ -66,7 +66,7 @@ class Motion:
         self.first = self.state.joints("q_d")
 
     def run(self, ticks, joint=3, by=0.0, finish=True):
-        """`by` [rad] of one joint within so many cycles, while the robot moves. @returns the last state."""
+        """Moves one joint by `by` [rad] within a number of cycles. @returns the last state."""
         for k in range(1, ticks + 1):
             if self.state.mode != MOVE:
                 break
@@ -80,7 +80,7 @@ class Motion:
         return self.state
 
     def during(self, action, *arguments):
-        """What the user's action returns; the arm is held meanwhile, however long that takes."""
+        """Result of the operator's action; holds the arm meanwhile, however long that takes."""
         with ThreadPoolExecutor(1) as operator:
             result = operator.submit(action, *arguments)
             while not result.done() and self.state.mode == MOVE:
@@ -88,14 +88,14 @@ class Motion:
             return result.result()
 
     def end(self):
-        """How the robot says that it ended: status of the reply, mode, reasons."""
+        """End of the motion as reported: status of the reply, mode, reasons."""
         status = self.client.reply()[1][0]
         self.state = self.client.state_until(lambda state: state.mode != MOVE)
         return {"status": status, "mode": self.state.mode, "reasons": self.state.reasons}
 
 
 def moves(client):
-    """A motion, seen by the client and by ROS."""
+    """A motion, as the client and ROS report it."""
     begin = rospy.get_time()
     motion = Motion(client)
     motion.run(1000, by=0.1)
@@ -113,16 +113,16 @@ def at_rest(state):
 
 
 def shown_by_ros(robot, client):
-    """Joints as the client and as the world has them."""
+    """Joint positions from the client and from the world."""
     joints = [f"{robot}_joint{i}" for i in range(1, 8)]
     seen = call("/gazebo/get_joint_states", GetJointStates, joints).state.position
-    while client.state(0.5).mode != IDLE:  # states of before wait in the socket
+    while client.state(0.5).mode != IDLE:  # old states wait in the socket
         pass
     return max(abs(a - b) for a, b in zip(seen, Operator(robot).sees().q))
 
 
 def stopped(client, operator):
-    """The user stop in the middle of a motion, its release, and a motion again."""
+    """The user stop during a motion, its release, and another motion."""
     motion = Motion(client)
     motion.run(100, finish=False)
     pressed = motion.during(operator.does, "set_user_stop", SetBool, True)
@@ -137,8 +137,8 @@ def stopped(client, operator):
     return outcome
 
 
-def robbed(client, operator, count):
-    """The link loses so many commands in a row."""
+def with_lost_commands(client, operator, count):
+    """The link loses a number of consecutive commands."""
     motion = Motion(client)
     motion.run(150, finish=False)
     assert motion.during(operator.does, "set_packet_loss", SetPacketLoss, 0.0, 0, count)[0]
@@ -152,7 +152,7 @@ def robbed(client, operator, count):
 
 
 def configured(client, operator):
-    """What is said at rest and in a motion, and what makes no sense."""
+    """Answers of setters at rest, in a motion, and for invalid values."""
     nothing = [0.0] * 9
     outcome = {"load": operator.does("set_load", SetLoad, 0.5, [0, 0, 0.1], nothing)}
     outcome["bad_load"] = operator.does("set_load", SetLoad, -1.0, [0, 0, 0], nothing)
@@ -176,8 +176,8 @@ def configured(client, operator):
     return outcome
 
 
-def halted(client):
-    """A motion stands still with the world for longer than clients wait for a robot, then goes on."""
+def paused(client):
+    """A motion pauses with the world for longer than a client's timeout, then continues."""
     motion = Motion(client)
     motion.run(100, finish=False)
     motion.during(call, "/gazebo/pause_physics", Empty)
@@ -205,23 +205,23 @@ def check_robot(robot, report):
         report["move"] = moves(client)
         report["ros"] = shown_by_ros(robot, client)
         report["stop"] = stopped(client, operator)
-        report["lose 10"] = robbed(client, operator, 10)
-        report["lose 20"] = robbed(client, operator, 20)
+        report["lose 10"] = with_lost_commands(client, operator, 10)
+        report["lose 20"] = with_lost_commands(client, operator, 20)
         report["configured"] = configured(client, operator)
-        report["halted"] = halted(client)
+        report["halted"] = paused(client)
     reset = call("/gazebo/reset", Trigger)
     report["reset"] = reset.success
     report["after_reset"] = list(operator.sees().q)
 
 
 def check_inside():
-    """The robot without an address is driven by controllers in the simulation, beside the others."""
+    """Controllers in the simulation move the robot without an address, beside the others."""
     state = rospy.wait_for_message("/inside/franka_state_controller/joint_states", JointState, WAIT)
     return len(state.position)
 
 
 def check_refusals():
-    """An address that another robot has; a robot that goes makes room for one that comes."""
+    """An address in use is refused; a deleted robot frees its address."""
     urdf = rospy.get_param("/panda/simulated_robot_description").replace('"panda_', '"late_')
     rospy.set_param("/late/arm_id", "late")
     rospy.set_param("/late/fci_ip", ROBOTS["panda"][0])

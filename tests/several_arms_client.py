@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Looks at the four arms of several_arms.launch and prints what it found as one line of JSON."""
+"""Checks the four arms of several_arms.launch and prints a report as one line of JSON."""
 
 import json
 import sys
@@ -66,7 +66,7 @@ def running(arm):
 
 
 def clock_rate():
-    """Messages of /clock a wall second, rather too few than too many."""
+    """Lower bound of the messages of /clock per wall second."""
     count = []
     begin = time.monotonic()
     subscriber = rospy.Subscriber("/clock", Clock, count.append)
@@ -76,7 +76,7 @@ def clock_rate():
 
 
 def pace(step):
-    """Simulated seconds a wall second, rather too few than too many: the calls count as wall time."""
+    """Lower bound of simulated seconds per wall second: the calls count as wall time."""
     begin = time.monotonic()
     first = step(0).time
     time.sleep(0.5)
@@ -84,7 +84,7 @@ def pace(step):
 
 
 def spawn_late():
-    """A robot whose launch file starts a controller, as far as the simulation knows."""
+    """Spawns a robot whose parameters announce a controller, which is never started."""
     rospy.set_param("/late/awaited_controllers", "late_controller")
     rospy.set_param(
         "/late/late_controller", {"type": "joint_state_controller/JointStateController", "publish_rate": 30}
@@ -119,7 +119,7 @@ def stamps_of_joint_states(arm, count):
 
 
 def place_by_transforms(buffer, arm):
-    """Where tf sees the end effector of an arm without a hand."""
+    """Position of the end effector of an arm without a hand, from tf."""
     names = (f"{arm}_link0", f"{arm}_link8", rospy.Time(0))
     wait_until(lambda: buffer.can_transform(*names), f"a transform of {arm}")
     place = buffer.lookup_transform(*names).transform.translation

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps a simulated arm busy with switches, gripper goals, reflexes and resets; prints a report as JSON.
+"""Runs switches, gripper goals, reflexes and resets on a simulated arm; prints a report as JSON.
 
 Run by test_simulation_soak.py with the interpreter that ROS uses. Argument: rounds. A round is one switch and
 one gripper goal, and lasts ROUND simulated seconds at least.
@@ -35,7 +35,7 @@ from geometry_msgs.msg import Point, Vector3  # noqa: E402
 from rosgraph_msgs.msg import Log  # noqa: E402
 from std_srvs.srv import Empty, Trigger  # noqa: E402
 
-FROM_START = ["cartesian_pose", "elbow", "joint_impedance"]  # are meant for the start pose
+FROM_START = ["cartesian_pose", "elbow", "joint_impedance"]  # controllers that need the start pose
 CHAIN = [
     "joint_velocity",
     "cartesian_impedance",
@@ -46,7 +46,7 @@ ROUND = 3.6  # [s]: an hour are a thousand
 REFLEX_EVERY = 10  # rounds
 STRICT = 2
 PUSH, PUSH_TICKS = 40.0, 100  # [N], [ms]
-LIMIT = 60.0  # wall seconds for whatever is waited for
+LIMIT = 60.0  # wall seconds for any wait
 AFTER_RESET = 200  # ticks
 
 
@@ -105,7 +105,7 @@ class Soak:
         return memory_of(self._pid), len(os.listdir(f"/proc/{self._pid}/fd"))
 
     def clock_offset(self):
-        """ROS time less the time the ticks took [ms]: the same at all times."""
+        """ROS time minus the duration of all ticks [ms]: must be constant."""
         now = self.call("/gazebo/step", Step, 0)
         return round(now.time.to_nsec() / 1e6) - now.tick
 
@@ -129,7 +129,7 @@ class Soak:
         until(lambda: self.state.header.stamp > asked and self.state.robot_mode == mode, f"mode {mode}")
 
     def meet_an_obstacle(self):
-        """A push that ends the motion; then recovery, after which the controller goes on."""
+        """A push that ends the motion; then recovery, after which the controller continues."""
         self._in_mode(FrankaState.ROBOT_MODE_MOVE)
         x, y, z = self.state.O_T_EE[12:15]
         far = Point(x - 0.5, y + 2.0, z)  # a lever
@@ -145,7 +145,7 @@ class Soak:
         self.reflexes += 1
 
     def reset(self):
-        """The world as it began; the same moment later it is the same world, bit for bit."""
+        """Resets the world; afterwards the same tick gives bit-identical states."""
         self.switch_to(None)
         self.call("/gazebo/pause_physics", Empty)
         answer = self.call("/gazebo/reset", Trigger)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Calls every service of a moving franka_control_node as fast as it can; prints what came of it as JSON.
+"""Calls every service of a moving franka_control_node as fast as possible; prints a report as JSON.
 
 Run by test_service_storm.py with ROS's interpreter. Arguments: the node's process, and how long [s].
 """
@@ -35,7 +35,7 @@ from std_srvs.srv import Trigger  # noqa: E402
 MOVING = "effort_joint_trajectory_controller"
 LOOKING = "franka_state_controller"
 STATES = "/franka_state_controller/franka_states"
-SMALL = 2048  # receive buffer of who never reads [B]
+SMALL = 2048  # receive buffer of the subscriber that never reads [B]
 
 
 class Caller(threading.Thread):
@@ -53,7 +53,7 @@ class Caller(threading.Thread):
                 answer = self.call()
                 if not self.is_right(answer):
                     self.report["wrong"].append(str(answer)[:300])
-            except Exception as error:  # noqa: BLE001 - whatever it is, it is a failure
+            except Exception as error:  # noqa: BLE001 - any exception is a failure
                 self.report["failed"].append(str(error))
             self.report["calls"] += 1
             self.report["longest"] = max(self.report["longest"], time.monotonic() - begin)
@@ -80,7 +80,7 @@ class Connection:
         self.socket.sendall(struct.pack("<I", len(header)) + header)
 
     def message(self):
-        """The next one, or the publisher's header at first."""
+        """The next message; the first one is the publisher's header."""
         size = struct.unpack("<I", self._read(4))[0]
         return self._read(size)
 
@@ -94,7 +94,7 @@ class Connection:
         return data
 
     def waiting_to_be_sent(self):
-        """What the publisher's side holds and cannot send [B]."""
+        """Unsent bytes on the publisher's side [B]."""
         here = self.socket.getsockname()[1]
         for line in Path("/proc/net/tcp").read_text().splitlines()[1:]:
             _, _, remote, _, queues = line.split()[:5]
@@ -104,7 +104,7 @@ class Connection:
 
 
 class Reader(threading.Thread):
-    """Somebody who reads all: how many messages came, of how many."""
+    """A subscriber that reads all: counts received and published messages."""
 
     def __init__(self):
         super().__init__(daemon=True)
@@ -120,7 +120,7 @@ class Reader(threading.Thread):
 
 
 def has_error():
-    """What the latched topic tells who comes anew."""
+    """The latched message for a new subscriber."""
     connection = Connection("/franka_control/has_error", Bool)
     try:
         connection.message()
@@ -134,7 +134,7 @@ def proxy(name, kind):
 
 
 def storm(robot, until):
-    """Callers of everything the node offers, and what a moving robot's node should answer them."""
+    """Callers of all services, with the expected answers of a node whose robot moves."""
     callers = {}
 
     def add(name, call, is_right):

@@ -4,7 +4,7 @@
 """The style checks: our own rules, ruff, clang-format, shellcheck, codespell and clang-tidy.
 
 Called by `./franka test --style`, by continuous integration and by the hooks of pre-commit. Each finding is
-a line `file:line: what`. Exit status 1 when a check finds something or its tool is missing.
+a line `file:line: what`. Exit status 1 if a check has findings or its tool is missing.
 """
 
 import argparse
@@ -26,7 +26,7 @@ COMPILE_COMMANDS = TOP / "compile_commands.json"
 HEADER = "Copyright (c) 2026 the franka_ros for Debian authors"
 NEEDS_HEADER = {".cpp", ".h", ".py", ".sh", ".cmake", ".launch", ".xacro"}
 
-# Who may include what: a path pattern, the headers that must not stand there, and why.
+# Forbidden includes: a path pattern, the forbidden headers, and the reason.
 INCLUDE_RULES = [
     (
         r"catkin_ws/src/(libfranka|franka_sim)/",
@@ -45,11 +45,11 @@ MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(work|home|root|Users)/\w+")
 
 
 class ToolMissing(Exception):
-    """A check cannot run; the message is a sentence that says what to do."""
+    """A check cannot run; the message says what to do."""
 
 
 def git(*arguments: str) -> str:
-    """Output of a git command; empty where git refuses it."""
+    """Output of a git command; empty if it fails."""
     try:
         return subprocess.run(["git", *arguments], cwd=TOP, capture_output=True, text=True).stdout
     except FileNotFoundError:
@@ -57,7 +57,7 @@ def git(*arguments: str) -> str:
 
 
 def tracked() -> list[Path]:
-    """What git tracks and is there; empty where this is no clone, or git does not trust its owner."""
+    """Existing tracked files; empty if this is not a clone, or git does not trust its owner."""
     return [TOP / name for name in git("ls-files", "-z").split("\0") if name and (TOP / name).is_file()]
 
 
@@ -74,7 +74,7 @@ def sources(files: list[Path]) -> list[Path]:
 
 
 def pinned_tool(name: str) -> str:
-    """A program that requirements-test.txt pins: never another version that happens to be on PATH."""
+    """A program that requirements-test.txt pins: never another version in PATH."""
     for folder in (Path(sys.executable).parent, VENV):
         if (folder / name).is_file():
             return str(folder / name)
@@ -167,7 +167,7 @@ def check_codespell(files: list[Path], long: bool) -> bool:
 
 
 def base_commit() -> str:
-    """The commit that changes count from: where this branch left the main one, or the commit before."""
+    """Base of changes: the merge base with the main branch, or the previous commit."""
     head = git("rev-parse", "HEAD").strip()
     for main in ("origin/HEAD", "origin/main"):
         base = git("merge-base", "HEAD", main).strip()
@@ -190,20 +190,20 @@ def package_of(path: Path) -> Path:
 
 
 def units_of(files: list[Path], compiled: set[Path]) -> list[Path]:
-    """What is compiled of these files; a header is checked with the source of its name in its package."""
+    """Sources to check for these files; a header is checked with the source of its name in its package."""
     named = set(files)
     headers = {(package_of(path), path.stem) for path in files if path.suffix == ".h"}
     return sorted(path for path in compiled if path in named or (package_of(path), path.stem) in headers)
 
 
 def tidy(program: str, path: Path) -> str:
-    """What clang-tidy says of a source; empty when it is clean."""
-    # The build uses g++, some of whose options clang does not know.
+    """clang-tidy's findings in a source; empty if it is clean."""
+    # The build uses g++; clang does not know some of its options.
     command = [program, "--quiet", f"-p={TOP}", "--extra-arg=-Wno-unknown-warning-option", str(path)]
     result = subprocess.run(command, cwd=TOP, capture_output=True, text=True)
     if result.returncode == 0:
         return ""
-    # The error stream counts suppressed warnings, and says what went wrong where the program itself fails.
+    # The error stream counts suppressed warnings, or holds the error if the program itself fails.
     return (result.stdout or result.stderr).replace(f"{TOP}/", "")
 
 
@@ -223,7 +223,7 @@ def check_clang_tidy(files: list[Path], long: bool) -> bool:
         print(f"clang-tidy: {len(left_out)} sources are not part of the present build ({names} ...)")
     with ThreadPoolExecutor(int(os.environ.get("FRANKA_JOBS") or os.cpu_count() or 2)) as pool:
         findings = [text for text in pool.map(lambda path: tidy(program, path), units) if text]
-    # A header's finding is repeated by each source that includes it.
+    # Each source that includes a header repeats its findings.
     lines = dict.fromkeys(line for text in findings for line in text.splitlines())
     print("\n".join(lines), end="\n" if lines else "")
     print(f"clang-tidy: {len(units)} sources")

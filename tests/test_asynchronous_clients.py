@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The asynchronous generator under Franka's own client, which sends a target when it has one: about fifty a
-second, or a single one. No cycle of such a motion waits for an answer, and none is missed.
+"""Asynchronous motions with Franka's own client, which sends about fifty targets per second, or a single one.
+No cycle of such a motion waits for an answer, and none counts as lost.
 """
 
 import json
@@ -13,7 +13,7 @@ from fci_session import simulated
 from fci_wire import COMMUNICATION, IDLE, REFLEX, connected
 from genuine_clients import client_python
 
-# Joint 4 goes back and forth; each line tells how one way ended.
+# Joint 4 moves back and forth; each line reports the end of one motion.
 CLIENT = """
 import json, sys, time
 import pylibfranka as franka

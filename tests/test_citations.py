@@ -21,7 +21,7 @@ PAGES = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DESIGN.g
 DECISION = re.compile(r"\((decisions?) (\d+(?:, \d+)*)\)")
 PROTOCOL = re.compile(r"\(protocol (\d+\.\d+(?:, \d+\.\d+)*)\)")
 FAULTS = re.compile(r"\(faults (\d+(?:, \d+)*)\)")
-# A citation in another form: what still matches when those in the right form are taken out of a line.
+# A citation in another form: remaining matches in a line without the citations in the right form.
 LOOSE = re.compile(
     r"\bdecisions? \d|\bprotocol \d+\.\d|\bfaults \d|\((?:decisions?|protocol|faults)$", re.IGNORECASE
 )
@@ -39,7 +39,7 @@ ITSELF = "tests/test_citations.py"
 
 
 def tracked() -> list[str]:
-    """The repository's files, those that are about to be added too."""
+    """The repository's files, and new ones that are not ignored."""
     listing = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=TOP,
@@ -78,7 +78,7 @@ def headings(page: str) -> set[str]:
 
 
 def cited(pattern: re.Pattern, group: int) -> Iterator[tuple[str, str]]:
-    """Numbers with the place where they are cited."""
+    """Cited numbers with their places."""
     for name, number, line in LINES:
         for match in pattern.finditer(line):
             for cited_number in match.group(group).split(", "):

@@ -27,7 +27,7 @@ ONE_ARM = """
 
 
 def arguments(robot, arms, folder):
-    """What the launch file is told; of two Pandas it knows all but where they are."""
+    """Arguments of the launch file; for two Pandas only their addresses are needed."""
     addresses = ", ".join(f"{arm}/robot_ip: {address}" for arm, address in arms.items())
     launch = [f"robot_ips:={{{addresses}}}", f"sim_robot:={robot}"]
     if list(arms) == ["panda_1", "panda_2"]:
@@ -47,7 +47,7 @@ def arguments(robot, arms, folder):
 
 
 def for_arms(name, arms, folder):
-    """A file for panda_1 and panda_2, rewritten for other arms: what it says of the first holds for all."""
+    """A file for panda_1 and panda_2, rewritten for other arms: all get the values of panda_1."""
     merged = {}
     for arm in arms:
         merge(merged, yaml.safe_load(alone((CONFIG / name).read_text()).replace("panda_1", arm)))
@@ -57,7 +57,7 @@ def for_arms(name, arms, folder):
 
 
 def alone(text):
-    """The file without what it says of panda_2."""
+    """The file without the values of panda_2."""
 
     def first(value):
         if isinstance(value, dict):
@@ -110,13 +110,13 @@ def test_one_controller_moves_all_arms(report):
 def test_an_early_recovery_changes_nothing(report):
     assert report["early"] == [SUCCEEDED, SUCCEEDED]
     assert report["goes_on"]
-    # Nor does it clear the error that came after it.
+    # It does not clear a later error either.
     assert report["hit"]["reflex"]
 
 
 def test_one_arm_recovers_and_the_others_stay_unchanged(report):
     assert report["hit"]["reflex"]
-    # One controller moves all: they wait.
+    # One controller moves all arms: they wait.
     assert all(other == [IDLE, True] for other in report["hit"]["others"])
     assert report["recovered"] == SUCCEEDED
     assert report["moves_again"]

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_combined_control_node outlives one of its robots: what it says, what goes on, how it comes back."""
+"""franka_combined_control_node survives the loss of one robot: reports, the other arm, reconnection."""
 
 import json
 from pathlib import Path
@@ -30,7 +30,7 @@ def report(robot, tmp_path_factory):
     folder = tmp_path_factory.mktemp("combined_gone")
     arms = {f"{robot}_{i}": f"127.0.7.{14 + i}" for i in (1, 2)}
     launch = ["franka_control", "franka_combined_control.launch", *arguments(robot, arms, folder)]
-    # The second arm connects by itself.
+    # The second arm reconnects automatically.
     ips = next(argument for argument in launch if argument.startswith("robot_ips:="))
     launch[launch.index(ips)] = ips.replace("}", f", {robot}_2/reconnect: true}}")
     launch += ["realtime_config:=ignore", "connect_timeout:=20"]

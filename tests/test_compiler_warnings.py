@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which lines of a build's output count as warnings."""
+"""Lines of a build's output that count as warnings."""
 
 from compiler_warnings import TOP, warnings
 

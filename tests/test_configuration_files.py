@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every YAML file of the original's name loads as the original's does: as it stands, and with the original's
-arguments substituted and no other one. The result has the original's values (decision 51)."""
+"""Every YAML file with the original's name loads like the original: unchanged, and with only the original's
+arguments substituted. The result has the original's values (decision 51)."""
 
 import re
 from pathlib import Path
@@ -107,7 +107,7 @@ CONTROLLERS = {
     },
 }
 
-# What the original's launch files substitute, and what must then be said (and may be more).
+# Substitutions of the original's launch files, and the values that must result (among others).
 FILES = {
     "franka_control_node.yaml": (
         ARM,
@@ -201,8 +201,8 @@ FILES = {
 }
 
 
-def says(loaded, expected, path: str = "") -> list[str]:
-    """What of the expected is missing or differs."""
+def differences(loaded, expected, path: str = "") -> list[str]:
+    """Expected values that are missing or different."""
     if isinstance(expected, dict):
         if not isinstance(loaded, dict):
             return [f"{path}: {loaded!r} is no map"]
@@ -210,7 +210,9 @@ def says(loaded, expected, path: str = "") -> list[str]:
             line
             for key, value in expected.items()
             for line in (
-                says(loaded[key], value, f"{path}/{key}") if key in loaded else [f"{path}/{key} is missing"]
+                differences(loaded[key], value, f"{path}/{key}")
+                if key in loaded
+                else [f"{path}/{key} is missing"]
             )
         ]
     return [] if loaded == expected else [f"{path}: {loaded!r} instead of {expected!r}"]
@@ -221,7 +223,7 @@ def test_file_loads_without_changes(name):
     arguments, expected = FILES[name]
     ((loaded, _),) = rosparam.load_file(str(CONFIG[name]))
     if not arguments:
-        assert says(loaded, expected) == []
+        assert differences(loaded, expected) == []
     for argument in re.findall(r"\$\(arg (\w+)\)", CONFIG[name].read_text()):
         assert argument in arguments, f"the original's file has no argument {argument}"
 
@@ -231,11 +233,11 @@ def test_file_matches_the_original_with_the_originals_arguments(name):
     arguments, expected = FILES[name]
     text = resolve_args(CONFIG[name].read_text(), context={"arg": arguments})
     ((loaded, _),) = rosparam.load_str(text, name)
-    assert says(loaded, expected) == []
+    assert differences(loaded, expected) == []
 
 
 def test_files_with_the_same_name_are_identical():
-    """So that the table above has looked at all of them."""
+    """Otherwise the table above would miss some of them."""
     found = {}
     for path in SOURCE.glob("franka_*/config/*.yaml"):
         assert found.setdefault(path.name, path.resolve()) == path.resolve()

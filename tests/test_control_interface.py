@@ -1,9 +1,8 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the lines of franka_sim's control interface do to a motion that runs: physics and protocol.
+"""Effects of franka_sim's control interface on a running motion: physics and protocol.
 
-The client goes byte by byte in lock-step, so that each line falls between two of its cycles and every number
-repeats.
+The client uses fci_wire in lock-step, so that each line acts between two of its cycles and results repeat.
 """
 
 import struct
@@ -62,7 +61,7 @@ def begin(client):
 
 
 def drive(client, state, positions, cycles, finish=False):
-    """`positions(k)` for so many cycles, while the robot moves. @returns the states after each command."""
+    """Commands `positions(k)` for a number of cycles, while the robot moves. @returns the states."""
     seen = []
     for k in range(cycles):
         client.send(
@@ -80,27 +79,27 @@ def hold(first):
 
 
 def force(state):
-    """Of O_F_ext_hat_K [N]."""
+    """The force of O_F_ext_hat_K [N]."""
     number, offset = ("d", 1728) if state.layout is LAYOUTS[5] else ("f", 868)
     return struct.unpack_from("<3" + number, state.data, offset)
 
 
 def finish(client, state, first):
-    """Ends a motion where it stands; fails unless it ends well."""
-    while state.mode == MOVE:  # the command that says so may be late, or lost
+    """Ends a motion at its position; fails unless it succeeds."""
+    while state.mode == MOVE:  # the finishing command may be late or lost
         state = drive(client, state, hold(first), 1, finish=True)[-1]
     assert state.mode == IDLE, state.reasons
     assert client.reply()[1][0] == 0
 
 
 def set_load(client):
-    """Of nothing. The reply comes when the world has come to rest."""
+    """Sets a zero load. The reply comes when the world is at rest."""
     client.request({5: 10, 10: 9}[client.version], struct.pack("<13d", *[0.0] * 13))
     assert client.reply()[1][0] == 0
 
 
 def test_loss_lowers_the_success_rate_and_repeats_with_its_seed(sim, client):
-    """Each cycle's rate is the share of the last 100 commands that came: rates differ by single commands."""
+    """Each cycle's rate is the share of the last 100 commands that arrived."""
     runs = []
     for seed in (3, 3, 4):
         state, first = begin(client)
@@ -139,7 +138,7 @@ def test_consecutive_losses_lower_the_rate_until_the_motion_ends(sim, client, co
 
 
 def ramp(first):
-    """Joint 4 by the integral of a smooth velocity: 0.05 rad in half a second after 50 cycles of rest."""
+    """Joint 4 moves with a smooth velocity: 0.05 rad in half a second after 50 cycles at rest."""
 
     def positions(k):
         x = min(max((k - 50) / 500, 0.0), 1.0)
@@ -151,27 +150,27 @@ def ramp(first):
 
 
 def test_a_delay_shifts_commands_by_whole_cycles(sim, client):
-    told = {}
+    desired = {}
     for ticks in (0, 1, 2):
         sim.ask("reset")
         sim.ask(f"delay {ticks}")
         state, first = begin(client)
         states = drive(client, state, ramp(first), 600)
-        told[ticks] = [s.joints("q_d")[3] - first[3] for s in states]
+        desired[ticks] = [s.joints("q_d")[3] - first[3] for s in states]
         finish(client, states[-1], ramp(first)(600))
     resolution = 1e-12 if client.version == 5 else 5e-7  # of the state's numbers
     for ticks in (1, 2):
-        shifted = told[ticks][ticks:]
-        assert shifted == pytest.approx(told[0][: len(shifted)], abs=resolution)
-        assert max(abs(a - b) for a, b in zip(told[ticks], told[0])) > 1e-4 * ticks
+        shifted = desired[ticks][ticks:]
+        assert shifted == pytest.approx(desired[0][: len(shifted)], abs=resolution)
+        assert max(abs(a - b) for a, b in zip(desired[ticks], desired[0])) > 1e-4 * ticks
 
 
 def test_a_wrong_load_appears_as_an_upward_force(sim, client):
-    """The arm carries nothing; the robot that believes in 0.8 kg feels them being held."""
+    """The arm carries nothing; a robot with a load of 0.8 kg estimates an upward force."""
     sim.ask("load 0.8 0 0 0.05")
     state, first = begin(client)
     states = drive(client, state, hold(first), 1500)
-    # The header's sign: forces from the robot on what it touches are positive.
+    # The header's sign: forces from the robot on its environment are positive.
     assert force(states[-1]) == pytest.approx([0, 0, -0.8 * GRAVITY], abs=0.05)
     with pytest.raises(RuntimeError, match="The load was refused"):
         sim.ask("load 0 0 0 0")
@@ -242,7 +241,7 @@ def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
 
 
 def test_guiding_does_not_delay_setters(sim, client):
-    """No joint is braked then: the pushed arm coasts, and comes to rest when it likes."""
+    """No joint is braked then: the pushed arm coasts, so setters must not wait for rest."""
     sim.ask("guiding on")
     sim.ask(f"push {sim.robot}_link5 0 8 0 100")
     set_load(client)
@@ -281,7 +280,7 @@ def test_a_deactivated_interface_drops_its_client_and_refuses_others(sim, client
 
 
 def test_losses_repeat_after_a_reset(sim):
-    """What belongs to the link is set once; each run that begins with `reset` then loses the same."""
+    """The loss is set once; each run after a `reset` then loses the same commands."""
     sim.ask("loss 0.2 3")
     hashes = set()
     for _ in range(2):

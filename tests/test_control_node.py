@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_control_node as it stands between users and a robot: each service, each topic, each report."""
+"""Each service, each topic and each report of franka_control_node."""
 
 import json
 import xmlrpc.client
@@ -25,7 +25,7 @@ def robot(request):
 
 
 def all_go_first(pid: int) -> None:
-    """Robot and node keep their time whatever else the machine does."""
+    """Robot and node keep real time even on a busy machine."""
     for thread in Path(f"/proc/{pid}/task").iterdir():
         go_first(int(thread.name))
 
@@ -72,7 +72,7 @@ def test_impossible_values_are_refused(report):
 
 
 def check_topics(robot, topics):
-    """All topics of a cycle say what its state says; floats of an FR3's states have seven digits."""
+    """All topics of a cycle match its state; floats of an FR3's states have seven digits."""
     assert topics["cycles"] >= 20
     for name in ("F_ext", "joint_states", "joint_states_desired"):
         assert topics["differences"][name] == 0.0
@@ -94,7 +94,7 @@ def test_topics_of_a_moving_robot_agree(robot, report):
 
 
 def test_published_states_match_the_robots_states(report):
-    assert report["idle"]["second_source"] < 1e-5  # what the robot itself says, beside its client
+    assert report["idle"]["second_source"] < 1e-5  # the robot's own report, besides its client's
 
 
 def test_transforms_connect_the_base_with_the_end_effector(report):
@@ -105,7 +105,7 @@ def test_joint_impedance_takes_effect(report):
     soft = report["soft_joints"]
     assert soft["set"] == [True, True] and soft["started"]
     assert soft["spring"] < 0.02  # K (q - q_d) against J^T F
-    assert soft["external"] < 0.02  # what the robot makes of it
+    assert soft["external"] < 0.02  # the robot's estimate
 
 
 def test_thresholds_of_forces_take_effect(report):
@@ -117,7 +117,7 @@ def test_thresholds_of_forces_take_effect(report):
 def test_cartesian_impedance_takes_effect(report):
     soft = report["soft_hand"]
     assert soft["set"] == [True, True] and soft["started"] and soft["stopped"]
-    x, y, z = soft["gives"]  # the hand's way over F / K
+    x, y, z = soft["gives"]  # the hand's displacement over F / K
     assert z == pytest.approx(1.0, abs=0.01)
     assert abs(x) < 0.01 and abs(y) < 0.01
 
@@ -147,7 +147,7 @@ def test_a_reflex_is_published_and_logged(report):
     log = reflex["log"]
     assert log["rows"] == log["announced"] > 1
     assert log["rising"] and log["before_the_state"]
-    assert log["apart"] < 0.01  # the last row is where the arm was when it began to brake [rad]
+    assert log["apart"] < 0.01  # the last row is the arm's position at the start of braking [rad]
     assert log["echo"] < 1e-3
     assert log["columns"] == 2 + 6 * 7 + 7 + 7 + 16 + 6 + 7
     assert reflex["recovered"] == [SUCCEEDED, ""] and reflex["error_gone"]

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every example controller of one arm in FrankaHWSim, held against its formula; stopped and started again."""
+"""Every example controller of one arm in FrankaHWSim matches its formula; stopped and started again."""
 
 import json
 from functools import partial
@@ -16,12 +16,12 @@ from franka_sim_mujoco.session import Session
 HERE = Path(__file__).resolve().parent
 
 MOVE = 2
-JOINT_ERROR, POSE_ERROR = 1e-3, 5e-4  # [rad], [m] of what is measured
-WANTED_ERROR = 1e-5  # [rad] or [m] of what is wanted
+JOINT_ERROR, POSE_ERROR = 1e-3, 5e-4  # [rad], [m] of measured values
+DESIRED_ERROR = 1e-5  # [rad] or [m] of desired values
 FORCE_ERROR = 0.05  # share of the largest
 RECORDS_A_SECOND = 30
-PERIOD = 0.035  # [s] between two recorded states, at the longest
-LAG = 0.01  # [s] of the 100 Hz filter between a controller and the robot, several times
+PERIOD = 0.035  # [s] between two recorded states, at most
+LAG = 0.01  # [s] several time constants of the 100 Hz filter between a controller and the robot
 SETTLING = 0.2  # [s] around a step of the acceleration
 STIFFNESS, NULLSPACE_STIFFNESS = (200.0, 10.0), 0.5  # compliance_param.cfg
 PUSH = np.array([0.0, 4.0, 0.0])  # [N] the client's
@@ -71,14 +71,14 @@ class Run:
         self.bodies = rigid_arm.bodies(load)
 
     def led_by(self, formula, field):
-        """What a formula says for each state, once the field of what is wanted has shown the begin."""
-        wanted = getattr(self, field)
-        formula = partial(formula, start=wanted[0])
+        """A formula's value for each state, with the start time found from a field of desired values."""
+        desired = getattr(self, field)
+        formula = partial(formula, start=desired[0])
         first = self.time[self.moving][0]
-        begin = formulas.begin_of(self.time, wanted, formula, first - PERIOD, first + LAG)
-        says = formula(np.maximum(self.time - begin, 0.0))
-        assert np.abs(wanted - says).max() < WANTED_ERROR
-        return says
+        begin = formulas.start_time(self.time, desired, formula, first - PERIOD, first + LAG)
+        expected = formula(np.maximum(self.time - begin, 0.0))
+        assert np.abs(desired - expected).max() < DESIRED_ERROR
+        return expected
 
     def coriolis(self, states):
         return np.array([rigid_arm.coriolis(self.q[i], self.dq[i], self.bodies) for i in states])
@@ -93,41 +93,41 @@ def distances(poses, others):
 
 
 def share(difference, of):
-    """For each column, over all states: single ones say little where the circle's acceleration has a step."""
+    """For each column, over all states: single states mean little at a step of the circle's acceleration."""
     return np.linalg.norm(difference, axis=0) / np.linalg.norm(of, axis=0)
 
 
 @pytest.mark.parametrize("controller", ["joint_position", "joint_velocity"])
 def test_joints_follow_the_formula(recorded, controller):
     states = recorded(controller)
-    says = states.led_by(getattr(formulas, controller), "q_d")
-    assert np.abs(states.q - says).max() < JOINT_ERROR
+    expected = states.led_by(getattr(formulas, controller), "q_d")
+    assert np.abs(states.q - expected).max() < JOINT_ERROR
 
 
 @pytest.mark.parametrize("controller", ["cartesian_pose", "cartesian_velocity"])
 def test_the_end_effector_follows_the_formula(recorded, controller):
     states = recorded(controller)
-    says = states.led_by(getattr(formulas, controller), "O_T_EE_d")
-    assert distances(states.O_T_EE, says).max() < POSE_ERROR
-    assert np.abs(states.O_T_EE - says)[:, :3, :3].max() < JOINT_ERROR
+    expected = states.led_by(getattr(formulas, controller), "O_T_EE_d")
+    assert distances(states.O_T_EE, expected).max() < POSE_ERROR
+    assert np.abs(states.O_T_EE - expected)[:, :3, :3].max() < JOINT_ERROR
 
 
 def test_the_elbow_moves_while_the_end_effector_rests(recorded):
     states = recorded("elbow")
-    says = states.led_by(formulas.elbow, "elbow_d")
-    assert np.abs(states.q[:, 2] - says).max() < JOINT_ERROR
+    expected = states.led_by(formulas.elbow, "elbow_d")
+    assert np.abs(states.q[:, 2] - expected).max() < JOINT_ERROR
     assert distances(states.O_T_EE, states.O_T_EE[0]).max() < POSE_ERROR
 
 
 def test_joint_impedance_moves_the_arm_along_a_circle(recorded):
-    """The robot's own motion is the circle. How far the arm stays behind follows from its springs and
-    dampers, whose torques accelerate the links and rotors: gravity and Coriolis torques are compensated."""
+    """The robot's own motion is the circle. The arm's lag follows from its springs and dampers, whose torques
+    accelerate the links and rotors: gravity and Coriolis torques are compensated."""
     states = recorded("joint_impedance")
     states.led_by(formulas.joint_impedance, "O_T_EE_d")
     torques = formulas.joint_impedance_torques(states.q_d - states.q, states.dq_d - states.dq)
     accelerations = np.gradient(states.dq, states.time, axis=0)
-    # Differences say nothing where the acceleration has a step: at the start, and when
-    # the circle is up to speed.
+    # Differences are wrong at a step of the acceleration: at the start, and when the circle
+    # reaches its speed.
     time = states.time - states.time[states.moving][0]
     steady = (time > SETTLING) & (np.abs(time - formulas.ACCELERATION_TIME) > SETTLING)
     some = np.flatnonzero(states.moving & steady)[:-2:5]
@@ -154,26 +154,26 @@ def test_model_prints_the_textbook_values(run, number):
 
 
 def test_cartesian_impedance_reaches_its_equilibrium_and_yields_like_a_spring(run):
-    wanted, reached, pushed = (np.array(run.report["led"][name]) for name in ("wanted", "reached", "pushed"))
-    assert distances(reached, wanted) < POSE_ERROR
-    np.testing.assert_allclose(reached[:3, :3], wanted[:3, :3], atol=JOINT_ERROR)
+    desired, reached, pushed = (np.array(run.report["led"][name]) for name in ("wanted", "reached", "pushed"))
+    assert distances(reached, desired) < POSE_ERROR
+    np.testing.assert_allclose(reached[:3, :3], desired[:3, :3], atol=JOINT_ERROR)
     gave_way = (pushed - reached)[:3, 3]
     np.testing.assert_allclose(STIFFNESS[0] * gave_way, PUSH, atol=FORCE_ERROR * np.linalg.norm(PUSH))
 
 
 def test_cartesian_impedance_commands_match_its_control_law(run):
-    """While the hand is pushed and let go; the null space rests where the controller was started."""
-    states, wanted = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["wanted"])
+    """While the hand is pushed and released; the null space target is the start position."""
+    states, desired = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["wanted"])
     q_nullspace = run.report["led"]["q_nullspace"]
     some = np.arange(2, len(states.time), 15)
-    says = []
+    expected = []
     for i in some:
         pose, links = states.O_T_EE[i], rigid_arm.poses(states.q[i])
         J = rigid_arm.jacobian(links, pose[:3, 3])
-        where = (J, pose, wanted, states.q[i], states.dq[i], q_nullspace)
-        says.append(formulas.cartesian_impedance_torques(*where, STIFFNESS, NULLSPACE_STIFFNESS))
-    says += states.coriolis(some)
-    assert max(share(states.tau_J_d[some] - says, of=says)) < FORCE_ERROR
+        where = (J, pose, desired, states.q[i], states.dq[i], q_nullspace)
+        expected.append(formulas.cartesian_impedance_torques(*where, STIFFNESS, NULLSPACE_STIFFNESS))
+    expected += states.coriolis(some)
+    assert max(share(states.tau_J_d[some] - expected, of=expected)) < FORCE_ERROR
 
 
 def test_restarted_cartesian_impedance_holds_its_position(run):

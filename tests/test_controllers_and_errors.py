@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Controllers and errors on both nodes of franka_control, and in the simulation.
 
-One that throws, in starting() or in update(), ends none of them; and where the nodes are told not to start
-controllers again after a recovery, no arm moves by itself.
+A controller that throws, in starting() or in update(), ends none of them; and with
+restart_controllers_after_recovery false no arm moves by itself after a recovery.
 """
 
 import json
@@ -51,8 +51,8 @@ def launch(node, arms, restart):
     return LAUNCH.format(node=node, restart=restart, file=file, arguments=arguments)
 
 
-def told(what, node, arms, restart, folder):
-    """What the client reports, and the log."""
+def report_of(what, node, arms, restart, folder):
+    """The client's report, and the log."""
     (folder / "package.xml").write_text(PACKAGE)
     (folder / "plugins.xml").write_text(PLUGINS)
     (folder / "robot.launch").write_text(launch(node, arms, restart))
@@ -71,17 +71,17 @@ def told(what, node, arms, restart, folder):
 
 @pytest.fixture(scope="module", params=[ONE, TWO], ids=["one arm", "two arms"])
 def report(request, tmp_path_factory):
-    return told("throw", *request.param, "true", tmp_path_factory.mktemp("throwing"))
+    return report_of("throw", *request.param, "true", tmp_path_factory.mktemp("throwing"))
 
 
 @pytest.fixture(scope="module")
 def simulated(tmp_path_factory):
-    return told("simulate", *SIMULATED, "true", tmp_path_factory.mktemp("simulated"))
+    return report_of("simulate", *SIMULATED, "true", tmp_path_factory.mktemp("simulated"))
 
 
 @pytest.fixture(scope="module", params=[ONE, TWO], ids=["one arm", "two arms"])
 def without_restart(request, tmp_path_factory):
-    return told("stop", *request.param, "false", tmp_path_factory.mktemp("stopping"))
+    return report_of("stop", *request.param, "false", tmp_path_factory.mktemp("stopping"))
 
 
 WORDS = {"starting": "I do not want to start", "update": "I have had enough"}

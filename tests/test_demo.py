@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The demo as a user starts it: every listed seed places the stone, and a carried stone does not creep."""
+"""The demo as a user starts it: every listed seed places the stone, and a carried stone does not slip."""
 
 import json
 import subprocess

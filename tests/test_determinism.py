@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs of a simulated robot repeat bit for bit in lock-step, and agree with those on the wall clock.
+"""Runs of a simulated robot repeat bit for bit in lock-step, and agree with those in real time.
 
-The client hashes every state that it receives, byte by byte but without its number, and the robot hashes
-every state by itself: what one of them does not see, the other does.
+The client hashes the bytes of every received state without its message_id, and the robot hashes every state
+itself, so that no difference is missed.
 """
 
 import hashlib
@@ -20,22 +20,22 @@ from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, REFLEX, Client
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 RUNS = 100 if LONG else 5
 TICKS = 10000
-# The stone's tray stands under this arm's hand; deeper than the tray is where the motion leads.
+# The stone's tray is under this arm's hand; the motion's target is below the tray.
 SCENE = ["--world", "stone.xml", "--base", "-0.5,0,0.3"]
 
 
 def at_rest(client):
-    """A setter is answered in lock-step when the world has come to rest and time stands still again."""
-    client.request(10 if client.version <= 5 else 9, bytes(104))  # SetLoad, of nothing
+    """In lock-step a setter is answered when the world is at rest and time stands still again."""
+    client.request(10 if client.version <= 5 else 9, bytes(104))  # SetLoad with zero mass
     assert client.reply()[1][0] == 0
 
 
 class CommandsLost(AssertionError):
-    """The robot has lost commands and then ended the motion: so does a machine that stands still."""
+    """The robot lost commands and ended the motion, as on a machine that stalls."""
 
 
 def smallest_rate(states):
-    """Of success; the first two states tell nothing of the motion."""
+    """Smallest success rate; the first two states are from before the motion."""
     return min((state.rate for state in states[2:]), default=1.0)
 
 
@@ -60,7 +60,7 @@ def drive(client, ticks, positions, pause=None):
 
 
 def down_and_back(first, k):
-    """Joints 2 and 4 lead the hand down onto what lies there and back, twice in ten seconds."""
+    """Joints 2 and 4 move the hand down onto the tray and back, twice in ten seconds."""
     x = math.sin(2 * math.pi * k / TICKS) ** 4
     q = list(first)
     q[1] += 0.5 * x
@@ -71,7 +71,7 @@ def down_and_back(first, k):
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"] if LONG else ["panda"])
 def test_lock_step_repeats_bit_for_bit_with_contact(robot):
-    """Ten seconds, each time from a reset world; some runs have a client that dawdles."""
+    """Ten seconds, each time from a reset world; some runs have a slow client."""
     address = {"panda": "127.0.26.1", "fr3": "127.0.26.2"}[robot]
     hashes = set()
     with simulated(robot, address, "lockstep", *SCENE) as sim, Client(address, sim.version) as client:
@@ -110,7 +110,7 @@ def doubles(values) -> bytes:
 
 
 def test_another_command_gives_another_hash():
-    """The hash would be worthless if it were the same for everything."""
+    """The hash must differ between different runs."""
     with simulated("panda", "127.0.26.3", "lockstep") as sim, Client(sim.address, 5) as client:
         assert client.connect()[0] == 0
         hashes = []
@@ -135,13 +135,13 @@ def swing(first, k):
 
 
 def trajectory(robot, address, pace, dawdle=None):
-    """@returns q of each cycle, the smallest success rate, and how long the motion took on the wall [s].
+    """@returns q of each cycle, the smallest success rate, and the motion's wall time [s].
 
-    Nothing, and a rate of 0, where lost commands have ended the motion.
+    No positions, and a rate of 0, if lost commands have ended the motion.
     """
     with simulated(robot, address, pace) as sim, Client(address, sim.version) as client:
         assert client.connect()[0] == 0
-        # Both come to rest first; in real time that takes time, in lock-step it takes none.
+        # Both must be at rest first; in real time that takes wall time, in lock-step none.
         client.state_until(lambda state: state.mode == IDLE and max(map(abs, state.joints("dq"))) < 1e-12)
         begin = time.monotonic()
         try:
@@ -165,7 +165,7 @@ def test_the_wall_clock_gives_the_same_trajectory(robot, within):
     for pace in (["realtime"] if LONG else []) + ["0.25", "0.1", "0.05"]:
         by_clock, rate, _ = trajectory(robot, "127.0.26.5", pace)
         if rate == 1.0:
-            break  # A busy machine loses commands of a robot that is fast for it.
+            break  # A busy machine loses commands of a robot in real time.
     assert rate == 1.0, "The robot lost commands at each pace."
     assert difference(by_clock, stepped) <= within
 

@@ -40,5 +40,5 @@ def test_without_a_display_the_simulation_warns_and_runs(monkeypatch, tmp_path):
     with simulation(tmp_path / "launch.log") as session:
         session.wait_for_master()
         session.run("rostopic", "echo", "-n1", "/initialized", timeout=60)
-    # A node writes what it has to say to a file at its end at the latest.
+    # A node flushes its output to a file at its exit at the latest.
     assert "There is no display" in (tmp_path / "launch.log").read_text()

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The entry script: its help, its refusals, and the environment it makes."""
+"""The entry script: its help, its errors, and its environment."""
 
 import os
 import subprocess
@@ -38,7 +38,7 @@ def in_script(code: str, **environment: str) -> str:
 
 @pytest.fixture
 def foreign_python(tmp_path):
-    """A folder whose python3 is good for nothing, as a pyenv or conda without rospy is."""
+    """A folder whose python3 always fails, like a pyenv or conda without rospy."""
     python = tmp_path / "python3"
     python.write_text("#!/bin/sh\necho 'the wrong python3 was run' >&2\nexit 1\n")
     python.chmod(0o755)
@@ -87,7 +87,7 @@ def test_each_command_explains_itself_without_doing_anything(command):
     result = franka(command, "--help")
     assert result.returncode == 0
     assert result.stdout.startswith(f"  {command} ")
-    assert "== " not in result.stdout  # what it does is announced
+    assert "== " not in result.stdout  # a build would print this
     others = {"install", "build", "demo", "test", "bench", "shell"} - {command}
     assert not [other for other in others if f"\n  {other} " in result.stdout]
 
@@ -179,7 +179,7 @@ def test_programs_are_found_by_their_names():
 
 
 def interactive(commands: str, home: Path) -> str:
-    """What commands print in an interactive `./franka shell`."""
+    """Output of commands in an interactive `./franka shell`."""
     result = subprocess.run(
         [FRANKA, "shell"],
         env={**os.environ, "HOME": str(home), "TERM": "dumb"},
@@ -192,7 +192,7 @@ def interactive(commands: str, home: Path) -> str:
 
 
 def test_a_shell_has_roscd_and_completion(tmp_path):
-    (tmp_path / ".bashrc").write_text("export PATH=/usr/bin:/bin\n")  # as one that sets it anew
+    (tmp_path / ".bashrc").write_text("export PATH=/usr/bin:/bin\n")  # it overwrites PATH
     said = interactive(
         "roscd franka_description && pwd; complete -p roslaunch rosrun franka; command -v franka_sim",
         tmp_path,
@@ -211,7 +211,7 @@ def test_a_shell_has_roscd_and_completion(tmp_path):
         ("./franka bench ti", {"tick"}),
         ("./franka test --long franka_gaz", {"franka_gazebo"}),
         ("./franka demo --no-p", {"--no-pictures"}),
-        ("./franka demo robot:=f", {"fr3"}),  # bash begins a word behind := anew
+        ("./franka demo robot:=f", {"fr3"}),  # for bash a new word starts after :=
     ],
 )
 def test_its_own_commands_are_completed(line, expected):
@@ -262,7 +262,7 @@ def test_style_runs_the_style_checks_without_a_build(tmp_path, arguments, taken)
 
 
 def build_that_ends_with(message: str, tmp_path: Path) -> str:
-    """What the script says of a build whose first attempt fails; its second one tells the number of jobs."""
+    """The script's output if the first build attempt fails; the second prints the number of jobs."""
     (tmp_path / "out").mkdir()
     return in_script(
         f"top={tmp_path}; jobs=2; once() {{"

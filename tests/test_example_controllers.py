@@ -14,7 +14,7 @@ SOURCE = HERE.parent / "catkin_ws/src"
 
 IDLE, MOVE = 1, 2
 FIRST_POSITION = (0.3069, 0.0, 0.4869)  # [m] of a simulated arm's hand
-# What moves while it runs [rad], at least; None: it only looks, or holds the arm where it is.
+# Minimum motion of the arm while it runs [rad]; None: it only reads, or holds the arm.
 CONTROLLERS = {
     "joint_velocity": 0.03,
     "joint_position": 0.02,
@@ -79,6 +79,6 @@ def test_the_launch_file_of_a_python_example_moves_the_robot(tmp_path):
     centre_y, centre_z = coefficients[:2]
     np.testing.assert_allclose(np.hypot(y - centre_y, z - centre_z), radius, atol=1e-4)
     np.testing.assert_allclose(x, x[0], atol=1e-4)
-    # It begins where the arm stands at first, and turns around a point beside that.
+    # It starts at the arm's first position, and moves around a point beside it.
     np.testing.assert_allclose([x[0], centre_y - radius, centre_z], FIRST_POSITION, atol=2e-3)
     assert np.ptp(np.unwrap(np.arctan2(z - centre_z, y - centre_y))) > 0.85 * np.pi

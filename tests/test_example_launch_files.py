@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every launch file of the single-arm examples, with a simulated robot: it starts what it is named after,
-and from beginning to end nothing is complained of.
+"""Every launch file of the single-arm examples, with a simulated robot: it starts the controller that it is
+named after, without warnings or errors in the log.
 """
 
 import time
@@ -25,16 +25,16 @@ ROBOTS = ["panda", "fr3"]
 
 def launch(name: str, robot: str, folder: Path) -> Session:
     given = ["sim:=true", f"robot:={robot}", "robot_ip:=127.0.52.1", "rviz:=false", "rqt:=false"]
-    if name.startswith("python_"):  # a machine that stands still is no fault of the script
+    if name.startswith("python_"):  # a machine's stall is not an error of the script
         given += ["max_update_time:=1.0", "max_starting_time:=10.0"]
     return Session("franka_example_controllers", name, *given, log=folder / "launch.log")
 
 
-def complaints(session: Session) -> list[str]:
-    """Lines of the log that the user would worry about."""
+def log_problems(session: Session) -> list[str]:
+    """Warnings and errors in the log."""
     marks = ("[ERROR]", "[WARN]", "[FATAL]", "[ WARN]", "Traceback", "process has died")
     lines = [line for line in session.log.read_text().splitlines() if any(mark in line for mark in marks)]
-    return [line for line in lines if "rests on something horizontal" not in line]  # a force needs that
+    return [line for line in lines if "rests on something horizontal" not in line]  # for force
 
 
 def running(session: Session) -> set[str]:
@@ -55,9 +55,9 @@ def test_a_launched_example_runs(name, robot, tmp_path, long_run):
         while not expected <= running(session):
             session.check()
             assert time.monotonic() - begin < WAIT, f"{running(session)}\n{session.tail(60)}"
-        time.sleep(1.0)  # of its work
+        time.sleep(1.0)  # the controller runs
         assert expected <= running(session), session.tail(60)
-    assert complaints(session) == []
+    assert log_problems(session) == []
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
@@ -68,4 +68,4 @@ def test_the_arm_moves_to_its_start_pose(robot, tmp_path):
             assert time.monotonic() - begin < WAIT, session.tail(60)
             time.sleep(0.1)
         assert session.returncode() == 0, session.tail(60)
-    assert complaints(session) == []
+    assert log_problems(session) == []

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The bad network itself: it does what it says, and the same for the same seed."""
+"""The proxy itself: its faults are as configured, and equal for equal seeds."""
 
 from fci_proxy import (
     Channel,
@@ -46,7 +46,7 @@ def test_only_the_chosen_messages_are_lost():
 def test_bursts_are_dropped():
     channel, _ = sent(bursts(0.05, 0.02, 18), 5000)
     assert channel.lost > 500
-    # Two bursts may meet: then one datagram at least has passed between them.
+    # Two bursts may follow each other: then at least one datagram has passed between them.
     assert channel.longest <= 18
 
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/fidelity.md: each line says what kind it is and names tests that hold it, and those tests exist.
+"""docs/fidelity.md: each line has its kind and names existing tests.
 
 Its figures, and those of docs/limits.md, are those of the code (page_figures.py).
 """

@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_sim needs little memory, and no more of it however long it runs: a minute, and in the long form an
-hour, of the robot's time in lock-step."""
+"""franka_sim needs little memory, and its use does not grow: in a minute (long form: an hour) of the robot's
+time in lock-step."""
 
 import os
 
@@ -16,8 +16,8 @@ MINUTES = 60 if LONG else 1
 def test_memory_is_little_and_flat(robot):
     address = {"panda": "127.0.28.1", "fr3": "127.0.28.2"}[robot]
     with simulated(robot, address, "lockstep") as sim, client_process("pyfranka") as client:
-        assert client.tell("connect", address=address)["outcome"] == "ok"
-        assert client.tell("move", seconds=5.0, torque=True)["outcome"] == "ok"
+        assert client.run_task("connect", address=address)["outcome"] == "ok"
+        assert client.run_task("move", seconds=5.0, torque=True)["outcome"] == "ok"
         settled, descriptors = sim.memory(), sim.descriptors()
         for _ in range(MINUTES):
             client.give("move", seconds=60.0, torque=True)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Franka's own client libraries, from PyPI, against the simulated robot.
 
-panda-python bundles libfranka 0.9.2 (protocol 5), pylibfranka libfranka 0.21.3 (protocol 10). Each lives in
-an environment of its own without Debian's packages (decision 33), made once in out/genuine.
+panda-python bundles libfranka 0.9.2 (version 5), pylibfranka libfranka 0.21.3 (version 10). Each has its own
+environment without Debian's packages (decision 33), created once in out/genuine.
 """
 
 import json
@@ -19,7 +19,7 @@ from genuine_clients import client_python
 from stalls import in_time
 
 CLIENTS = Path(__file__).resolve().parent / "support" / "genuine"
-# A patient robot keeps to the clock, and waits for clients on a machine that does not.
+# A patient robot runs in real time, but waits for clients on a machine that stalls.
 PACES = ["lockstep", "patient"] + (["realtime"] if os.environ.get("FRANKA_TEST_LONG") else [])
 FLOOR = """<mujoco><worldbody>
   <light pos="0 0 3"/>
@@ -40,8 +40,8 @@ def saw_its_cycles(motion: dict) -> bool:
 
 
 def undisturbed(seen: dict) -> bool:
-    """Nothing that a machine out of time loses: no motion that goes well was ended by a reflex or missed many
-    cycles, and the reflexes that are meant have no reason besides."""
+    """Whether the machine did not stall: no successful motion had a reflex or missed many cycles, and the
+    intended reflexes have no other reason."""
     lost = [
         seen["leap"].count('"') != 2,  # one error, in quotes
         "communication_constraints_violation" in seen["leap"] + seen["contact"],
@@ -83,7 +83,7 @@ def fr3(request, world):
 
 
 def tolerance(seen) -> float:
-    """Of a motion's goal [rad]. By the clock, 1.9e-3 was measured once on a busy machine, cause not known."""
+    """Tolerance of a motion's goal [rad]. In real time 1.9e-3 was measured once, cause unknown."""
     return 1e-3 if seen["pace"] == "lockstep" else 1e-2
 
 
@@ -98,14 +98,14 @@ def check_motions(seen, names):
 
 
 def check_block(seen: dict, reflex: str):
-    """At a tenth of a metre a second; what the client says of it, and that it gets away again."""
+    """Checks a collision at 0.1 m/s: the client's report, and the motion away from the block."""
     assert seen["thresholds"] == "ok"
     assert "motion aborted by reflex!" in seen["contact"], seen["contact"]
     assert '"cartesian_reflex"' in seen["contact"] or '"joint_reflex"' in seen["contact"], seen["contact"]
     assert seen["mode after contact"] == reflex
     assert seen["recovery after contact"] == "ok"
     assert seen["retreat"] == "ok"
-    # Of 0.05; in real time cycles that the wall clock took are extrapolated.
+    # Of 0.05; in real time lost cycles are extrapolated.
     assert seen["height after retreat"] - seen["height"] == pytest.approx(0.05, abs=0.005)
 
 
@@ -113,7 +113,7 @@ def test_panda_connects(panda):
     assert panda["version"] == 5
     assert panda["mode"] == "kIdle"
     assert panda["m_ee"] == pytest.approx(0.76, abs=1e-6)
-    # The library that the robot served agrees with what the robot carries.
+    # The served model library agrees with the robot's load.
     assert panda["gravity_error"] < 1e-6
 
 
@@ -256,7 +256,7 @@ except Exception as error:
 
 
 def test_a_virtual_wall_stops_the_hand():
-    """As the user draws it in Desk: the hand goes down to its top, and through when it is gone."""
+    """A wall as in Desk: the hand moves down to its top, and further once it is removed."""
     script = """
 import math, sys
 from panda_py import libfranka
@@ -288,14 +288,14 @@ print(before, robot.read_once().O_T_EE[14])
         return done.stdout, before, after
 
     with running("--robot", "panda", "--ip", address, "--pace", "lockstep"):
-        ask(address, "wall 2 0.3 0 0.2 1 1 0.5 0 0 0 2")  # turned by half a turn: no matter
-        told, before, after = go_down()
+        ask(address, "wall 2 0.3 0 0.2 1 1 0.5 0 0 0 2")  # rotated by half a turn: the same wall
+        text, before, after = go_down()
         assert before > 0.48
-        assert '["cartesian_position_limits_violation"]' in told
+        assert '["cartesian_position_limits_violation"]' in text
         assert after == pytest.approx(0.45, abs=0.005)
         ask(address, "wall 2 off")
-        told, before, after = go_down()
-        assert "ended well" in told
+        text, before, after = go_down()
+        assert "ended well" in text
         assert after == pytest.approx(before - 0.1, abs=1e-3)
         for line, sentence in (
             ("wall 8 off", "no number of a wall"),
@@ -308,7 +308,7 @@ print(before, robot.read_once().O_T_EE[14])
 
 
 def test_a_new_arm_makes_a_very_small_motion():
-    """Clients may divide by the way that is left; a real arm never stands on its target to the last bit."""
+    """Clients may divide by the remaining distance; a real arm never reaches its target bit for bit."""
     script = """
 import sys
 import panda_py

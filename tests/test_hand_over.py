@@ -37,7 +37,7 @@ def report(request, tmp_path_factory, long_run):
 def test_the_bar_is_handed_over(report):
     for go in report["goes"]:
         forces = go["forces"]
-        assert forces["one"] > 30.0 and forces["two"] > 30.0, go  # both hold it at one moment
+        assert forces["one"] > 30.0 and forces["two"] > 30.0, go  # both hold it at the same time
         assert forces["one after"] == 0.0, go
 
 

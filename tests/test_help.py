@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every program of the workspace says what it is when asked with --help: at once, without a ROS master."""
+"""Every program of the workspace answers --help: at once, without a ROS master."""
 
 import os
 import re
@@ -14,9 +14,9 @@ import pytest
 TOP = Path(__file__).resolve().parent.parent
 SOURCE, DEVEL = TOP / "catkin_ws" / "src", TOP / "catkin_ws" / "devel"
 AT_ONCE = 5.0  # [s]
-NO_MASTER = "http://127.0.0.1:9"  # the port for what is discarded: nobody listens there
+NO_MASTER = "http://127.0.0.1:9"  # the discard port: nothing listens there
 
-# Programs of the build's tests, which stand beside the others.
+# Programs of the build's tests, in the same folders as the others.
 OF_TESTS = re.compile(r"_test(_node)?$|^test_")
 PACKAGES = {path.parent.name for path in SOURCE.glob("**/package.xml")}
 
@@ -26,14 +26,14 @@ def is_program(path: Path) -> bool:
 
 
 def programs() -> list[Path]:
-    """What the build has put where rosrun and the shell look, and the scripts where they are written."""
+    """Built programs in the folders of rosrun and the shell, and scripts in the sources."""
     built = [path for path in DEVEL.glob("lib/*/*") if path.parent.name in PACKAGES]
     scripts = [path for path in SOURCE.glob("**/scripts/*") if path.parent.parent.name in PACKAGES]
     return sorted(path for path in [*built, *DEVEL.glob("bin/*"), *scripts] if is_program(path))
 
 
 def asked(path: Path) -> tuple[int | None, str, float]:
-    """The status, what it printed, and how long it took [s]."""
+    """Its status, its output, and its run time [s]."""
     begin = time.monotonic()
     try:
         result = subprocess.run(
@@ -72,5 +72,5 @@ def test_every_program_answers_help(answers):
 
 def test_every_program_answers_at_once(answers):
     late = [path for path, (_, _, took) in answers.items() if took > AT_ONCE]
-    # A busy machine takes seconds to start Python: whoever was late is asked once more, alone.
+    # A busy machine takes seconds to start Python: late programs are called again, alone.
     assert not [str(path.relative_to(TOP)) for path in late if asked(path)[2] > AT_ONCE]

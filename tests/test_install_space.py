@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is installed works without the source tree's environment: the demo's launch from the install space."""
+"""Installed packages work without the source tree's environment: the demo from the install space."""
 
 import json
 import subprocess

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Trajectories on the simulated Panda with torques, positions and velocities, as MoveIt would send them."""
+"""Trajectories on the simulated Panda with torques, positions and velocities, as MoveIt sends them."""
 
 import json
 from pathlib import Path

@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every launch file of the tree, read by roslaunch as for the user with a real robot; nothing is started.
+"""Every launch file of the tree, read by roslaunch as for a real robot; nothing is started.
 
-It can be read, with each of its switches turned too; what it wants to start is there; rviz looks at the arm
-that was asked for; and nothing of another arm's name is left.
+It can be read, also with each of its switches inverted; the programs that it starts exist; rviz shows the
+right arm; and no name of another arm is left.
 """
 
 import functools
@@ -23,7 +23,7 @@ from roslib.packages import find_node
 SOURCE = Path(__file__).resolve().parent.parent / "catkin_ws" / "src"
 FILES = {f"{path.parent.parent.name}/{path.name}": path for path in SOURCE.glob("**/launch/**/*.launch")}
 
-# What a launch file may insist on, and what the user would answer: enter here what a new one needs.
+# Required arguments of launch files, with values: add those of new launch files here.
 REQUIRED = {
     "robot": "panda",
     "robot_ip": "10.0.0.1",
@@ -31,8 +31,8 @@ REQUIRED = {
     "leader_ip": "10.0.0.1",
     "follower_ip": "10.0.0.2",
 }
-KINDS = ("robot", "robot_type")  # arguments that may say panda or fr3
-CALLS = ["plain", "other"]  # of a Panda; of an FR3 of another name in a namespace
+KINDS = ("robot", "robot_type")  # arguments that may be panda or fr3
+CALLS = ["plain", "other"]  # of a Panda; of an FR3 with another name in a namespace
 MARKERS = {  # nodes, and the names of the markers that they serve
     "interactive_marker.py": "equilibrium_pose_marker",
     "dual_arm_interactive_marker.py": "target_pose_marker",
@@ -40,7 +40,7 @@ MARKERS = {  # nodes, and the names of the markers that they serve
 
 
 class Reader(XmlLoader):
-    """Asks xacro once for the same line, or leaves robots' descriptions empty."""
+    """Calls xacro once per command line, or leaves robot descriptions empty."""
 
     answers: dict[str, str] = {}
 
@@ -66,7 +66,7 @@ def read(path: Path, given: list[str], loader: XmlLoader) -> ROSLaunchConfig:
 
 @functools.cache
 def needed(path: Path) -> tuple[str, ...]:
-    """The arguments that a launch file insists on, itself or by those that it includes."""
+    """The required arguments of a launch file and of the files that it includes."""
     given = []
     while True:
         try:
@@ -82,11 +82,11 @@ def needed(path: Path) -> tuple[str, ...]:
 
 @functools.cache
 def declared(path: Path) -> dict[str, str | None]:
-    """Arguments of a launch file's own, and their defaults; None where it insists on one."""
+    """A launch file's own arguments and their defaults; None for a required one."""
     loader = XmlLoader(resolve_anon=False, args_only=True)
     read(path, list(needed(path)), loader)
-    told = loader.root_context.resolve_dict.get("arg_doc", {})
-    return {name: default for name, (_, default) in told.items()}
+    values = loader.root_context.resolve_dict.get("arg_doc", {})
+    return {name: default for name, (_, default) in values.items()}
 
 
 @functools.cache
@@ -101,7 +101,7 @@ def check_nodes(config: ROSLaunchConfig) -> None:
 
 
 def name_for(node, name: str) -> str:
-    """What a node means by a name, in its namespace and with its remappings."""
+    """A node's name resolved with its namespace and its remappings."""
     place = ns_join(node.namespace, node.name)
     remaps = {resolve_name(a, place): resolve_name(b, place) for a, b in node.remap_args}
     name = resolve_name(name, place)
@@ -109,7 +109,7 @@ def name_for(node, name: str) -> str:
 
 
 def check_rviz(config: ROSLaunchConfig) -> int:
-    """What rviz is told to look at exists: the frame in its robot, markers where their node is."""
+    """Rviz's configuration exists: the frame in its robot, markers in the namespace of their node."""
     found = [node for node in config.nodes if node.type == "rviz"]
     for node in found:
         words = shlex.split(node.args)
@@ -128,11 +128,11 @@ def check_rviz(config: ROSLaunchConfig) -> int:
 
 
 def check_names(config: ROSLaunchConfig) -> None:
-    """Of an arm of another name, nothing is called panda; only the pair of two arms may be."""
-    told = {name: param.value for name, param in config.params.items()}
-    told.update({f"node {node.name}": node.args for node in config.nodes})
+    """With another arm's name nothing is called panda, except the pair of two arms."""
+    values = {name: param.value for name, param in config.params.items()}
+    values.update({f"node {node.name}": node.args for node in config.nodes})
     of_others = re.compile("description|/dual_arm_|/robot_type$")
-    offending = {key: value for key, value in told.items() if re.search(r"\bpanda", f"{key} {value}")}
+    offending = {key: value for key, value in values.items() if re.search(r"\bpanda", f"{key} {value}")}
     assert not [key for key in offending if not of_others.search(key)]
 
 
@@ -159,7 +159,7 @@ def test_launch_file_is_valid_with_every_switch_inverted(name):
     switches = {argument: str(default).lower() for argument, default in declared(path).items()}
     turned = {"true": "false", "false": "true"}
     calls = [f"{switch}:={turned[now]}" for switch, now in switches.items() if now in turned]
-    for given in [*calls, "sim:=true"]:  # a switch of nearly all, often of a file that is included
+    for given in [*calls, "sim:=true"]:  # a switch of nearly all, often of an included file
         check_nodes(read(path, [*needed(path), given], Reader(with_descriptions=False)))
 
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The manual's simulation chapter as a reader follows it: command lines in a shell, with rviz on a screen."""
+"""The command lines of the manual's simulation chapter in a shell, with rviz on a screen."""
 
 import json
 import re
@@ -24,8 +24,8 @@ PATIENCE = 120  # wall seconds
 WINDOW_WIDTH = 1200  # of the simulation and of rviz
 STONE_WIDTH = 0.032  # [m] between the fingers
 
-# What may be said: of the stop; by Debian's joint_state_publisher, which after a stall of the machine
-# publishes twice at one moment of the simulation; by Debian's rviz, which looks for an optional package.
+# Allowed warnings: about the stop; by Debian's joint_state_publisher, which after a stall of the machine
+# publishes twice at the same simulated time; by Debian's rviz, which searches for an optional package.
 LAWFUL = ["panda: user stop (pressed|released)", "TF_REPEATED_DATA", "no such package media_export"]
 
 
@@ -85,18 +85,18 @@ def test_the_user_stop_disconnects_until_recovery(seen):
 def test_rviz_shows_the_robot_without_errors(seen):
     assert seen["rviz_drawn"]
     assert "/equilibrium_pose_marker/update" in seen["rviz"] and " * /tf [" in seen["rviz"]
-    complaints = [
+    unexpected = [
         line
         for line in seen["log"].splitlines()
         if re.search(r"\[ ?(WARN|ERROR|FATAL)\]|\[rospack\] Error|Traceback", line)
         and not any(re.search(lawful, line) for lawful in LAWFUL)
     ]
-    assert not complaints
+    assert not unexpected
 
 
 def test_the_launch_file_lists_its_arguments():
     line = "roslaunch franka_gazebo panda.launch --ros-args"
-    told = subprocess.run(["bash", "-c", line], text=True, capture_output=True, timeout=60)
-    assert told.returncode == 0, told.stderr
+    result = subprocess.run(["bash", "-c", line], text=True, capture_output=True, timeout=60)
+    assert result.returncode == 0, result.stderr
     for name in ("arm_id", "controller", "initial_joint_positions", "use_gripper", "world", "x", "yaw"):
-        assert re.search(rf"^ +{name} \(default", told.stdout, re.M), f"{name} in {told.stdout}"
+        assert re.search(rf"^ +{name} \(default", result.stdout, re.M), f"{name} in {result.stdout}"

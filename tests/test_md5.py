@@ -1,13 +1,13 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The generated types have the MD5 sums that other people's programs expect."""
+"""The generated types have the MD5 sums that existing programs expect."""
 
 import importlib
 from pathlib import Path
 
 import pytest
 
-# Packages with types of our own invention besides: whatever is in the table counts.
+# Packages that also have types of our own: only types in the table are checked.
 TABLE = dict(
     line.split()
     for line in (Path(__file__).parent / "data" / "md5.txt").read_text().splitlines()

@@ -1,13 +1,13 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a bad network and a bad machine do to a motion, with genuine clients and the project's own.
+"""Effects of a bad network and a busy machine on a motion, with genuine clients and the project's own.
 
 Loss (faults 1), delay (faults 2), damage (faults 3), TCP (faults 4), the client's timing (faults 5) and its
 death (faults 6). Each test checks the robot's mode at the end, the error, the client's exception and the time
 that this takes. Clients that send single bytes are in test_raw_clients.
 
-Where time matters the robots run at a tenth of the wall's speed, so that the proxy in Python and a busy
-machine are no faults of their own; the rest runs in lock-step. The clients of one test run side by side.
+Tests that depend on time run the robots at a tenth of real time, so that the proxy in Python and a busy
+machine cause no faults; the others run in lock-step. The clients of one test run in parallel.
 """
 
 import os
@@ -49,12 +49,12 @@ from network_fixtures import (
 from stalls import TRIES, in_time
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
-ENDLESS = 60.0  # [s] of the robot's time: more than a motion takes that a fault ends
+ENDLESS = 60.0  # [s] of the robot's time: longer than any motion that a fault ends
 
 
 @pytest.fixture(autouse=True)
 def all_idle(request):
-    """One failure is not followed by another one's."""
+    """A failed test must not cause failures of the next ones."""
     yield
     for name in ("slow", "stepped", "patient"):
         for fixture in request.node.funcargs.get(name, []):
@@ -63,18 +63,18 @@ def all_idle(request):
 
 
 def end_motion(fixture):
-    """A client that has given up leaves its robot in Move until the robot's patience is over."""
+    """A client after a timeout leaves its robot in Move until the robot's patience ends."""
     deadline = time.monotonic() + 10.0
     while fixture.sim.ask("state").startswith("Move") and time.monotonic() < deadline:
         time.sleep(0.05)
     if "Reflex" in fixture.sim.ask("state"):
-        fixture.client.tell("connect", address=fixture.proxy.address)
-        fixture.client.tell("recover")
+        fixture.client.run_task("connect", address=fixture.proxy.address)
+        fixture.client.run_task("recover")
 
 
 @pytest.fixture(scope="module")
 def slow():
-    """Both genuine clients and the own one, at a tenth of the wall's speed."""
+    """Both genuine clients and our own, at a tenth of real time."""
     with ExitStack() as stack:
         kinds = [("panda", "panda"), ("pylibfranka", "fr3"), ("pyfranka", "fr3")]
         yield network_fixtures(stack, "127.0.23", str(PACE), kinds)
@@ -90,7 +90,7 @@ def stepped():
 
 @pytest.fixture(scope="module")
 def patient():
-    """By the clock, but waiting for whoever is late."""
+    """In real time, but waiting for late clients."""
     with ExitStack() as stack:
         yield network_fixtures(stack, "127.0.27", "patient", [("panda", "panda"), ("pyfranka", "fr3")])
 
@@ -101,7 +101,7 @@ def patient():
 @pytest.mark.parametrize("percent", [0, 0.1, 1, 5, 10, 20] if LONG else [20])
 def test_uniform_loss_of_commands_is_survived_and_counted(slow, percent):
     survive(slow, commands=lambda: losing(percent / 100))
-    assert all(fixture.client.tell("mode")["mode"] == "Idle" for fixture in slow)
+    assert all(fixture.client.run_task("mode")["mode"] == "Idle" for fixture in slow)
 
 
 @pytest.mark.parametrize("percent", [1, 5, 20] if LONG else [5])
@@ -128,8 +128,8 @@ def test_twenty_consecutive_lost_commands_end_the_motion(slow, count):
 
 @pytest.mark.parametrize("count", [19, 20, 21])
 def test_the_boundary_is_exact_in_lock_step(stepped, count):
-    """The robot's own link loses them: no clock takes part, and no machine is too busy."""
-    seconds = SECONDS if count < 20 else ENDLESS  # flat out a short one may be over before it loses them
+    """The robot's own link loses them, so that neither wall time nor load matters."""
+    seconds = SECONDS if count < 20 else ENDLESS  # in lock-step a short one may end before it loses them
     for fixture in stepped:
         fixture.client.give("move", seconds=seconds, amplitude=AMPLITUDE, announce=True)
     for fixture in stepped:
@@ -169,7 +169,7 @@ def test_a_constantly_late_network_ends_the_motion_at_once(slow):
         check_lost(slow, results, slowest(180))
         return [result["cycles"] for result in results]
 
-    # A robot that stalls itself finds late answers there in time.
+    # A robot that stalls itself receives late answers in time.
     cycles = in_time(attempt, lambda cycles: max(cycles) <= 175)
     assert max(cycles) <= 175
 
@@ -177,7 +177,7 @@ def test_a_constantly_late_network_ends_the_motion_at_once(slow):
 @pytest.mark.parametrize("ticks", [1, 10, 15] if LONG else [10])
 def test_a_short_stall_with_its_backlog_is_survived(slow, ticks):
     for result in survive(slow, states=lambda: stalling(150, ticks * TICK), least=0.8):
-        # The client takes the newest of what has come when it wakes, and its clock jumps.
+        # When the client wakes up it takes the newest state, and its clock jumps.
         assert result["longest"] >= 0.5e-3 * ticks
 
 
@@ -189,7 +189,7 @@ def test_a_long_stall_of_commands_ends_the_motion(slow):
 
 
 def flipped_id(data, chance):
-    bit = chance.randrange(20, 64)  # a number that is not the newest state's
+    bit = chance.randrange(20, 64)  # not the newest state's message_id
     return struct.pack("<Q", struct.unpack_from("<Q", data)[0] ^ (1 << bit)) + data[8:]
 
 
@@ -204,7 +204,7 @@ NOISE = {
 
 
 def all_noise(number, data, chance):
-    """Every kind in turn."""
+    """Each kind in turn."""
     kinds = list(NOISE.values())
     return kinds[number // 10 % len(kinds)](number, data, chance)
 
@@ -226,7 +226,7 @@ def test_duplicate_and_late_states_are_delivered_once(stepped):
         before, repeated["sent"] = repeated["sent"], data
         return [(0.0, data), (0.0, data), *([(0.0, before)] if before else [])]
 
-    for fixture in stepped:  # the rule remembers: one after the other
+    for fixture in stepped:  # the rule has a state: one after the other
         repeated["sent"] = None
         (result,) = run([fixture], states=lambda: old_again)
         assert result["outcome"] == "ok", result
@@ -235,7 +235,7 @@ def test_duplicate_and_late_states_are_delivered_once(stepped):
 
 
 def test_our_client_reports_invalid_states(stepped):
-    """A state of the wrong size is no state; the robot then misses its answers and stops."""
+    """The client drops a state of the wrong size; the robot then misses its answers and stops."""
     own = stepped[-1:]  # the last one: genuine clients may be left out
     (result,) = run(own, states=lambda: lambda number, data, chance: [(0.0, data[:-1])])
     try:
@@ -245,8 +245,8 @@ def test_our_client_reports_invalid_states(stepped):
         begin = time.monotonic()
         while own[0].sim.ask("state").startswith("Move"):
             assert time.monotonic() - begin < 5.0, "The motion goes on without a client."
-        own[0].client.tell("connect", address=own[0].proxy.address)
-        own[0].client.tell("recover")
+        own[0].client.run_task("connect", address=own[0].proxy.address)
+        own[0].client.run_task("recover")
     assert run(own, seconds=0.2, amplitude=0.0)[0]["outcome"] == "ok"
 
 
@@ -275,7 +275,7 @@ def test_a_program_may_compute_for_most_of_a_cycle(slow, share):
 
 
 def test_a_program_slower_than_a_cycle_is_stopped(slow):
-    """Each answer comes when its state is no longer the newest."""
+    """Each answer arrives when its state is no longer the newest."""
     results = run(slow, compute=1.5 * TICK, amplitude=0.0)
     check_lost(slow, results, slowest(100))
     assert all(result["cycles"] <= 75 for result in results)
@@ -285,7 +285,7 @@ def test_a_program_slower_than_a_cycle_is_stopped(slow):
 
 
 def freeze(group, seconds, motion=SECONDS):
-    """SIGSTOP to each client in its motion of so many seconds, and SIGCONT after that time."""
+    """Sends SIGSTOP to each client in its motion, and SIGCONT after a number of seconds."""
     for fixture in group:
         fixture.proxy.set()
         fixture.client.give("move", seconds=motion, amplitude=0.0, announce=True)
@@ -302,7 +302,7 @@ def freeze(group, seconds, motion=SECONDS):
 def test_five_cycles_frozen_are_survived(slow):
     for _ in range(TRIES):
         results = freeze(slow, 5 * TICK)
-        # A busy machine lets a client rest for longer than it was told to.
+        # On a busy machine a client sleeps longer than requested.
         overslept = [s for s, r in zip(slow, results) if LOST in r["outcome"] and r["longest"] > 0.018]
         if not overslept:
             break
@@ -315,13 +315,13 @@ def test_more_than_twenty_cycles_frozen_end_the_motion(slow, cycles):
     check_lost(slow, freeze(slow, cycles * TICK), slowest(300 + cycles))
 
 
-# Programs that compute, and one that takes pages of memory and gives them back.
+# Programs that compute, and one that allocates and frees pages of memory.
 HOGS = ["while True: pass"] * 2 * os.cpu_count() + ["while True: bytearray(1 << 26)"]
 
 
 @contextmanager
 def starved(group):
-    """Clients without privileges on a machine that does everything else as well."""
+    """Clients without privileges on a busy machine."""
     hogs = [subprocess.Popen([sys.executable, "-c", program]) for program in HOGS]
     for fixture in group:
         go_with_all(fixture.client.process.pid)
@@ -344,7 +344,7 @@ def test_a_starved_client_of_a_patient_robot_loses_nothing(patient):
 
 
 def test_a_starved_client_continues_or_gets_the_reason(slow):
-    """Twenty states in a row are too many; fewer may already be a leap from where the robot went alone."""
+    """Twenty lost commands end the motion; fewer may already cause a discontinuity after extrapolation."""
     with starved(slow):
         results = run(slow)
     for fixture, result in zip(slow, results):
@@ -355,7 +355,7 @@ def test_a_starved_client_continues_or_gets_the_reason(slow):
 
 
 def test_lock_step_waits_for_a_frozen_client(stepped):
-    """Half as long as a client may be silent there: nothing is lost, nothing moves meanwhile."""
+    """For half of the robot's patience: nothing is lost, nothing moves meanwhile."""
     for fixture, result in zip(stepped, freeze(stepped, 0.2)):
         assert result["outcome"] == "ok", result
         assert result["longest"] < 0.0015
@@ -367,7 +367,7 @@ def test_lock_step_drops_a_frozen_client(stepped):
 
 
 def test_a_killed_client_ends_its_motion_and_frees_the_robot(stepped):
-    """Last: the clients are gone afterwards."""
+    """Must be last: it kills the clients."""
     for fixture in stepped:
         fixture.proxy.set()
         fixture.client.give("move", seconds=ENDLESS, amplitude=AMPLITUDE, announce=True)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A package that new_controller creates builds, loads, and its rostest passes; what cannot be is refused."""
+"""A package from new_controller builds, loads, and its rostest passes; invalid arguments are refused."""
 
 import os
 from pathlib import Path

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""roslaunch against an address where nobody answers: it says what to start instead, and fails."""
+"""roslaunch with an unreachable robot reports how to start a simulated one, and fails."""
 
 import os
 import signal
@@ -35,7 +35,7 @@ def launched(name: str) -> tuple[int | None, str]:
     try:
         output, _ = process.communicate(timeout=120)
     except subprocess.TimeoutExpired:
-        process.send_signal(signal.SIGINT)  # it takes along what it has started
+        process.send_signal(signal.SIGINT)  # it ends its nodes
         output, _ = process.communicate()
         return None, output
     return process.returncode, output

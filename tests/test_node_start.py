@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""How the hardware nodes begin where something is wrong, and how they end: with a sentence, and in time."""
+"""Errors at the start of the hardware nodes, and their exit: with a message, and in time."""
 
 import os
 import signal
@@ -17,10 +17,10 @@ from fci_session import simulated
 from fci_wire import CONNECT, HEADER, PORT
 
 ADDRESS, OTHER, SILENT, ODD, NOBODY = (f"127.0.32.{i}" for i in range(1, 6))
-IN_TIME = 2.0  # to end after an interruption [s]
+IN_TIME = 2.0  # for the exit after an interrupt [s]
 ONE, ALL = "/franka_control", "/combined_panda"  # names of the nodes
 
-# The robot falls silent, and a moment later somebody wants it to recover.
+# The robot becomes silent, and shortly later a recovery is requested.
 ASK_RECOVERY = f"""
 import actionlib, os, rospy, rospy_connections, signal, sys
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
@@ -60,7 +60,7 @@ def master(bare, urdf):
 
 
 def prepared(bare, urdf):
-    """A master with the parameters of a node for each kind of hardware, where nothing is wrong."""
+    """A master with valid parameters for each of the two nodes."""
     bare.set("/robot_description", urdf)
     one = configured("franka_control_node.yaml", arm_id="panda")
     bare.set(ONE, dict(one, robot_ip=ADDRESS, connect_timeout=0.0, realtime_config="ignore"))
@@ -87,7 +87,7 @@ def combined(master, through=()):
 
 @contextmanager
 def listening(address: str, answer: bytes = b""):
-    """A robot that takes connections and then says nothing, or the same to everybody who asks."""
+    """A robot that accepts connections and then is silent, or sends the same answer to all."""
     with socket.socket() as server:
         server.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         server.bind((address, PORT))
@@ -115,10 +115,10 @@ def listening(address: str, answer: bytes = b""):
                 connection.close()
 
 
-# --- what is wrong from the start -----------------------------------------------------------------------
+# --- errors at the start --------------------------------------------------------------------------------
 
 WRONG = [
-    # parameter, value (None: missing), what is said
+    # parameter, value (None: missing), error text
     ("/franka_control/robot_ip", "no.such.robot.invalid", "no.such.robot.invalid"),
     ("/franka_control/robot_ip", NOBODY, "Connection to FCI refused"),
     ("/franka_control/robot_ip", None, "'/franka_control/robot_ip' is missing"),
@@ -170,17 +170,17 @@ def test_a_robot_of_no_known_version_is_refused(master):
 def test_an_older_robot_is_accepted(master, version):
     master.set(ONE + "/robot_ip", OTHER)
     with simulated("panda", OTHER, "realtime", "--no-hand", "--protocol", str(version)), one(master) as node:
-        assert node.says("is ready", 20), node.output
+        assert node.prints("is ready", 20), node.output
         assert node.interrupt() < IN_TIME
 
 
-# --- robots that are other ones than the parameters say -----------------------------------------------------
+# --- robots that do not match the parameters ----------------------------------------------------------------
 
 TRAJECTORY, STATES = "effort_joint_trajectory_controller", "franka_state_controller"
 
 
 def manager(master, *arguments):
-    """What is said to somebody who asks the controller manager."""
+    """Answers of the controller manager."""
     result = master.run("rosrun", "controller_manager", "controller_manager", *arguments)
     return result.stdout + result.stderr
 
@@ -191,22 +191,22 @@ def set_controllers(master, arm_id):
 
 
 @pytest.mark.parametrize("there, told", [("fr3", "panda"), ("panda", "fr3")])
-def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, told):
+def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, described):
     set_controllers(master, "panda")
-    master.set("/robot_description", ros_nodes.robot_description(told, arm_id="panda"))
+    master.set("/robot_description", ros_nodes.robot_description(described, arm_id="panda"))
     master.set(ONE + "/robot_ip", OTHER)
-    is_there, is_told = [{"fr3": "an FR3", "panda": "a Panda"}[kind] for kind in (there, told)]
+    is_there, is_described = [{"fr3": "an FR3", "panda": "a Panda"}[kind] for kind in (there, described)]
     sentence = f"the robot is {is_there} "
     with simulated(there, OTHER, "lockstep", "--no-hand") as robot, one(master) as node:
-        assert node.says("is ready"), node.output
-        assert node.says(sentence), node.output
-        assert node.says(f"robot_description is {is_told}'s"), node.output
-        assert node.says("'/franka_control/ignore_robot_mismatch' is not true"), node.output
+        assert node.prints("is ready"), node.output
+        assert node.prints(sentence), node.output
+        assert node.prints(f"robot_description is {is_described}'s"), node.output
+        assert node.prints("'/franka_control/ignore_robot_mismatch' is not true"), node.output
         said = node.output.count(sentence)
         assert said == 1
         assert "Started" in manager(master, "spawn", STATES), "who only looks does no harm"
         assert "Started" not in manager(master, "spawn", TRAJECTORY)
-        assert node.says(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
+        assert node.prints(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
         assert node.output.count(sentence) == 2
         assert robot.ask("state").startswith("Idle")
         master.set(ONE + "/ignore_robot_mismatch", True)
@@ -231,10 +231,10 @@ def test_an_arm_with_another_name_is_reported_and_not_commanded(master, robot, u
     else:
         master.set(name, urdf.replace("panda_", value + "_"))
     with one(master) as node:
-        assert node.says("is ready"), node.output
-        assert node.says(sentence), node.output
+        assert node.prints("is ready"), node.output
+        assert node.prints(sentence), node.output
         assert "Started" not in manager(master, "spawn", TRAJECTORY)
-        # A controller that finds its joints in the description is refused, another one does not load.
+        # A controller whose joints are in the description is refused, another one does not load.
         assert node.output.count(sentence) == (2 if name == "arm_id" else 1), node.output
 
 
@@ -242,9 +242,9 @@ def test_one_arm_of_several_with_another_type_is_reported(master, robot, urdf):
     master.set(ALL + "/panda_2/robot_ip", NOBODY)
     master.set(ALL + "/robot_description", urdf.replace("panda_", "panda_2_"))
     with simulated("fr3", NOBODY, "realtime", "--no-hand"), combined(master) as node:
-        assert node.says(f"no controller can command 'panda_2' at {NOBODY}"), node.output
-        assert node.says("the robot is an FR3"), node.output
-        assert node.says("'/combined_panda/panda_2/ignore_robot_mismatch' is not true"), node.output
+        assert node.prints(f"no controller can command 'panda_2' at {NOBODY}"), node.output
+        assert node.prints("the robot is an FR3"), node.output
+        assert node.prints("'/combined_panda/panda_2/ignore_robot_mismatch' is not true"), node.output
 
 
 def test_read_only_nodes_warn_about_another_robot(bare, master):
@@ -256,14 +256,14 @@ def test_read_only_nodes_warn_about_another_robot(bare, master):
     bare.set("/hand", dict(looks, joint_names=fingers))
     with simulated("fr3", OTHER, "realtime"):
         with bare.node("franka_visualization", "robot_joint_state_publisher", "arm_looks") as node:
-            assert node.says("the robot is an FR3"), node.output
-            assert node.says("robot_description is a Panda's"), node.output
+            assert node.prints("the robot is an FR3"), node.output
+            assert node.prints("robot_description is a Panda's"), node.output
         for package, kind, name in (
             ("franka_visualization", "gripper_joint_state_publisher", "hand_looks"),
             ("franka_gripper", "franka_gripper_node", "hand"),
         ):
             with bare.node(package, kind, name) as node:
-                assert node.says("'left_finger_joint1', which is no joint of '/robot_description'"), (
+                assert node.prints("'left_finger_joint1', which is no joint of '/robot_description'"), (
                     node.output
                 )
 
@@ -271,7 +271,7 @@ def test_read_only_nodes_warn_about_another_robot(bare, master):
 def test_joints_missing_in_the_description_are_named(master, robot, urdf):
     master.set("/robot_description", urdf.replace("panda_", "somebody_"))
     with one(master) as node:
-        assert node.says("is ready"), node.output
+        assert node.prints("is ready"), node.output
         assert "joint 'panda_joint1' has no <limit>" in node.output
 
 
@@ -290,19 +290,19 @@ WRONG_FOR_ALL = [
 def test_a_node_with_several_arms_reports_errors_and_exits(master, robot, name, value, sentence):
     put(master, name, value)
     if name == ALL + "/robot_description":
-        master.delete("/robot_description")  # which would do in the place of its own
+        master.delete("/robot_description")  # which it would use instead of its own
     with combined(master) as node:
         assert node.ends() == 1, node.output
         assert sentence in node.output
         assert "could not be set up (see above)" in node.output
 
 
-# --- the end --------------------------------------------------------------------------------------------
+# --- exit -----------------------------------------------------------------------------------------------
 
 
 def test_an_idle_node_exits_on_interrupt(master, robot):
     with one(master) as node:
-        assert node.says("is ready"), node.output
+        assert node.prints("is ready"), node.output
         assert node.interrupt() < IN_TIME
         assert node.process.returncode == 0
 
@@ -312,7 +312,7 @@ def test_a_node_connecting_to_a_silent_robot_exits_on_interrupt(master, patience
     master.set(ONE + "/robot_ip", SILENT)
     master.set(ONE + "/connect_timeout", patience)
     with listening(SILENT), one(master) as node:
-        assert node.says("Connecting to the robot"), node.output
+        assert node.prints("Connecting to the robot"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -320,14 +320,14 @@ def test_a_node_waiting_for_a_robot_exits_on_interrupt(master):
     master.set(ONE + "/robot_ip", NOBODY)
     master.set(ONE + "/connect_timeout", 60.0)
     with one(master) as node:
-        assert node.says("Connecting to the robot"), node.output
+        assert node.prints("Connecting to the robot"), node.output
         assert node.interrupt() < IN_TIME
 
 
 def test_a_node_with_several_arms_connecting_to_a_silent_robot_exits_on_interrupt(master, robot):
     master.set(ALL + "/panda_2/robot_ip", SILENT)
     with listening(SILENT), combined(master) as node:
-        assert node.says(f"at {SILENT}"), node.output
+        assert node.prints(f"at {SILENT}"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -337,7 +337,7 @@ def test_a_node_that_lost_its_robot_exits_on_interrupt(master, reconnect):
     master.set(ONE + "/reconnect", reconnect)
     with one_with_robot(master) as (node, robot), woken_at_last(robot):
         os.kill(robot.process.pid, signal.SIGSTOP)
-        assert node.says("the robot is lost"), node.output
+        assert node.prints("the robot is lost"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -364,13 +364,13 @@ def test_a_controller_without_real_time_privileges_is_not_started(master):
     master.set(ONE + "/realtime_config", "enforce")
     master.set(ONE + "/robot_ip", OTHER)
     sentence = "Start with realtime_config:=ignore"
-    through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with a robot that is not simulated
+    through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with a real robot
     with simulated("panda", OTHER, "lockstep", "--no-hand") as robot, one(master, through) as node:
-        assert node.says("is ready"), node.output
-        assert node.says(sentence), node.output
-        for times, order in ((2, "spawn"), (3, "start")):  # each time it is asked
+        assert node.prints("is ready"), node.output
+        assert node.prints(sentence), node.output
+        for times, order in ((2, "spawn"), (3, "start")):  # at each request
             assert "Started" not in manager(master, order, TRAJECTORY)
-            assert node.says(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
+            assert node.prints(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
             assert node.output.count(sentence) == times
         assert "running" not in manager(master, "list")
         assert robot.ask("state").startswith("Idle")
@@ -378,7 +378,7 @@ def test_a_controller_without_real_time_privileges_is_not_started(master):
         assert node.interrupt() < IN_TIME
 
 
-# A kernel with real-time support is made use of, unless this says otherwise.
+# Otherwise a kernel with real-time support would be used.
 HAS_REALTIME = Path("/sys/kernel/realtime").exists()
 ANYHOW = ("env", "FRANKA_REALTIME=ignore") if HAS_REALTIME else ()
 
@@ -397,7 +397,7 @@ def test_a_node_with_several_simulated_arms_needs_no_real_time_kernel(master, ro
         simulated("panda", OTHER, "realtime", "--no-hand"),
         combined(master, (*ANYHOW, *UNPRIVILEGED)) as node,
     ):
-        assert node.says("going on without real-time priority"), node.output
+        assert node.prints("going on without real-time priority"), node.output
         assert node.interrupt() < IN_TIME
 
 
@@ -415,11 +415,11 @@ def test_a_motion_continues_without_the_master(tmp_path, urdf):
 def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
     with moving(master) as (node, robot):
         robot.ask("push panda_link7 0 0 -220 60")
-        assert node.says("reflex"), node.output
+        assert node.prints("reflex"), node.output
         with woken_at_last(robot):
             asked = master.run("/usr/bin/python3", "-c", ASK_RECOVERY, str(robot.process.pid))
             assert asked.returncode == 0, asked
-            assert node.says("recovering") and node.says("the robot is lost"), node.output
+            assert node.prints("recovering") and node.prints("the robot is lost"), node.output
             assert node.interrupt() < IN_TIME
 
 
@@ -434,7 +434,7 @@ def woken_at_last(robot):
 @contextmanager
 def one_with_robot(master, pace="patient", through=()):
     with simulated("panda", OTHER, pace, "--no-hand") as robot, one(master, through) as node:
-        assert node.says("is ready"), node.output
+        assert node.prints("is ready"), node.output
         yield node, robot
 
 

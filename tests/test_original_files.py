@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What other people's launch files, builds and programs find of the original by its path or name is there."""
+"""Paths and names of the original that existing launch files, builds and programs use exist here."""
 
 import os
 import subprocess
@@ -50,7 +50,7 @@ def test_files_are_at_the_originals_paths(package):
 
 
 def exported(package: str, attribute: str) -> set[str]:
-    """What packages export for another one, as `package value`."""
+    """Exports of packages for another one, as `package value`."""
     command = ["rospack", "plugins", f"--attrib={attribute}", package]
     return set(subprocess.run(command, text=True, capture_output=True, check=True).stdout.splitlines())
 

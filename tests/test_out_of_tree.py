@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A package as somebody writes it on top of ours builds against the devel and the install space, and runs."""
+"""A user's package builds against the devel and the install space, and runs."""
 
 import os
 import re
@@ -19,7 +19,7 @@ BEGIN = -2.356194490192345  # of the fourth joint [rad]
 
 
 def end(process: subprocess.Popen) -> None:
-    """Interrupts a process as Ctrl-C would."""
+    """Interrupts a process as Ctrl-C does."""
     process.send_signal(signal.SIGINT)
     try:
         process.wait(30)
@@ -29,7 +29,7 @@ def end(process: subprocess.Popen) -> None:
 
 
 def where(overlay: Overlay, launch: subprocess.Popen, log: Path) -> tuple[str, int, float]:
-    """What the node's own service says, once it has brought the arm to its place, or after two minutes."""
+    """Answer of the node's own service once the arm has arrived, or after two minutes."""
     deadline = time.monotonic() + 120
     answer = None
     while time.monotonic() < deadline:

@@ -10,7 +10,7 @@ import pytest
 TOP = Path(__file__).resolve().parent.parent
 SOURCE = TOP / "catkin_ws" / "src"
 
-# How C++ and Python sources read a parameter: of a node handle, or by helpers that say what is wrong.
+# Code that reads a parameter in C++ and Python: from a node handle, or with helpers that report errors.
 READS = [
     re.compile(r'(?:nh_?|handle)\.(?:param|getParam|getParamCached|hasParam)(?:<[^>]*>)?\(\s*"([\w/]+)"'),
     re.compile(r'searchParam\(\s*"([\w/]+)"'),
@@ -19,7 +19,7 @@ READS = [
     re.compile(r'(?:required|number)\(\s*"([\w/]*\w)"'),
     re.compile(r'rospy\.get_param\("~([\w/]+)"'),
 ]
-# Names that are put together: what is read, and what it is part of.
+# Composed names: the literal in the source, and the parameter's full name.
 PARTS = [
     (re.compile(r'readThresholds\(nh,\s*"(\w+)"'), "collision_config/"),
     (re.compile(r'tolerance\("(\w+)"\)'), "default_grasp_epsilon/"),
@@ -37,7 +37,7 @@ SECTIONS = {
     ],
     "franka_gripper_node": ["franka_gripper/src/franka_gripper/gripper_node.py"],
 }
-# Read again where another section explains it.
+# Also read by another node, and explained in its section.
 ELSEWHERE = {"franka_control_node": {"arm_id"}, "franka_gripper_node": {"default_grasp_epsilon"}}
 
 

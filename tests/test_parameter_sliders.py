@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The sliders that stand in for rqt, moved with a mouse on a virtual screen, and the arm that obeys them."""
+"""The sliders that replace rqt, moved with a mouse on a virtual screen, and their effect on the arm."""
 
 import json
 import re
@@ -16,10 +16,10 @@ from screen import children_of, drag, virtual_screen, window_of
 ADDRESS = "127.0.7.21"
 CONTROLLER = "cartesian_impedance_example_controller"
 SERVER = f"/{CONTROLLER}/dynamic_reconfigure_compliance_param_node"
-PATIENCE = 90.0  # for whatever should happen soon, on a busy machine [s]
+PATIENCE = 90.0  # limit for reactions on a busy machine [s]
 SCALE_WIDTH, BORDER, KNOB = 364, 3, 30  # of the panel's sliders; [px]
-WAY = SCALE_WIDTH - 2 * BORDER - KNOB  # of the knob's middle [px]
-ABOVE_BOTTOM = 12  # where the knob is [px]
+WAY = SCALE_WIDTH - 2 * BORDER - KNOB  # of the knob's centre [px]
+ABOVE_BOTTOM = 12  # position of the knob [px]
 STIFFEST = 400.0  # [N/m]
 PUSH = 8.0  # [N]
 
@@ -33,7 +33,7 @@ def wait_for(session, condition, what):
 
 
 class Panel:
-    """What the user sees of the sliders and does with them."""
+    """Reads and moves the sliders like a user."""
 
     def __init__(self, folder):
         self._picture = folder / "panel.png"
@@ -44,7 +44,7 @@ class Panel:
         return [place for place in children_of(window) if place[2] == SCALE_WIDTH] if window else []
 
     def shows(self, number, most):
-        """The value at which a slider's knob stands: it is brighter than what it slides in."""
+        """The value at a slider's knob, which is brighter than the rest."""
         subprocess.run(["import", "-window", "root", str(self._picture)], check=True, timeout=30)
         x, y, _, height = self.scales()[number]
         with Image.open(self._picture) as picture:
@@ -64,7 +64,7 @@ class Panel:
 
 
 class Robot:
-    """The simulated one, and the parameters of its controller."""
+    """The simulated robot, and the parameters of its controller."""
 
     def __init__(self, session):
         self._session = session
@@ -76,11 +76,11 @@ class Robot:
 
     @staticmethod
     def push():
-        """Straight up along the end effector's axis, for longer than the test lasts."""
+        """Pushes straight up along the end effector's axis, for longer than the test."""
         ask(ADDRESS, f"push panda_link7 0 0 {PUSH} 900000")
 
     def yields(self, distance):
-        """Waits until it stays where a spring would be."""
+        """Waits until it rests at the position of a spring under the push."""
         since = []
 
         def stays():
@@ -92,8 +92,8 @@ class Robot:
         wait_for(self._session, stays, f"a push of {PUSH} N moves the arm by {distance} m")
 
     def parameters(self):
-        told = self._session.run("rosrun", "dynamic_reconfigure", "dynparam", "get", SERVER).stdout
-        return {name: float(value) for name, value in re.findall(r"'(\w+_stiffness)': ([\d.]+)", told)}
+        output = self._session.run("rosrun", "dynamic_reconfigure", "dynparam", "get", SERVER).stdout
+        return {name: float(value) for name, value in re.findall(r"'(\w+_stiffness)': ([\d.]+)", output)}
 
     def set(self, **values):
         self._session.run("rosrun", "dynamic_reconfigure", "dynparam", "set", SERVER, json.dumps(values))
@@ -105,7 +105,7 @@ class Robot:
 
 @pytest.fixture(scope="module")
 def sliders(tmp_path_factory):
-    """The example with its panel and its robot, as the launch file starts them."""
+    """The example with its panel and its robot, from the launch file."""
     folder = tmp_path_factory.mktemp("sliders")
     launch = ["franka_example_controllers", f"{CONTROLLER}.launch", "sim:=true", "rqt:=true", "rviz:=false"]
     launch += ["load_gripper:=false", f"robot_ip:={ADDRESS}"]
@@ -135,7 +135,7 @@ def test_sliders_follow_changes_by_others(sliders):
     robot.set(translational_stiffness=120.0, rotational_stiffness=20.04)
     wait_for(session, lambda: abs(panel.shows(0, STIFFEST) - 120.0) < 2.0, "the slider moves")
     assert panel.shows(1, 30.0) == pytest.approx(20.04, abs=0.2)
-    # A slider that follows sets nothing, not even to what it can show.
+    # A slider that follows a change sets no value, not even its rounded one.
     assert robot.parameters()["rotational_stiffness"] == 20.04
 
 

@@ -1,8 +1,8 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a bad program does to a robot: wrong bytes, half connections, crashes, answers that come late.
+"""Effects of faulty clients on a robot: wrong bytes, incomplete connections, crashes, late answers.
 
-A client that sends single bytes (fci_wire): damage (faults 3), TCP (faults 4), its timing (faults 5).
+They use fci_wire: damage (faults 3), TCP (faults 4), timing (faults 5).
 """
 
 import os
@@ -34,7 +34,7 @@ LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 
 @pytest.fixture(autouse=True)
 def idle(request):
-    """One failure is not followed by another one's."""
+    """A failed test must not cause failures of the next ones."""
     yield
     for name in ("raw", "slow_raw"):
         sim = request.node.funcargs.get(name)
@@ -45,7 +45,7 @@ def idle(request):
 
 @pytest.fixture(scope="module", params=["panda", "fr3"])
 def raw(request):
-    """A robot in lock-step for clients that go byte by byte."""
+    """A robot in lock-step for clients of fci_wire."""
     address = {"panda": "127.0.25.1", "fr3": "127.0.25.2"}[request.param]
     with simulated(request.param, address, "lockstep") as sim:
         yield sim
@@ -61,7 +61,7 @@ def steps(client, state, count, q, finish=False):
 
 
 DAMAGE = {
-    # What the command carries, and the error of a Panda and of an FR3 (whose system names the range itself).
+    # The command's numbers, and the error of a Panda and of an FR3 (whose system has its own range error).
     "NaN": (float("nan"), 13, 13),
     "infinite": (float("inf"), 13, 13),
     "huge": (1e300, 12, 0),
@@ -83,7 +83,7 @@ def test_damaged_numbers_end_the_motion_with_the_generators_error(raw, kind):
         assert client.reply()[1][0] == LAYOUTS[raw.version].reflex
         resting = client.recover()
         assert resting.errors == []
-        # Not a bit of it has reached the arm.
+        # No part of it has reached the arm.
         assert max(abs(a - b) for a, b in zip(resting.joints("q"), q)) < 1e-4
 
 
@@ -188,7 +188,7 @@ def test_a_second_client_is_refused_without_side_effects(raw):
                     second.request(CONNECT, struct.pack("<HH", raw.version, 1))
                     assert second.ended(5.0)
             except ConnectionError:
-                pass  # turned away sooner still
+                pass  # refused even earlier
         state = steps(client, state, 2, q, finish=True)
         assert state.mode == IDLE
 
@@ -218,7 +218,7 @@ def test_connecting_again_and_again_leaks_nothing(raw):
 
 @pytest.fixture(scope="module")
 def slow_raw():
-    """A Panda at a tenth of the wall's speed, for a client in slow motion."""
+    """A Panda at a tenth of real time, for a slow client."""
     with simulated("panda", "127.0.25.3", "0.1") as sim:
         yield sim
 
@@ -241,7 +241,7 @@ def test_a_client_that_is_always_one_cycle_late_is_stopped(slow_raw):
 
 @pytest.mark.parametrize("own", [True, False])
 def test_resuming_after_a_pause(raw, own):
-    """Who goes on from its own last command jumps; who begins again at q_d and dq_d does not."""
+    """Resuming from the own last command causes a jump; resuming from q_d and dq_d does not."""
     speed, ramp, pause = 0.2, 100, 10
     with connected(raw) as client:
         state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
@@ -261,7 +261,7 @@ def test_resuming_after_a_pause(raw, own):
             state = client.state()
         for _ in range(20):
             if not own:
-                q = list(state.joints("q_d"))  # where the robot has gone meanwhile, at the same speed
+                q = list(state.joints("q_d"))  # the robot's extrapolated position, at the same speed
             state = step()
             if state.mode != MOVE:
                 break

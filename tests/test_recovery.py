@@ -41,8 +41,8 @@ def report(request, tmp_path_factory, long_run):
 def test_a_controller_survives_reflexes(report):
     assert report["started"] and report["moves"]
     for outcome in report["reflexes"]:
-        told = outcome.pop("reported")
-        assert "reflex" in told, told
+        text = outcome.pop("reported")
+        assert "reflex" in text, text
         assert outcome == {
             "reflex": True,
             "has_error": True,
@@ -60,8 +60,8 @@ def test_an_early_recovery_changes_nothing(report):
 
 
 def test_two_simultaneous_recoveries_are_both_answered(report):
-    # actionlib's simple server gives way to a later goal: by preempting one that runs, by recalling
-    # one that it has not taken up yet.
+    # actionlib's simple server replaces a goal by a later one: it preempts an active goal and recalls
+    # a pending one.
     (first, _), (second, _) = report["twice"]
     assert first in (SUCCEEDED, PREEMPTED, RECALLED), report["twice"]
     assert second == SUCCEEDED, report["twice"]

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_control_node outlives its robot: silent for ten seconds, killed while it recovers, started anew."""
+"""franka_control_node survives a robot that is silent for ten seconds, killed in a recovery, restarted."""
 
 import json
 import subprocess

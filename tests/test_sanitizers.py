@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Sanitizers: threads on what hands over between services and loop, all on the client."""
+"""Sanitizers: ThreadSanitizer for data shared by services and loop, all sanitizers for the client."""
 
 import os
 import subprocess
@@ -28,7 +28,7 @@ def test_controller_manager_under_thread_sanitizer(long_run):
 
 @pytest.mark.parametrize("sanitizer", ["address,undefined", "thread"])
 def test_client_under_sanitizers(long_run, sanitizer):
-    """libfranka needs no ROS, so all of its tests run instrumented (a build of its own: long form only)."""
+    """libfranka needs no ROS, so all its tests run instrumented (separate build: long form only)."""
     if not long_run:
         pytest.skip("builds libfranka and its tests anew: ./franka test --long")
     build = TOP / "out" / f"libfranka-{sanitizer.split(',')[0]}"
@@ -39,17 +39,17 @@ def test_client_under_sanitizers(long_run, sanitizer):
     programs = sorted(path for path in (build / "test").glob("libfranka_*_test") if path.is_file())
     assert programs
     for program in programs:
-        # Without address space randomisation, which some kernels stretch beyond what the sanitizer knows.
+        # Without address space randomisation: on some kernels its range breaks the sanitizer.
         run(["setarch", "-R", program], 1800)
 
 
 def test_hardware_interface_under_thread_sanitizer(long_run, tmp_path):
-    """Loop, setters, switches, connections that come and go (a build of its own: long form only)."""
+    """Loop, setters, switches, lost and new connections (separate build: long form only)."""
     if not long_run:
         pytest.skip("builds franka_hw and what is below it anew: ./franka test --long")
     build = TOP / "out" / "franka_hw-thread"
-    # Inline functions of boost stay hidden: if Debian's roscpp locked by our copies, which are instrumented,
-    # and unlocked by its own, which are not, every lock would be reported.
+    # Inline functions of boost stay hidden: otherwise Debian's roscpp might lock with our instrumented copies
+    # and unlock with its own, and every lock would be reported.
     options = {
         "CATKIN_DEVEL_PREFIX": build / "devel",
         "CATKIN_ENABLE_TESTING": "ON",
@@ -63,13 +63,13 @@ def test_hardware_interface_under_thread_sanitizer(long_run, tmp_path):
     run(["make", "-C", build, "-j2", "franka_hw_robot_test"], 3600)
     with ros_nodes.master(tmp_path) as ros:
         suppressions = TOP / "tests" / "data" / "franka_hw_tsan.supp"
-        ros.environment.pop("FRANKA_TEST_LONG", None)  # the sanitizer makes it long enough
+        ros.environment.pop("FRANKA_TEST_LONG", None)  # it takes long enough with the sanitizer
         ros.environment["TSAN_OPTIONS"] = f"suppressions={suppressions} second_deadlock_stack=1"
-        # Before the workspace's libraries, which are not instrumented.
+        # First in the path, because the workspace's libraries are not instrumented.
         libraries = [str(build / "devel" / "lib"), os.environ.get("LD_LIBRARY_PATH", "")]
         ros.environment["LD_LIBRARY_PATH"] = ":".join(libraries)
         program = build / "devel" / "lib" / "franka_hw" / "franka_hw_robot_test"
-        # Not what counts allocations or milliseconds.
+        # Without tests that count allocations or milliseconds.
         tests = "-Cycle.*:Modes.ControllersRunOnceAMillisecond*"
         result = ros.run("setarch", "-R", str(program), f"--gtest_filter={tests}", timeout=1800)
     reports = result.stderr[result.stderr.find("WARNING: ThreadSanitizer") :]

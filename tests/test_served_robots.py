@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Robots of a ROS world that are served over the FCI at addresses of their own, beside one that is not."""
+"""Robots of a ROS world that are served over the FCI, each with its address, beside one that is not."""
 
 import json
 from pathlib import Path
@@ -46,7 +46,7 @@ def test_the_robot_moves_in_simulated_time(seen):
     assert (seen["move"]["status"], seen["move"]["mode"]) == (0, IDLE)
     assert seen["move"]["moved"] == pytest.approx(0.1, abs=1e-3)
     assert seen["move"]["clock"] >= 1.0
-    assert seen["ros"] < 1e-6  # asked one after the other, while the arm still settles
+    assert seen["ros"] < 1e-6  # read one after the other, while the arm still settles
 
 
 def test_the_user_stop_ends_its_motion(seen):

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Everybody calls franka_control_node as fast as they can while a robot moves, and somebody never reads."""
+"""Clients call franka_control_node as fast as possible while its robot moves; a subscriber never reads."""
 
 import json
 from pathlib import Path
@@ -14,8 +14,8 @@ HERE = Path(__file__).resolve().parent
 
 ADDRESS = "127.0.32.12"
 CONTROLLERS = ["franka_state_controller", "effort_joint_trajectory_controller"]
-STATES = 300.0  # of franka_states [Hz]: soon more than a connection holds that nobody reads
-WITHIN = 10.0  # [s] for any answer: what waits its turn in four threads, beside other work of the machine
+STATES = 300.0  # of franka_states [Hz]: soon more than the buffer of an unread connection
+WITHIN = 10.0  # [s] for any answer: calls queue for four threads, on a busy machine
 SETTERS = 7
 IN_TIME = 2.0  # [s]
 
@@ -31,7 +31,7 @@ def report(tmp_path_factory, long_run):
             master.set(f"/{name}", values)
         master.set("/franka_state_controller/publish_rate", STATES)
         with master.node("franka_control", "franka_control_node", "franka_control") as node:
-            assert node.says("is ready"), node.output
+            assert node.prints("is ready"), node.output
             spawn = ["rosrun", "controller_manager", "controller_manager", "spawn", *CONTROLLERS]
             spawned = master.run(*spawn)
             assert "Started" in spawned.stdout, f"{spawned}\n{node.output}"
@@ -69,7 +69,7 @@ def test_the_motion_continues(report):
 
 def test_a_client_that_never_reads_blocks_no_other(report):
     reader = report["reader"]
-    # A message that is not fetched in time makes room for the next; on a busy machine that may be one's own.
+    # The next message replaces one that is not fetched in time, on a busy machine also for a normal reader.
     assert reader["received"] > 0.5 * reader["published"] > 50
     assert report["never_read"]["held_up"], "All was still sent: nothing was tested."
     assert report["never_read"]["connected"]

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Four arms in one simulation that runs as fast as it can: they start, and leave room for everybody else."""
+"""Four arms in one simulation as fast as possible: they start, and leave processor time for others."""
 
 import json
 from pathlib import Path
@@ -38,9 +38,9 @@ def test_an_arm_adds_no_processes_but_its_spawners(report):
 
 
 def test_clock_messages_wake_few_nodes(report):
-    # Spawners stay as long as their controllers: each message would wake them up for nothing.
+    # Spawners run as long as their controllers: each message would wake them up needlessly.
     assert not [node for node in report["follow_clock"] if "spawner" in node]
-    # Up to ten messages waited for the subscriber.
+    # Up to ten messages were queued for the subscriber.
     assert report["clock_rate"] < 200 + 20
 
 
@@ -53,7 +53,7 @@ def test_joint_states_hold_arm_and_hand_in_kinematic_order(report):
 def test_joint_states_arrive_at_30_hz_of_simulated_time(report):
     periods = [later - earlier for earlier, later in zip(report["stamps"], report["stamps"][1:])]
     for period in periods:
-        messages = max(1, round(period * 30 / 1e9))  # one that was still under way cost the next
+        messages = max(1, round(period * 30 / 1e9))  # a message still being sent dropped the next
         assert abs(period - messages * 1e9 / 30) <= 1e6  # the tick
 
 
@@ -63,5 +63,5 @@ def test_late_subscribers_get_the_transforms_of_every_arm(report):
 
 
 def test_time_is_real_time_while_a_robot_starts(report):
-    # The host makes up for 50 ms of delay at most, here within half a second.
+    # The host catches up at most 50 ms of delay, here within half a second.
     assert report["pace_while_one_starts"] <= 1.11

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A lock-step robot and its client on a machine that starves them: slower, never red, never another result.
+"""A lock-step robot and its client on a starved machine: slower, but without failures or other results.
 
 Either of the two is stopped in the middle of a motion, on a machine with as many busy processes as
 processors (the long form: eight for each).
@@ -43,7 +43,7 @@ def stop_for_a_while(pid):
 
 
 def moved(sim, client, torque, stopped=None):
-    """One motion from a reset world. @returns the hash of what the robot did."""
+    """One motion from a reset world. @returns the robot's hash."""
     sim.ask("reset")
     client.give("move", seconds=4.0, amplitude=0.0 if torque else 0.1, torque=torque, announce=True)
     begun = client.line()
@@ -53,7 +53,7 @@ def moved(sim, client, torque, stopped=None):
     result = client.result()
     assert result["outcome"] == "ok", result
     assert stopped is None or result["wall"] > STOPPED, "The motion had ended before."
-    assert client.tell("set_load")["outcome"] == "ok"  # answered when the world is at rest
+    assert client.run_task("set_load")["outcome"] == "ok"  # answered when the world is at rest
     return sim.ask("hash")
 
 
@@ -64,7 +64,7 @@ LIBRARIES = [("pyfranka", "panda"), ("pyfranka", "fr3")]
 def test_lock_step_waits_for_a_starved_client_and_repeats(library, robot):
     address = {"panda": "127.0.41.1", "fr3": "127.0.41.2"}[robot]
     with simulated(robot, address, "lockstep") as sim, client_process(library) as client, busy():
-        assert client.tell("connect", address=address)["outcome"] == "ok"
+        assert client.run_task("connect", address=address)["outcome"] == "ok"
         for torque in (False, True):
             hashes = [
                 moved(sim, client, torque, stopped) for stopped in (None, client.process.pid, sim.process.pid)

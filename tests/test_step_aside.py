@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""On a machine that has the original packages ours step aside: `./franka build` decides, catkin obeys."""
+"""Our packages step aside for installed originals: `./franka build` decides, catkin skips them."""
 
 import os
 import re
@@ -20,7 +20,7 @@ def package_name(folder: Path) -> str:
 
 
 def dependencies(folder: Path) -> set[str]:
-    """Packages named by any depend tag that matters to what is built or run."""
+    """Packages in the depend tags for build and run."""
     text = (folder / "package.xml").read_text()
     return set(re.findall(r"<(?:build_|exec_|build_export_)?depend>(\w+)<", text))
 
@@ -30,7 +30,7 @@ def stand_ins() -> dict[str, Path]:
 
 
 def pretend_installed(prefix: Path, *packages: str) -> None:
-    """What an installed catkin package shows of itself: package.xml and a CMake config."""
+    """Creates the visible files of an installed catkin package: package.xml and a CMake config."""
     for package in packages:
         share = prefix / "share" / package
         (share / "cmake").mkdir(parents=True)
@@ -43,7 +43,7 @@ def pretend_installed(prefix: Path, *packages: str) -> None:
 
 
 def decided(prefix_path: str, script: Path = TOP / "franka") -> set[str]:
-    """What `./franka build` leaves out where CMAKE_PREFIX_PATH is this."""
+    """Packages that `./franka build` leaves out with this CMAKE_PREFIX_PATH."""
     result = subprocess.run(
         ["bash", "-c", f"source {script}; stand_ins_to_leave_out"],
         env={**os.environ, "CMAKE_PREFIX_PATH": prefix_path},
@@ -72,7 +72,7 @@ def test_our_own_spaces_do_not_count_as_originals():
 
 
 def test_everything_linked_to_hardware_interface_steps_aside_with_it(originals):
-    """The group as the package files tell it, found by following the dependencies."""
+    """The group, found from the dependencies in the package files."""
     ours = stand_ins()
     group = {"hardware_interface"}
     while True:
@@ -109,7 +109,7 @@ def test_every_stand_in_can_step_aside(tmp_path):
 
 
 def test_the_build_prints_it_and_catkin_skips_the_packages(tmp_path, originals):
-    """`configure_and_make` in a workspace of package files only: the message, and what CMake traverses."""
+    """`configure_and_make` in a workspace of package files only: the message, and the packages in CMake."""
     project = tmp_path / "project"
     copied = project / "catkin_ws" / "src"
     copied.mkdir(parents=True)

@@ -127,7 +127,7 @@ def test_unknown_check_is_refused_with_a_list_of_checks(monkeypatch, capsys):
 
 def test_changes_count_from_the_merge_base(repository):
     first = repository.commit()
-    assert style.base_commit() == first  # there is no commit before
+    assert style.base_commit() == first  # there is no earlier commit
     repository.git("update-ref", "refs/remotes/origin/main", first)
     second = repository.commit()
     repository.commit()

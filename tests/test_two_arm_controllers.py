@@ -41,7 +41,7 @@ def test_two_arms_hold_their_relative_pose_while_the_marker_is_dragged(robot, tm
 
 
 def test_the_follower_follows_a_pushed_leader(robot, tmp_path):
-    """The follower's stiff law bears no stalls: its torques stand still while the loop of both arms does.
+    """The follower's stiff law tolerates no stalls: its torques stay constant while the loop stalls.
 
     On slow robots a stall of the machine lasts fewer ticks.
     """

@@ -11,7 +11,7 @@ import pytest
 TOP = Path(__file__).resolve().parent.parent
 SOURCE = TOP / "catkin_ws" / "src"
 
-# Packages that take the place of an original carry the version of the original whose interface they have:
+# Packages that replace an original have the version of the original whose interface they have:
 # CMake and package.xml of other packages may ask for it (find_package(Franka 0.9), version_gte).
 ORIGINALS = {
     "libfranka": "0.9.2",

@@ -1,8 +1,8 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Moves what the user would move in a two-arm example and prints what the arms did as JSON.
+"""Moves the marker or leader of a two-arm example and prints the arms' motions as JSON.
 
-Run by test_two_arm_controllers.py with the interpreter that ROS uses. Arguments: what the arms are, then
+Run by test_two_arm_controllers.py with the interpreter that ROS uses. Arguments: the robot type, then
 dual, or teleop and the address of the leader.
 """
 
@@ -23,7 +23,7 @@ DRAG, STEPS, DRAG_PERIOD = np.array([0.03, 0.0, 0.04]), 20, 0.1  # [m], [s]
 
 
 class Arms:
-    """Keeps the last states of two arms, and every pair of the same moment."""
+    """Stores the last states of two arms, and every pair of states with the same time."""
 
     def __init__(self, namespace, names):
         self.last, self.pairs, self.names = {}, [], names
@@ -42,7 +42,7 @@ class Arms:
         return modes == [FrankaState.ROBOT_MODE_MOVE] * 2
 
     def wait(self, seconds):
-        """Until so much of the robots' time has passed: a machine may be too slow for it."""
+        """Waits for a duration of the robots' time, because a busy machine may be slower."""
         first = self.names[0]
         end = self.last[first].time + seconds
         wait_for(lambda: self.last[first].time >= end, f"The passing of {seconds} s")

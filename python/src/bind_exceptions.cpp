@@ -12,7 +12,7 @@ namespace {
 PyObject* control_exception = nullptr;
 PyObject* version_exception = nullptr;
 
-/// Raises `type` with attributes beside its text.
+/// Raises `type` with its text and attributes.
 template <typename Fill>
 void raise(PyObject* type, const char* what, Fill fill) {
   py::object error = py::reinterpret_borrow<py::object>(type)(what);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Commands, and motions that a Python program drives itself.
+// Commands, and motions under active control.
 #include <franka/control_types.h>
 #include <pybind11/stl.h>
 

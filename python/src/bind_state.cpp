@@ -15,7 +15,7 @@ namespace {
 
 using franka::RobotState;
 
-/// A read-only attribute that shows the state's own numbers.
+/// A read-only attribute that is a view of the state's field.
 template <std::size_t size>
 void field(py::class_<RobotState>& type, const char* name,
            std::array<double, size> RobotState::* member, const char* doc,

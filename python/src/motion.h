@@ -11,13 +11,13 @@
 
 namespace pyfranka {
 
-/// A motion that can be ended before Python forgets it.
+/// A motion that can be ended before Python deletes it.
 class Motion {
  public:
   explicit Motion(std::unique_ptr<franka::ActiveControlBase> motion) : motion_(std::move(motion)) {}
   Motion(Motion&&) = default;
   ~Motion() {
-    // Called with the interpreter held, and the robot may take a while to come to rest.
+    // Called with the interpreter's lock held, and braking takes time.
     if (motion_) {
       const pybind11::gil_scoped_release release;
       motion_.reset();

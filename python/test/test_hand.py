@@ -29,7 +29,7 @@ def test_the_hand_and_threads_that_run_while_it_moves(robots, addresses, name):
     counter.start()
     before = counted[0]
     assert hand.move(0.05, 0.05)
-    # Were the interpreter held, nothing would be counted meanwhile; a busy machine counts less than 400.
+    # With the interpreter's lock held nothing would be counted; a busy machine counts less than 400.
     assert counted[0] - before > 5
     moving.set()
     counter.join()
@@ -44,7 +44,7 @@ def test_hand_states_arrive_at_30_hz(robots, addresses, name):
     begin = time.monotonic()
     for _ in range(30):
         hand.read_once()
-    # Not sooner; a busy machine may be late.
+    # Not earlier; a busy machine may be late.
     assert 0.9 < time.monotonic() - begin < 3.0
 
 
@@ -53,7 +53,7 @@ def test_a_hand_is_stopped_from_another_thread(robots, addresses, name):
     hand.move(0.08, 0.1)
     ended = threading.Event()
 
-    # In lock-step a homing may be over in a tenth of a second, or not yet have begun after that.
+    # In lock-step a homing may take less than 0.1 s, or start later than that.
     def stop_until_it_ended():
         while not ended.wait(0.005):
             hand.stop()

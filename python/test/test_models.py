@@ -70,7 +70,7 @@ def test_a_model_at_rest_gives_the_torques_that_the_robot_measures(robot):
     np.testing.assert_allclose(state.tau_J - state.tau_J_d, expected, atol=0.05)
 
 
-# --- with what a state would hold given one by one -------------------------------------------------------
+# --- with explicit arguments -----------------------------------------------------------------------------
 
 TOOL = np.array([[0.0, -1, 0, 0.1], [1, 0, 0, 0.2], [0, 0, 1, 0.3], [0, 0, 0, 1]])
 DQ = np.array([0.4, -0.3, 0.6, 0.2, -0.5, 0.7, -0.1])
@@ -78,7 +78,7 @@ NO_LOAD = (np.zeros((3, 3)), 0.0, [0.0] * 3)
 
 
 def test_arguments_and_states_give_the_same_results(robot, name, offline):
-    """Of the robot's own model and, of the arm whose description it is, of ModelKDL."""
+    """For the robot's own model and, for the described arm, ModelKDL."""
     robot.set_EE(TOOL)
     robot.set_K(TOOL)
     robot.set_load(0.7, [0.01, -0.02, 0.08], np.diag([2e-3, 3e-3, 4e-3]))
@@ -137,7 +137,7 @@ def test_a_load_adds_its_mass_and_inertia(model):
 
 
 def test_coriolis_torques_balance_the_change_of_the_mass_matrix(model):
-    """dq^T c = dq^T dM/dt dq / 2: gravity apart, torques alone change the kinetic energy."""
+    """dq^T c = dq^T dM/dt dq / 2: without gravity only torques change the kinetic energy."""
     load = (np.diag([0.01, 0.02, 0.03]), 1.3, [0.02, -0.03, 0.1])
     step = 1e-6 * DQ
     rate = (model.mass(Q + step, *load) - model.mass(Q - step, *load)) / 2e-6

@@ -42,7 +42,7 @@ def test_state_members_are_numpy_arrays(robot):
             assert array.shape == shape and array.dtype == np.float64, field
             with pytest.raises(ValueError):
                 array[...] = 0.0
-    # Matrices as matrices: the rotation's rows and columns, the homogeneous row below.
+    # Matrices have two dimensions: rows and columns of the rotation, then the homogeneous row.
     pose = state.O_T_EE
     np.testing.assert_allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3), atol=1e-6)
     assert pose[3].tolist() == [0, 0, 0, 1]
@@ -78,7 +78,7 @@ def test_settings_reach_the_robot(robot):
     turned = np.array([[0.0, -1, 0, 0.01], [1, 0, 0, 0.02], [0, 0, 1, 0.03], [0, 0, 0, 1]])
     inertia = np.diag([1e-3, 2e-3, 3e-3])
     robot.set_EE(turned)
-    robot.set_K(turned.T.reshape(16))  # column by column, as libfranka has it
+    robot.set_K(turned.T.reshape(16))  # column-major, as in libfranka
     robot.set_load(0.4, [0.0, 0.01, 0.05], inertia)
     robot.set_joint_impedance([3000.0] * 4 + [2000.0] * 3)
     robot.set_cartesian_impedance(np.array([3000, 3000, 3000, 300, 300, 300]))
@@ -95,7 +95,7 @@ def test_settings_reach_the_robot(robot):
 
 
 def test_thresholds_may_differ_while_the_robot_accelerates(robot):
-    """A lower threshold of 0 makes a contact of whatever is felt; a robot at rest has the nominal ones."""
+    """With a lower threshold of 0 any torque is a contact; at rest the nominal thresholds apply."""
     sensitive, dull = [0.0] * 7, [50.0] * 7
     upper = [87.0] * 7
 
@@ -142,7 +142,7 @@ def test_walls_and_filters_are_those_of_a_panda(robot, name):
     robot.set_filters(*[1000.0] * 5)
 
 
-# FR3: the formula of its description, less the margin of the rate limiter.
+# FR3: the formula of its description, minus the margin of the rate limiter.
 VELOCITY = np.array([2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26])
 OFFSET = np.array([0.6599, 0.2517, 0.2, 0.3533, 0.5757, 0.4878, 0.4628])
 DECELERATION = np.array([6.0, 2.585, 3.5, 4.0, 17.0, 5.5, 17.0])
@@ -154,7 +154,7 @@ MARGIN = 1e-3
 def test_velocity_limits_are_returned(robots):
     q = np.array([2.6, -1.7, 0.0, -0.3, -2.8, 4.4, 0.1])
     panda, fr3 = robots["panda"], robots["fr3"]
-    # Panda: what three lost packets at the limit of acceleration may add is taken off.
+    # Panda: minus the increase by three lost packets at the acceleration limit.
     acceleration = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0]) - MARGIN
     expected = np.array([2.175] * 4 + [2.61] * 3) - (MARGIN + 3e-3 * acceleration)
     np.testing.assert_allclose(panda.get_upper_joint_velocity_limits(q), expected, atol=1e-9)
@@ -244,7 +244,7 @@ ACTIVE = {
 
 
 class Driver:
-    """A callback for a motion of one kind that notes what it is given."""
+    """A callback for one kind of motion that records its arguments."""
 
     def __init__(self, kind):
         self.kind, self.begin, self.last, self.periods = KINDS[kind], None, None, []
@@ -289,7 +289,7 @@ def test_torques_accompany_a_motion(robots, kind):
 
     getattr(robot, f"control_{kind}")(drive, torques, limit_rate=False, cutoff_frequency=1000.0)
     assert len(calls) >= TICKS
-    # Afterwards the robot holds what these soft torques reached.
+    # Afterwards the robot holds the position that these soft torques reached.
     check_moved(kind, drive.begin, drive.last)
 
 
@@ -318,7 +318,7 @@ def test_the_order_of_callbacks_can_be_chosen(robot, options, first):
 
 @pytest.mark.parametrize("reference, is_exact", [("RobotState", False), ("Command", True)])
 def test_the_first_command_is_filtered_from_the_state(robots, reference, is_exact):
-    """Through the filter: its first answer lies between the state and the command, or is the command."""
+    """The filter's first output is between the state and the command, or is the command."""
     robot, drive = robots["panda"], Driver("joint_positions")
     begins = []
 
@@ -416,7 +416,7 @@ def test_an_aborted_motion_returns_its_log(robot):
     log = caught.value.log
     assert 1 < len(log) <= 50
     assert log[-1].state.time > log[0].state.time
-    # What was sent, in the last record the leap.
+    # Sent commands; the last record has the jump.
     assert max(abs(log[-1].q_c - log[0].q_c)) > 0.1
     for field in ("q_c", "dq_c", "tau_J_d"):
         assert getattr(log[-1], field).shape == (7,)

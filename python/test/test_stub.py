@@ -13,7 +13,7 @@ import pytest
 STUB = Path(__file__).resolve().parent.parent / "src" / "pyfranka" / "__init__.pyi"
 # Set on the instances that are raised.
 RAISED = {"ControlException": {"log"}, "IncompatibleVersionException": {"server_version", "library_version"}}
-HELPERS = {"Array", "Command"}  # of the stub itself
+HELPERS = {"Array", "Command"}  # used only within the stub
 
 
 def public(names):
@@ -61,7 +61,7 @@ def test_classes_and_their_stubs_have_the_same_names(path, cls):
 
 
 def texts(doc):
-    """What docstrings of pybind11 say beside signatures, one text an overload."""
+    """Texts of pybind11's docstrings without signatures, one per overload."""
     if "Overloaded function." in doc:
         return [part.partition("\n")[2].strip() for part in re.split(r"\n\d+\. ", doc)[1:]]
     return [doc.partition("\n")[2].strip()]

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""pyfranka.VacuumGripper against a gripper of the test's own, which speaks the protocol byte by byte."""
+"""pyfranka.VacuumGripper with the test's own fake gripper."""
 
 import socket
 import struct
@@ -17,7 +17,7 @@ HEADER = struct.Struct("<HII")
 
 
 class FakeGripper:
-    """Answers what it is asked with `status`, or lets it wait for a stop; sends a state now and then."""
+    """Answers requests with `status`, or keeps them waiting for a stop; sends states periodically."""
 
     def __init__(self):
         self.status, self.waits, self.requests = SUCCESS, False, []
@@ -123,7 +123,7 @@ def test_failures_are_reported(fake):
 
 
 def test_stop_from_another_thread(fake):
-    """The fake runs in this process: were the interpreter held while waiting, nothing would ever end."""
+    """The fake runs in this process: a wait with the interpreter's lock held would never end."""
     gripper = pyfranka.VacuumGripper(ADDRESS)
     fake.waits = True
     stopper = threading.Thread(target=lambda: (fake.waiting.wait(20), gripper.stop()))

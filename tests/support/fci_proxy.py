@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A worse network between a client and a simulated robot, the same for the same seed.
 
-A `Proxy` listens at an address of its own and looks like the robot: it passes the TCP stream on (with the
-UDP port of `Connect` replaced by its own), states one way and commands the other. What happens to a
-datagram is decided by a `Channel`, from the datagram's number within the motion: no root, no tc.
+A `Proxy` has its own address and looks like the robot: it forwards the TCP stream (with the UDP port of
+`Connect` replaced by its own), states and commands. A `Channel` decides about each datagram, from the
+datagram's number within the motion. It needs no root and no tc.
 """
 
 import heapq
@@ -22,10 +22,10 @@ from fci_wire import HEADER, LAYOUTS, MOVE, PORT, State
 
 @dataclass
 class Channel:
-    """What happens to the datagrams of one direction; each answer may be several, or none.
+    """Changes the datagrams of one direction; each may become several, or none.
 
     `rule(number, datagram, random)` returns a list of (delay [s], datagram); number counts the datagrams
-    since the motion began, from 0. Outside of motions everything passes.
+    since the motion's start, from 0. Outside of motions all pass.
     """
 
     rule: object = None
@@ -52,25 +52,25 @@ class Channel:
         return result
 
     def worst_share(self, window: int = 100) -> float:
-        """The smallest share that passed of so many datagrams in a row."""
+        """The smallest share that passed in a window of consecutive datagrams."""
         windows = [self.passed[i : i + window] for i in range(max(1, len(self.passed) - window + 1))]
         return min(sum(each) / len(each) for each in windows) if self.passed else 1.0
 
 
 def losing(probability: float):
-    """Each datagram by itself."""
+    """Loses each datagram independently."""
     return lambda number, data, chance: [] if chance.random() < probability else [(0.0, data)]
 
 
 def losing_from(first: int, count: int):
-    """Exactly these, counted from the motion's first."""
+    """Loses exactly these, counted from the motion's first."""
     return lambda number, data, chance: [] if first <= number < first + count else [(0.0, data)]
 
 
 def bursts(begin: float, end: float, longest: int):
-    """Gilbert's two states: a burst begins and ends with these probabilities, and is cut at `longest`.
+    """Gilbert's two-state loss: bursts start and end with these probabilities and lose at most `longest`.
 
-    Between two bursts one datagram at least passes.
+    At least one datagram passes between two bursts.
     """
     burst = [0]
 
@@ -86,14 +86,14 @@ def bursts(begin: float, end: float, longest: int):
 
 
 def delaying(seconds):
-    """By a constant, or by what `seconds(random)` draws; later ones may overtake earlier ones."""
+    """Delays by a constant, or by `seconds(random)`; later datagrams may overtake earlier ones."""
     if callable(seconds):
         return lambda number, data, chance: [(max(0.0, seconds(chance)), data)]
     return lambda number, data, chance: [(seconds, data)]
 
 
 def stalling(first: int, seconds: float):
-    """From this number on everything waits, then comes at once."""
+    """From this number on all datagrams wait, then are sent together."""
     until = [0.0]
 
     def rule(number, data, chance):
@@ -110,7 +110,7 @@ def duplicating(number, data, chance):
 
 
 def every(period: int, change):
-    """Each datagram passes; each `period`-th is preceded by what `change(data, random)` makes of it."""
+    """Each datagram passes; `change(data, random)` of each `period`-th is sent before it."""
 
     def rule(number, data, chance):
         before = [(0.0, change(data, chance))] if number % period == period - 1 else []
@@ -120,7 +120,7 @@ def every(period: int, change):
 
 
 def renumbered(by: int):
-    """The datagram with another message_id: an old one again, or one from the future."""
+    """The datagram with an earlier or later message_id."""
 
     def change(data, chance):
         identity = struct.unpack_from("<Q", data)[0]
@@ -143,7 +143,7 @@ class Proxy:
     def __init__(self, address: str, robot: str, version: int):
         self.address, self.robot, self.version = address, robot, version
         self.commands, self.states = Channel(), Channel()
-        self.reply_delay = 0.0  # of what the robot says over TCP [s]
+        self.reply_delay = 0.0  # of the robot's replies [s]
         self.rates: list[float] = []  # control_command_success_rate of each state of the last motion
         self._moving = False
         self._listener = socket.create_server((address, PORT), backlog=4)
@@ -162,7 +162,7 @@ class Proxy:
             each.close()
 
     def set(self, commands=None, states=None, seed: int = 1):
-        """Between motions: what happens to the datagrams of those to come."""
+        """Sets the rules for the next motions; call it between motions."""
         self.commands = Channel(commands, seed)
         self.states = Channel(states, seed + 1)
         self.commands.restart()
@@ -179,11 +179,11 @@ class Proxy:
                 if not self._serve(client):
                     return
             except OSError:
-                pass  # either side has gone
+                pass  # one side has disconnected
             finally:
                 client.close()
 
-    # One connection. @returns whether to go on with the next one.
+    # One connection. @returns whether to accept the next one.
     def _serve(self, client: socket.socket) -> bool:
         here = self.address
         with (

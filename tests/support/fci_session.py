@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Simulated robots without ROS, their control interface, and client processes that take orders."""
+"""Simulated robots without ROS, their control interface, and client processes that execute tasks."""
 
 import json
 import os
@@ -26,7 +26,7 @@ def program() -> str:
 
 
 def start(*arguments: str) -> subprocess.Popen:
-    """franka_sim, when it has opened its ports."""
+    """Starts franka_sim and waits until it has opened its ports."""
     process = subprocess.Popen(
         [program(), *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     )
@@ -40,7 +40,7 @@ def start(*arguments: str) -> subprocess.Popen:
 
 
 def stop(process: subprocess.Popen) -> None:
-    """Ends a program as Ctrl-C would; fails when it will not end."""
+    """Ends a program as Ctrl-C does; fails if it does not end."""
     process.terminate()
     try:
         process.wait(20)
@@ -51,7 +51,7 @@ def stop(process: subprocess.Popen) -> None:
 
 
 def memory_of(pid: int) -> float:
-    """What a process holds resident [MB]."""
+    """Resident memory of a process [MB]."""
     lines = Path(f"/proc/{pid}/status").read_text().splitlines()
     return float(next(line for line in lines if line.startswith("VmRSS")).split()[1]) / 1024
 
@@ -64,7 +64,7 @@ class Simulation:
         self.version = VERSIONS[robot]
 
     def ask(self, line: str) -> str:
-        """One command of the control interface; what follows `ok`."""
+        """Sends one line to the control interface; returns the text after `ok`."""
         return ask(self.address, line)
 
     def memory(self) -> float:
@@ -77,7 +77,7 @@ class Simulation:
 
 @contextmanager
 def running(*arguments: str):
-    """Yields a franka_sim that has opened its ports; fails when it ends by itself or will not end."""
+    """Yields a franka_sim that has opened its ports; fails if it ends by itself or does not end."""
     process = start(*arguments)
     try:
         yield process
@@ -94,20 +94,20 @@ def simulated(robot: str, address: str, pace: str, *arguments: str):
 
 
 def go_first(pid: int = 0) -> None:
-    """Gives a process (0: this thread) the place before other work that a robot's clients are told to take,
-    where the system allows it: what is tested is the network, not the machine's load."""
+    """Gives a process (0: this thread) the real-time priority of a robot's client, if the system allows it,
+    so that the machine's load does not disturb the test."""
     with suppress(PermissionError, ProcessLookupError):
         os.sched_setscheduler(pid, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(50))
 
 
 def go_with_all(pid: int = 0) -> None:
-    """Back to where it was before `go_first`."""
+    """Restores the priority before `go_first`."""
     with suppress(PermissionError, ProcessLookupError):
         os.sched_setscheduler(pid, os.SCHED_OTHER, os.sched_param(0))
 
 
 class ClientProcess:
-    """A genuine or own client in a process of its own; `tell` gives it one task and returns the result."""
+    """A genuine or own client in its own process; `tell` sends it one task and returns the result."""
 
     def __init__(self, library: str, python: str):
         script = HERE / "genuine" / "network_client.py"
@@ -118,12 +118,12 @@ class ClientProcess:
         self._lines = Lines(self.process.stdout)
         self._due = False  # a result
 
-    def tell(self, do: str, **task) -> dict:
+    def run_task(self, do: str, **task) -> dict:
         self.give(do, **task)
         return self.result()
 
     def give(self, do: str, **task) -> None:
-        while self._due:  # a test that failed has left one behind
+        while self._due:  # left by a failed test
             self.result()
         self._due = True
         self.process.stdin.write(json.dumps({"do": do, **task}) + "\n")

@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The robot's protocol byte by byte, and a client in slow motion: each of its steps is a call of its own.
+"""The robot's protocol byte by byte, and a client in which each step is a separate call.
 
-It checks nothing and repairs nothing, so that a test can send what no library would. Layouts are those of
-protocol 5 (a Panda's) and 10 (an FR3's). Everything waits with a limit and fails with a sentence.
+It checks and corrects nothing, so that a test can send bytes that no library sends. Layouts are those of
+versions 5 (Panda) and 10 (FR3). All waits have a limit and fail with a message.
 """
 
 import select
@@ -21,7 +21,7 @@ COMMUNICATION = 25  # the error's index
 
 @dataclass(frozen=True)
 class Layout:
-    """Where things are in the datagrams of one version."""
+    """Layout of the datagrams of one version."""
 
     state_size: int
     command_size: int
@@ -70,7 +70,7 @@ class State:
 
     @property
     def reasons(self) -> list[int]:
-        """Why the last motion ended, reflex_reason."""
+        """reflex_reason, the errors that ended the last motion."""
         return [i for i in range(41) if self.data[self.layout.reasons + i]]
 
     def joints(self, field: str) -> tuple[float, ...]:
@@ -114,7 +114,7 @@ class Client:
         self.udp.close()
 
     def reset(self):
-        """Ends the connection as a program does that crashes: with RST instead of FIN."""
+        """Ends the connection like a crashed program: with RST instead of FIN."""
         self.tcp.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         self.close()
 
@@ -136,7 +136,7 @@ class Client:
         return reply[0], struct.unpack_from("<H", reply, 1)[0]
 
     def reply(self, timeout: float = 20.0) -> tuple[int, bytes]:
-        """@returns the next reply's id and what follows its header. Raises EOFError when there is none."""
+        """@returns the next reply's id and its payload. Raises EOFError if there is none."""
         self.tcp.settimeout(timeout)
         _, identity, size = HEADER.unpack(self._exactly(HEADER.size))
         return identity, self._exactly(size - HEADER.size)
@@ -151,7 +151,7 @@ class Client:
         return data
 
     def ended(self, timeout: float = 10.0) -> bool:
-        """Whether the robot ends the connection within that time."""
+        """Whether the robot closes the connection within that time."""
         self.tcp.settimeout(timeout)
         try:
             return self.tcp.recv(1) == b""
@@ -161,14 +161,14 @@ class Client:
             return False
 
     def state(self, timeout: float = 20.0) -> State:
-        """The oldest state that has not been read."""
+        """The oldest unread state."""
         if not select.select([self.udp], [], [], timeout)[0]:
             raise TimeoutError(f"The robot has sent no state for {timeout} s.")
         data, self.robot = self.udp.recvfrom(65536)
         return State(self.version, data)
 
     def newest_state(self) -> State:
-        """The last state that has come; waits for one where none has."""
+        """The newest state; waits for one if there is none."""
         state = self.state()
         while select.select([self.udp], [], [], 0)[0]:
             state = self.state()
@@ -185,7 +185,7 @@ class Client:
         self.udp.sendto(datagram, self.robot)
 
     def start(self, controller: int, generator: int) -> State:
-        """Starts a motion. @returns the state to answer: as all clients do, the second that shows it."""
+        """Starts a motion. @returns the state to answer: as for all clients, the second that shows it."""
         self.request(START, move_request(self.version, controller, generator))
         _, reply = self.reply()
         assert reply[0] == 1, f"The motion was not started but answered with status {reply[0]}."

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Franka's own client libraries, from PyPI, each in an environment of its own (decision 33)."""
+"""Franka's own client libraries, from PyPI, each in its own environment (decision 33)."""
 
 import subprocess
 from pathlib import Path
@@ -15,11 +15,11 @@ PACKAGES = {
 
 
 class NoWheel(Exception):
-    """PyPI has no wheel of a client for this machine's Python; says which."""
+    """PyPI has no wheel of a client for this machine's Python; the message names it."""
 
 
 def find_client_python(name: str) -> Path:
-    """The interpreter of that environment, which is made when it is not there. Raises NoWheel."""
+    """The interpreter of that environment, which is created if missing. Raises NoWheel."""
     folder = TOP / "out" / "genuine" / name
     python, stamp = folder / "bin" / "python", folder / "installed"
     if not (stamp.exists() and stamp.read_text() == " ".join(PACKAGES[name])):
@@ -28,7 +28,7 @@ def find_client_python(name: str) -> Path:
         result = subprocess.run(
             [*pip, "--only-binary=:all:", *PACKAGES[name]], capture_output=True, text=True, timeout=600
         )
-        # Without a network pip retries first, and then says the same.
+        # Without a network pip first retries, and then prints the same.
         if "No matching distribution found" in result.stderr and "Retrying" not in result.stderr:
             version = subprocess.check_output([python, "--version"], text=True).strip()
             raise NoWheel(f"PyPI has no wheel of {PACKAGES[name][0]} for {version}")
@@ -38,7 +38,7 @@ def find_client_python(name: str) -> Path:
 
 
 def client_python(name: str) -> Path:
-    """The same for a test, which is skipped where there is no such client."""
+    """The same for a test, which is skipped if there is no such client."""
     try:
         return find_client_python(name)
     except NoWheel as reason:

@@ -7,9 +7,9 @@ import threading
 
 
 class Lines:
-    """Reads a pipe in a thread of its own.
+    """Reads a pipe in its own thread.
 
-    select() on the pipe does not do: it does not see the lines that readline() has already read ahead, so a
+    select() on the pipe is not enough: it does not see lines that readline() has already buffered, so a
     program that writes two lines at once seems to have written one.
     """
 
@@ -24,7 +24,7 @@ class Lines:
         self._lines.put(None)
 
     def next(self, timeout: float) -> str | None:
-        """The next line without its end; None when the output has ended or nothing came in that time [s]."""
+        """The next line without its end; None if the output has ended or after that time [s]."""
         try:
             return self._lines.get(timeout=timeout)
         except queue.Empty:

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Robots with clients behind a proxy, all in motion at the same time, for what a bad network does to them."""
+"""Robots with clients behind a proxy, all in motion at the same time, for tests of a bad network."""
 
 import sys
 import warnings
@@ -14,14 +14,14 @@ from stalls import TRIES
 PACE = 0.1
 TICK = 1e-3 / PACE  # of the wall [s]
 SECONDS = 0.6  # a motion's, of the robot's time
-# So gentle that nineteen extrapolated cycles stay within the jerk's limit: what they miss is
+# So slow that nineteen extrapolated cycles stay within the jerk limit: their error is
 # 2 n^3 / 6 times the jerk of 1.1 rad/s^3, at most 2600 of 5000 rad/s^3.
 AMPLITUDE = 0.0005
 LOST = "communication_constraints_violation"
 
 
 class NetworkFixture:
-    """A robot, a proxy before it, and a client that knows only the proxy."""
+    """A robot, its proxy, and a client that knows only the proxy."""
 
     def __init__(self, sim, proxy, client):
         self.sim, self.proxy, self.client = sim, proxy, client
@@ -30,7 +30,7 @@ class NetworkFixture:
 def network_fixtures(
     stack: ExitStack, network: str, pace: str, kinds, *arguments: str
 ) -> list[NetworkFixture]:
-    """One fixture for each library and robot of `kinds`, but for clients that PyPI does not have."""
+    """One fixture for each library and robot of `kinds`, except for clients that PyPI lacks."""
     made = []
     for i, (library, robot) in enumerate(kinds):
         try:
@@ -59,12 +59,12 @@ def run(group, commands=None, states=None, seed=1, seconds=SECONDS, amplitude=AM
 
 def recover(group):
     for fixture in group:
-        answer = fixture.client.tell("recover")
+        answer = fixture.client.run_task("recover")
         assert answer["outcome"] == "ok" and answer["mode"] == "Idle", answer
 
 
 def check_lost(group, results, most_wall):
-    """The robots have given up, said why, and go on after a recovery."""
+    """Checks that the robots ended their motions with the reason, and continue after a recovery."""
     try:
         for fixture, result in zip(group, results):
             assert LOST in result["outcome"], result
@@ -78,16 +78,16 @@ def check_lost(group, results, most_wall):
 
 
 def slowest(ticks: float) -> float:
-    """A motion's end is known by then [s]: its ticks on the wall, and two seconds for a busy machine."""
+    """Limit for the end of a motion [s]: its ticks in wall time, and two seconds for a busy machine."""
     return ticks * TICK + 2.0
 
 
 def survive(group, commands=None, states=None, least=None, **task):
-    """Every motion ends well, and the robots' success rate is what the proxy let through, or where that
-    does not say it, at least `least`.
+    """Checks that every motion succeeds, and that the robots' success rate is the share that the proxy
+    forwarded, or, if that is unknown, at least `least`.
 
-    A busy machine loses cycles of its own, which the same comparison shows: then all is done again, `TRIES`
-    times at most.
+    A busy machine loses additional cycles, which the same comparison shows: then the motions are repeated, at
+    most `TRIES` times.
     """
     for seed in range(1, TRIES + 1):
         results = run(group, commands, states, seed, **task)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A package outside of this repository, built and run on top of it with nothing else in the environment."""
+"""A package outside this repository, built and run on top of it with a clean environment."""
 
 import os
 import subprocess
@@ -10,7 +10,7 @@ from franka_sim_mujoco.session import free_port
 
 
 class Overlay:
-    """A workspace of a package alone, on top of a space of ours."""
+    """A workspace with one package, on top of our devel or install space."""
 
     def __init__(self, underlay: Path, package: Path, folder: Path):
         self.underlay = underlay
@@ -38,7 +38,7 @@ class Overlay:
         )
 
     def build(self, target: str = "all") -> str:
-        """Builds a target with all warnings as errors. Returns what the tools said."""
+        """Builds a target with all warnings as errors. Returns the output."""
         command = (
             f"cmake -S {self.package} -B {self.folder}/build -DCATKIN_DEVEL_PREFIX={self.folder}/devel "
             "-DCMAKE_CXX_FLAGS='-O0 -Wall -Wextra -Werror' -DPYTHON_EXECUTABLE=/usr/bin/python3 "

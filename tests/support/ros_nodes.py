@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Single nodes on a bare ROS master, without launch files: their parameters, their output, how they end."""
+"""Single nodes on a ROS master, without launch files: their parameters, their output, their exit."""
 
 import os
 import signal
@@ -45,8 +45,8 @@ class Node:
     def output(self) -> str:
         return self.log.read_text(errors="replace")
 
-    def says(self, text: str, timeout: float = 30.0) -> bool:
-        """Waits until it has said that; no longer than it lives."""
+    def prints(self, text: str, timeout: float = 30.0) -> bool:
+        """Waits for this output, at most until the node exits."""
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
             lives = self.process.poll() is None
@@ -58,11 +58,11 @@ class Node:
         return False
 
     def ends(self, timeout: float = 30.0) -> int:
-        """Waits for its end; returns its status."""
+        """Waits for its exit; returns its status."""
         return self.process.wait(timeout)
 
     def interrupt(self, timeout: float = 30.0) -> float:
-        """Interrupts it as Ctrl-C does; returns how long it took to end [s]."""
+        """Interrupts it as Ctrl-C does; returns the time until its exit [s]."""
         begin = time.monotonic()
         self.process.send_signal(signal.SIGINT)
         self.process.wait(timeout)
@@ -70,14 +70,14 @@ class Node:
 
 
 class Master:
-    """A master of its own and what runs on it."""
+    """A separate master and its nodes."""
 
     def __init__(self, folder: Path):
         self.folder = folder
         self.uri = f"http://localhost:{free_port()}"
         self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_LOG_DIR=str(folder))
         self.environment.setdefault("ROS_HOSTNAME", "localhost")
-        self.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1"  # into a file, too
+        self.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1"  # also into a file
         self.server = xmlrpc.client.ServerProxy(self.uri)
         self.process = None
         self._nodes = 0
@@ -111,7 +111,7 @@ class Master:
 
     @contextmanager
     def node(self, package: str, kind: str, name: str, through: tuple[str, ...] = ()):
-        """Starts a node, if need be through a command; when the test is done with it, it is no more."""
+        """Starts a node, optionally through a command; ends it at the end of the test."""
         self._nodes += 1
         log = self.folder / f"{name}_{self._nodes}.txt"
         with open(log, "w", encoding="utf-8") as out:

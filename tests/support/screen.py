@@ -15,7 +15,7 @@ from PIL import Image
 
 @contextmanager
 def virtual_screen(size: str = "1280x960x24"):
-    """Whatever is started meanwhile finds it as its display; its number is X's own choice."""
+    """Programs started meanwhile use it as their display; X chooses its number."""
     read, write = os.pipe()
     server = subprocess.Popen(
         ["Xvfb", "-displayfd", str(write), "-screen", "0", size],
@@ -70,14 +70,14 @@ def _display():
 
 
 def move_window(window: int, x: int, y: int) -> None:
-    """There is no window manager: new windows cover each other in the upper left corner."""
+    """Needed without a window manager: new windows cover each other in the upper left corner."""
     with _display() as (x11, display):
         x11.XMoveWindow(display, ctypes.c_ulong(window), x, y)
 
 
 def drag(x: int, y: int, to_x: int) -> None:
-    """The left button goes down at a place, the pointer goes along the line, the button goes up."""
-    xtest = ctypes.CDLL("libXtst.so.6")  # x11-utils brings it
+    """Presses the left button, moves the pointer along the line, and releases the button."""
+    xtest = ctypes.CDLL("libXtst.so.6")  # a dependency of x11-utils
     with _display() as (_, display):
         xtest.XTestFakeMotionEvent(display, -1, x, y, ctypes.c_ulong(0))
         xtest.XTestFakeButtonEvent(display, 1, 1, ctypes.c_ulong(0))

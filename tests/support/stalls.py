@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Repeats tests that need the wall clock when the machine itself did not keep time."""
+"""Repeats tests that need wall time if the machine itself stalled."""
 
 import threading
 import time
@@ -9,15 +9,15 @@ import pytest
 from fci_session import go_first
 
 PERIOD = 1e-3  # [s] of a robot's cycles
-# A robot takes single lost commands; a client without a rate limiter is stopped after a few in a row.
+# A robot accepts single lost commands; a client without a rate limiter is stopped after a few in a row.
 WORST = 3e-3  # [s]
 TRIES = 6
 
 
 class Stalls:
-    """Measures, with the priority of a robot's client, how late a thread wakes up.
+    """Measures the wake-up delay of a thread with the priority of a robot's client.
 
-    `worst` is the longest delay [s], `late` counts those of more than a period.
+    `worst` is the longest delay [s], `late` counts delays of more than a period.
     """
 
     def __enter__(self):
@@ -43,9 +43,9 @@ class Stalls:
 def in_time(attempt, is_good):
     """Returns the first result of `attempt` that is good, or that the machine did not disturb.
 
-    Repeats `attempt` while its result is not good and the machine stalled meanwhile, `TRIES` times at most.
-    The test fails if every try was disturbed. Use it only for what needs the wall clock; all else is tested
-    in lock-step or with a patient robot.
+    Repeats `attempt` while its result is not good and the machine stalled meanwhile, at most `TRIES` times.
+    The test fails if every try was disturbed. Use it only for tests that need wall time; test all else in
+    lock-step or with a patient robot.
     """
     worst = []
     for _ in range(TRIES):

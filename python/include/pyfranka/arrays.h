@@ -12,17 +12,17 @@
 #include <string>
 
 /// @file
-/// Arrays on their way between C++ and numpy, as the module pyfranka shows them; also for others
-/// who hand robots to Python. To be called with the interpreter's lock held.
+/// Conversion of arrays between C++ and numpy for the module pyfranka and for other bindings. Call
+/// with the interpreter's lock held.
 
 namespace pyfranka {
 
 namespace py = pybind11;
 
-/// Shapes of the fields: matrices are shown as matrices, column by column as they are stored.
+/// Shapes of the fields: matrices get two dimensions, in their column-major storage.
 enum class Shape { kVector, kMatrix3, kMatrix4, kJacobian, kMass };
 
-/// A numpy array that shows the values in place; `owner` keeps them alive. It cannot be written.
+/// A read-only numpy view of the values; `owner` keeps them alive.
 template <std::size_t size>
 py::array_t<double> view(const std::array<double, size>& values, Shape shape, py::handle owner) {
   constexpr py::ssize_t kItem = sizeof(double);
@@ -52,7 +52,7 @@ py::array_t<double> view(const std::array<double, size>& values, Shape shape, py
   return array;
 }
 
-/// The same, of a copy.
+/// A read-only numpy array with a copy.
 template <std::size_t size>
 py::array_t<double> copy(const std::array<double, size>& values, Shape shape) {
   auto* const kept = new std::array<double, size>(values);
@@ -61,8 +61,8 @@ py::array_t<double> copy(const std::array<double, size>& values, Shape shape) {
   return view(*kept, shape, owner);
 }
 
-/// Any sequence of numbers, or a matrix, as it goes to the robot: column by column.
-/// @throws std::invalid_argument with a sentence when it has another number of values
+/// Any sequence of numbers, or a matrix, in the robot's column-major order.
+/// @throws std::invalid_argument if it has another number of values
 template <std::size_t size>
 std::array<double, size> arrayOf(const py::object& values, const char* name) {
   const auto array = py::array_t<double, py::array::f_style | py::array::forcecast>::ensure(values);

@@ -8,9 +8,9 @@
     print(robot.read_once().q)
     robot.control_torques(lambda state, period: pyfranka.Torques([0.0] * 7))
 
-Arrays of a RobotState are numpy views of it; matrices have two dimensions and are stored column by
-column, as the robot has them. Frames and units: the attributes' docstrings. Calls that wait for the
-robot let other Python threads run; errors are pyfranka.Exception and what derives from it.
+Arrays of a RobotState are numpy views of it; matrices have two dimensions and are stored column-major, as
+    on the robot. For frames and units see the attributes' docstrings. Calls that wait for the robot let other
+    Python threads run; errors are pyfranka.Exception and derived classes.
 """
 
 from _pyfranka import *  # noqa: F401, F403

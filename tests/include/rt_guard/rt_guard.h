@@ -4,9 +4,9 @@
 
 /// Proof that a piece of code neither allocates nor locks, for test executables.
 ///
-/// The header *defines* malloc, free, pthread_mutex_lock and their relatives, so every call the
-/// process makes, also from the shared libraries it links, passes here before it reaches glibc.
-/// Therefore include it in exactly one translation unit of an executable, and never in a library.
+/// The header *defines* malloc, free, pthread_mutex_lock and similar functions, so it sees every
+/// call of the process, also from its shared libraries, before glibc. Therefore include it in
+/// exactly one translation unit of an executable, and never in a library.
 ///
 ///   rt_guard::Scope scope;
 ///   manager.update(now, period);
@@ -41,7 +41,7 @@ struct Counts {
 
 namespace internal {
 
-// Plain thread-local data without a constructor: touching it allocates nothing, even in the first
+// Plain thread-local data without a constructor: access to it does not allocate, even in the first
 // instructions of a thread.
 static thread_local Counts* active = nullptr;
 
@@ -85,7 +85,7 @@ Function next(std::atomic<void*>& cache, const char* name, const char* version) 
 
 }  // namespace internal
 
-/// Counts what its own thread does from construction to destruction.
+/// Counts calls of its own thread from construction to destruction.
 class Scope {
  public:
   Scope() : outer_(internal::active) { internal::active = &counts_; }
@@ -100,7 +100,7 @@ class Scope {
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
-  /// Calls into the allocator; handing memory back counts as much as asking for it.
+  /// Calls of the allocator, for allocation or release.
   std::size_t allocations() const { return counts_.allocations; }
   /// Mutexes and read-write locks taken or tried, condition variables waited on or signalled.
   std::size_t locks() const { return counts_.locks; }

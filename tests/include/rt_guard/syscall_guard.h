@@ -9,9 +9,9 @@
 ///   EXPECT_FALSE(scope.called()) << "system call " << scope.number();
 ///
 /// The kernel's syscall user dispatch (Linux 5.11, x86-64) turns the first system call of the
-/// thread into a signal; it is then carried out, and later ones of the scope pass unseen. What the
-/// kernel serves without being entered (reading the clock) does not count. Where the kernel cannot
-/// do that, available() is false and nothing is seen.
+/// thread into a signal; the call is then executed, and later ones of the scope are not seen. Calls
+/// that do not enter the kernel (reading the clock) do not count. If the kernel lacks this feature,
+/// available() is false and no call is seen.
 
 #include <signal.h>
 #include <sys/prctl.h>
@@ -33,7 +33,7 @@ inline thread_local volatile int first_syscall = -1;
 inline void onSyscall(int /*signal*/, siginfo_t* info, void* context) {
   syscall_filter = kAllow;
   first_syscall = info->si_syscall;
-  // Back to the instruction (two bytes), with its number, to have it carried out now.
+  // Back to the instruction (two bytes), with its number, so that it is executed now.
   greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   registers[REG_RIP] -= 2;
   registers[REG_RAX] = info->si_syscall;

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A client that does as it is told: one JSON line in, one out, over one connection or several.
+"""A client that executes tasks: one JSON line in, one out, over one connection or several.
 
 The same tasks with each library: `panda` (panda-python, protocol 5), `pylibfranka` (protocol 10), or
 `pyfranka` (this project's own). Times are the robot's.
@@ -18,7 +18,7 @@ def smooth(x):
 
 
 class Motion:
-    """Joint 4 there and back, or no torque; counts what it sees."""
+    """Joint 4 there and back, or zero torque; counts cycles and losses."""
 
     def __init__(self, seconds, amplitude, compute, announce):
         self.seconds, self.amplitude, self.compute, self.announce = seconds, amplitude, compute, announce
@@ -139,12 +139,12 @@ LIBRARIES = {"panda": Panda, "pyfranka": Own, "pylibfranka": Pylibfranka}
 
 
 def attempt(act):
-    """What became of it, and how long it took on the wall."""
+    """The outcome, and the wall time."""
     begin = time.monotonic()
     try:
         act()
         outcome = "ok"
-    except Exception as error:  # noqa: BLE001 - what it says is what is tested
+    except Exception as error:  # noqa: BLE001 - its text is tested
         outcome = f"{type(error).__name__}: {error}"
     return {"outcome": outcome, "wall": time.monotonic() - begin}
 
@@ -181,7 +181,7 @@ def main():
         task = json.loads(line)
         try:
             answer = getattr(session, task.pop("do"))(**task)
-        except Exception as error:  # noqa: BLE001 - goes to the test
+        except Exception as error:  # noqa: BLE001 - reported to the test
             answer = {"outcome": f"{type(error).__name__}: {error}", "mode": "unknown"}
         print(json.dumps(answer), flush=True)
 

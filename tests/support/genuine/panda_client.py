@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A session of panda-python (libfranka 0.9.2, protocol 5) with a robot; prints what it saw as JSON."""
+"""A session of panda-python (libfranka 0.9.2, protocol 5) with a robot; prints a report as JSON."""
 
 import json
 import math
@@ -87,7 +87,7 @@ def attempt(act):
     try:
         act()
         return "ok"
-    except Exception as error:  # noqa: BLE001 - what it says is what is tested
+    except Exception as error:  # noqa: BLE001 - its text is tested
         return f"{type(error).__name__}: {error}"
 
 

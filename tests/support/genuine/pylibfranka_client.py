@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A session of pylibfranka (protocol 10) with a robot; what it saw goes to stdout as JSON."""
+"""A session of pylibfranka (protocol 10) with a robot; prints a report as JSON."""
 
 import json
 import sys
@@ -22,12 +22,12 @@ def attempt(act):
     try:
         act()
         return "ok"
-    except Exception as error:  # noqa: BLE001 - what it says is what is tested
+    except Exception as error:  # noqa: BLE001 - its text is tested
         return f"{type(error).__name__}: {error}"
 
 
 def fresh(robot):
-    """A state of now: while a call waited, older ones have filled the socket's buffer."""
+    """A current state: during a blocking call older ones have filled the socket's buffer."""
     robot.read_once()
     return robot.read_once()
 
@@ -82,7 +82,7 @@ def rise(height):
 
 
 def meet_a_block(robot):
-    """Down at a tenth of a metre a second until something is in the way, and back up."""
+    """Moves down at 0.1 m/s until it hits something, and back up."""
     seen = {
         "thresholds": attempt(
             lambda: robot.set_collision_behavior([20.0] * 7, [20.0] * 7, [10.0] * 6, [15.0] * 6)

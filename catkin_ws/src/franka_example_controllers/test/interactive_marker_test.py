@@ -56,12 +56,12 @@ class InteractiveMarkerTest(unittest.TestCase):
             time.sleep(0.002)
         return first
 
-    def poses_at(self, wanted):
+    def poses_at(self, expected):
         """Received poses at the expected position."""
         return [
             pose
             for pose in self.poses
-            if math.dist((pose.pose.position.x, pose.pose.position.y, pose.pose.position.z), wanted) < 1e-7
+            if math.dist((pose.pose.position.x, pose.pose.position.y, pose.pose.position.z), expected) < 1e-7
         ]
 
     def state(self, x=0.3, y=0.1, z=0.5):
@@ -124,7 +124,7 @@ class InteractiveMarkerTest(unittest.TestCase):
         ]
         for target, expected in drags:
             self.drag(*target)
-            now = self.run_clock(now, lambda wanted=expected: self.poses_at(wanted))
+            now = self.run_clock(now, lambda expected=expected: self.poses_at(expected))
             self.assertTrue(self.poses_at(expected), self.poses[-1])
 
         # The simulation restarts: time goes back, and the marker continues to publish.

@@ -35,8 +35,8 @@ class Hands:
     def __init__(self):
         self.orders, self.homing_error, self.grasp_lasts = [], "", 0.0
         self._servers = []
-        for who in ("leader", "follower"):
-            self._serve(f"{who}/homing", HomingAction, HomingResult)
+        for hand in ("leader", "follower"):
+            self._serve(f"{hand}/homing", HomingAction, HomingResult)
         self._serve("follower/grasp", GraspAction, GraspResult)
         self._serve("follower/move", MoveAction, MoveResult)
         self._serve("follower/stop", StopAction, StopResult)

@@ -41,7 +41,7 @@ KINDS = {
 TOLERANCE = GraspEpsilon(0.005, 0.005)
 
 
-def say(line):
+def send(line):
     """One command of the simulated robot's control interface."""
     with socket.create_connection((ADDRESS, 1340), timeout=20) as connection:
         stream = connection.makefile("rw", newline="\n")
@@ -134,7 +134,7 @@ def stop():
 
 
 def stone(between):
-    say(f"place stone {PLACE}" if between else "place stone 1.0 1.0 0.031")
+    send(f"place stone {PLACE}" if between else "place stone 1.0 1.0 0.031")
 
 
 def opened(fingers):
@@ -171,7 +171,7 @@ def with_stone(fingers):
     opened(fingers)
     stone(True)
     report["hold"] = grasp(0.03, force=5.0).result()
-    say("push stone 20 0 0 60")  # out of the fingers, but not out of the world
+    send("push stone 20 0 0 60")  # out of the fingers, but not out of the world
     report["slipped"] = fingers.until(lambda width: width < 0.005)
     opened(fingers)
     stone(False)
@@ -186,7 +186,7 @@ def interrupted(fingers):
         "grasp": lambda: grasp(0.02, 0.02),
         "gripper_action": lambda: command(0.0),
     }
-    news = {
+    starts = {
         "homing": homing,
         "move": lambda: move(0.03, 0.02),
         "grasp": lambda: grasp(0.01, 0.02),
@@ -203,7 +203,7 @@ def interrupted(fingers):
             at, new = time.monotonic(), None
             running.handle.cancel()
         else:
-            new = news[second]()
+            new = starts[second]()
             at = new.sent
         outcome = running.result()
         report[pair] = outcome + [running.at and running.at - at, moving]

@@ -65,7 +65,7 @@ def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
     pytest.fail("The client has ended early.")
 
 
-def complaints(session) -> dict:
+def errors_of_nodes(session) -> dict:
     """Exit of nodes with errors: [status, output]."""
     names = "_joint_names:=[a, b]"
     cases = {
@@ -115,7 +115,7 @@ def report(tmp_path_factory):
             )
             result, hand = talk(client, world, hand)
             session.check()
-            result["complaints"] = complaints(session)
+            result["complaints"] = errors_of_nodes(session)
             print(session.tail(80))
             return result
     finally:

@@ -1,10 +1,10 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 
-# rt_guard.h proves that loops neither allocate nor lock.
+# rt_guard.h proves that loops do not allocate or lock.
 set(FRANKA_TEST_INCLUDE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 
-# Under catkin the workspace's gtest runs the tests; a plain build takes the system's gtest and ctest.
+# Under catkin the tests use the workspace's gtest; a plain build uses the system's gtest and ctest.
 function(sim_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   set(test ${PROJECT_NAME}_${name})

@@ -36,12 +36,12 @@ def simulated(address, *arguments):
         with socket.create_connection((address, 1340), timeout=20) as connection:
             stream = connection.makefile("rw", newline="\n")
 
-            def say(text):
+            def send(text):
                 stream.write(text + "\n")
                 stream.flush()
                 return stream.readline().rstrip("\n")
 
-            yield say, process
+            yield send, process
     finally:
         stop(process)
         assert process.returncode == 0
@@ -131,57 +131,57 @@ def test_two_robots_need_two_addresses():
         result = run("--ip", "127.0.22.1")
         assert result.returncode == 1
         assert "Another simulated robot runs there" in result.stderr
-        with simulated("127.0.22.2", "--robot", "fr3") as (say, _):
-            assert say("state").startswith("ok Idle")
+        with simulated("127.0.22.2", "--robot", "fr3") as (send, _):
+            assert send("state").startswith("ok Idle")
 
 
-def joints(say):
-    return [float(word) for word in say("state").split(", q ")[1].split()]
+def joints(send):
+    return [float(word) for word in send("state").split(", q ")[1].split()]
 
 
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
 def test_switches_of_the_robot(pace):
-    with simulated("127.0.22.3", "--pace", pace) as (say, _):
-        told, joints = say("state").split(", q ")
-        assert told == "ok Idle, client of protocol 0, errors none"
+    with simulated("127.0.22.3", "--pace", pace) as (send, _):
+        status, joints = send("state").split(", q ")
+        assert status == "ok Idle, client of protocol 0, errors none"
         ready = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
         assert [float(word) for word in joints.split()] == pytest.approx(ready, abs=2e-4)
-        assert say("user_stop on") == "ok"
-        assert say("state").startswith("ok User stopped")
-        assert say("user_stop off") == "ok"
-        assert say("state").startswith("ok Idle")
-        assert say("guiding on") == "ok"
-        assert say("state").startswith("ok Guiding")
-        assert say("guiding off") == "ok"
-        assert say("brakes close") == "ok"
-        assert say("state").startswith("ok Other")
-        assert say("brakes open") == "ok"
-        assert say("state").startswith("ok Idle")
+        assert send("user_stop on") == "ok"
+        assert send("state").startswith("ok User stopped")
+        assert send("user_stop off") == "ok"
+        assert send("state").startswith("ok Idle")
+        assert send("guiding on") == "ok"
+        assert send("state").startswith("ok Guiding")
+        assert send("guiding off") == "ok"
+        assert send("brakes close") == "ok"
+        assert send("state").startswith("ok Other")
+        assert send("brakes open") == "ok"
+        assert send("state").startswith("ok Idle")
 
 
 def test_invalid_control_commands_are_reported():
-    with simulated("127.0.22.4") as (say, _):
-        assert say("dance").startswith("error: There is no command 'dance'")
-        assert say("user_stop") == "error: Words are missing: user_stop on|off."
-        assert say("user_stop maybe") == "error: 'maybe' is neither on nor off."
-        assert say("push") == "error: Words are missing: push BODY FX FY FZ MILLISECONDS."
-        assert say("push nobody 1 0 0 10").startswith("error: ")
-        assert say("push panda_hand nan 0 0 10") == "error: 'nan' is not a finite number."
-        assert say("loss 2") == "error: The probability of a loss is a number from 0 to 1."
+    with simulated("127.0.22.4") as (send, _):
+        assert send("dance").startswith("error: There is no command 'dance'")
+        assert send("user_stop") == "error: Words are missing: user_stop on|off."
+        assert send("user_stop maybe") == "error: 'maybe' is neither on nor off."
+        assert send("push") == "error: Words are missing: push BODY FX FY FZ MILLISECONDS."
+        assert send("push nobody 1 0 0 10").startswith("error: ")
+        assert send("push panda_hand nan 0 0 10") == "error: 'nan' is not a finite number."
+        assert send("loss 2") == "error: The probability of a loss is a number from 0 to 1."
         for seed in ("-1", "18446744073709551616", "1e300", "0.5"):
-            assert say(f"loss 0 {seed}").startswith(f"error: '{seed}' is no seed: give a whole number")
-        assert say("loss 0 18446744073709551615") == "ok"
-        assert say("delay 3") == "error: Commands are delayed by 0, 1 or 2 ticks."
-        assert say("load -1 0 0 0").startswith("error: The load was refused")
-        assert "push BODY" in say("help")
-        assert say("load 0.5 0 0 0.1") == "ok"
+            assert send(f"loss 0 {seed}").startswith(f"error: '{seed}' is no seed: give a whole number")
+        assert send("loss 0 18446744073709551615") == "ok"
+        assert send("delay 3") == "error: Commands are delayed by 0, 1 or 2 ticks."
+        assert send("load -1 0 0 0").startswith("error: The load was refused")
+        assert "push BODY" in send("help")
+        assert send("load 0.5 0 0 0.1") == "ok"
 
 
 def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
     world = tmp_path / "world.xml"
     world.write_text(WORLD)
 
-    with simulated("127.0.22.5", "--pace", "lockstep", "--world", str(world)) as (say, _):
+    with simulated("127.0.22.5", "--pace", "lockstep", "--world", str(world)) as (send, _):
 
         def until(condition):
             deadline = time.monotonic() + 20
@@ -189,16 +189,16 @@ def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
                 assert time.monotonic() < deadline
 
         def displacement():
-            return max(abs(a - b) for a, b in zip(joints(say), before))
+            return max(abs(a - b) for a, b in zip(joints(send), before))
 
-        before = joints(say)
-        assert say("place stone 0.5 -0.3 0.2") == "ok"
+        before = joints(send)
+        assert send("place stone 0.5 -0.3 0.2") == "ok"
         # Long enough to be seen: time runs as fast as possible.
-        assert say("push panda_hand 0 8 0 6000") == "ok"
+        assert send("push panda_hand 0 8 0 6000") == "ok"
         until(lambda: displacement() > 1e-4)
         until(lambda: displacement() < 1e-4)
         # It was released in the air and lies on the ground.
-        until(lambda: float(say("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
+        until(lambda: float(send("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
 
 
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
@@ -206,20 +206,20 @@ def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
     arms = "--robot panda"
     arms += " --robot panda --ip 127.0.22.8 --base 0.5,1,0,1.5708"
     arms += " --robot fr3 --ip 127.0.22.9 --base 0,-1,0"
-    with simulated("127.0.22.7", "--pace", pace, *arms.split()) as (say, process):
+    with simulated("127.0.22.7", "--pace", pace, *arms.split()) as (send, process):
         heads = {}
         for name in ("panda", "panda_2", "fr3"):
-            heads[name] = [float(word) for word in say(f"where {name}_link0").split()[1:]]
+            heads[name] = [float(word) for word in send(f"where {name}_link0").split()[1:]]
         assert heads["panda_2"] == pytest.approx([0.5, 1, 0])
         assert heads["fr3"] == pytest.approx([0, -1, 0])
         # The second one faces along y.
-        hand = [float(word) for word in say("where panda_2_link7").split()[1:]]
-        first = [float(word) for word in say("where panda_link7").split()[1:]]
+        hand = [float(word) for word in send("where panda_2_link7").split()[1:]]
+        first = [float(word) for word in send("where panda_link7").split()[1:]]
         assert hand == pytest.approx([0.5 - first[1], 1 + first[0], first[2]], abs=2e-3)
         # A switch concerns one robot, the world all.
         assert answer("127.0.22.8", "user_stop on") == "ok"
         assert answer("127.0.22.8", "state").startswith("ok User stopped")
-        assert say("state").startswith("ok Idle")
+        assert send("state").startswith("ok Idle")
         assert answer("127.0.22.9", "state").startswith("ok Idle")
         assert answer("127.0.22.9", "reset") == "ok"
         assert answer("127.0.22.9", "quit") == "ok"
@@ -227,24 +227,24 @@ def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
 
 
 def test_a_vacuum_gripper_replaces_the_gripper():
-    with simulated("127.0.22.10", "--hand", "vacuum") as (say, _):
+    with simulated("127.0.22.10", "--hand", "vacuum") as (send, _):
         for port, served in ((1337, True), (1338, False), (1339, True)):
             with socket.socket() as probe:
                 probe.settimeout(10)
                 assert (probe.connect_ex(("127.0.22.10", port)) == 0) == served
-        assert say("part on") == "ok"
-        assert say("part perhaps") == "error: 'perhaps' is neither on nor off."
-        assert say("pump red") == "ok"
-        assert say("pump blue") == "error: 'blue' is none of green, yellow, orange and red."
-    with simulated("127.0.22.10") as (say, _):
-        assert say("part on").startswith("error: There is no command 'part'")
+        assert send("part on") == "ok"
+        assert send("part perhaps") == "error: 'perhaps' is neither on nor off."
+        assert send("pump red") == "ok"
+        assert send("pump blue") == "error: 'blue' is none of green, yellow, orange and red."
+    with simulated("127.0.22.10") as (send, _):
+        assert send("part on").startswith("error: There is no command 'part'")
 
 
 def test_every_option_also_takes_its_value_after_an_equals_sign():
     options = "--robot=fr3 --protocol=10 --base=0,1,0 --arm-id=left --friction=fr3 --hand=none"
     options += " --control-port=1340 --pace=lockstep --world=stone.xml --linger=0"
-    with simulated("127.0.22.12", *options.split()) as (say, _):
-        assert say("where left_link0") == "ok 0 1 0"
+    with simulated("127.0.22.12", *options.split()) as (send, _):
+        assert send("where left_link0") == "ok 0 1 0"
     process = start("--ip=127.0.22.12")
     stop(process)
     assert process.returncode == 0
@@ -268,15 +268,15 @@ TOO_LARGE = [
 
 
 def test_unreasonable_values_are_refused_and_change_nothing():
-    with simulated("127.0.22.13", "--world", "stone.xml", "--base=-0.5,0,0", "--pace=lockstep") as (say, _):
-        before = say("state"), say("where stone")
+    with simulated("127.0.22.13", "--world", "stone.xml", "--base=-0.5,0,0", "--pace=lockstep") as (send, _):
+        before = send("state"), send("where stone")
         for line, part in TOO_LARGE:
-            answer = say(line)
+            answer = send(line)
             assert answer.startswith("error: ") and part in answer, (line, answer)
-        assert (say("state"), say("where stone")) == before
+        assert (send("state"), send("where stone")) == before
         for line in ("load 10 0 0 1", "load 0 0 0 0", "place stone 0 0 1", "push stone 0 0 1 1"):
-            assert say(line) == "ok"
-        assert "the world stands still" not in say("state").lower()
+            assert send(line) == "ok"
+        assert "the world stands still" not in send("state").lower()
 
 
 FEATHER = """<mujoco><worldbody><body name="feather" pos="5 5 5"><freejoint/>
@@ -288,23 +288,23 @@ FEATHER = """<mujoco><worldbody><body name="feather" pos="5 5 5"><freejoint/>
 def test_a_diverging_world_stops_is_reported_and_can_be_reset(pace, tmp_path):
     world = tmp_path / "feather.xml"
     world.write_text(FEATHER)
-    with simulated("127.0.22.14", "--pace", pace, "--world", str(world)) as (say, process):
+    with simulated("127.0.22.14", "--pace", pace, "--world", str(world)) as (send, process):
         with Client("127.0.22.14", 5) as client:
             client.connect()
-            assert say("push feather 1e4 0 0 10") == "ok"
+            assert send("push feather 1e4 0 0 10") == "ok"
             deadline = time.monotonic() + 20
-            while "The physics diverged" not in say("state"):
+            while "The physics diverged" not in send("state"):
                 assert time.monotonic() < deadline
-            stopped = say("state")
+            stopped = send("state")
             assert stopped.startswith("ok Other"), "brakes are closed: nothing can be commanded"
             assert "of body 'feather'" in stopped and "until it is reset" in stopped
-            assert say("push feather 1 0 0 10").startswith("error: The physics diverged")
-            assert say("place feather 0 0 1").startswith("error: The physics diverged")
-            assert say("where feather").startswith("ok 5 5 "), "it did not begin anew by itself"
+            assert send("push feather 1 0 0 10").startswith("error: The physics diverged")
+            assert send("place feather 0 0 1").startswith("error: The physics diverged")
+            assert send("where feather").startswith("ok 5 5 "), "it did not begin anew by itself"
             client.state()
-            assert say("reset") == "ok"
-            assert say("state").startswith("ok Idle, client of protocol 5, errors none")
-            assert say("place feather 0 1 1") == "ok"
+            assert send("reset") == "ok"
+            assert send("state").startswith("ok Idle, client of protocol 5, errors none")
+            assert send("place feather 0 1 1") == "ok"
             client.state()
     assert "franka_sim: The physics diverged: the acceleration of body 'feather'" in process.stdout.read()
 
@@ -320,14 +320,14 @@ def test_a_robot_that_starts_inside_a_body_is_reported():
 
 
 def test_the_hash_command_waits_for_a_world_at_rest():
-    with simulated("127.0.22.16", "--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0") as (say, _):
-        before = joints(say)
+    with simulated("127.0.22.16", "--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0") as (send, _):
+        before = joints(send)
         # The hand is pushed for 3 s of simulated time, then it returns.
-        assert say("push panda_hand 0 8 0 3000") == "ok"
-        assert say("hash") == "ok cbf29ce484222325", "of no commands"
-        settled = say("state")
-        assert joints(say) == pytest.approx(before, abs=1e-4)
-        assert say("state") == settled, "time stands still"
+        assert send("push panda_hand 0 8 0 3000") == "ok"
+        assert send("hash") == "ok cbf29ce484222325", "of no commands"
+        settled = send("state")
+        assert joints(send) == pytest.approx(before, abs=1e-4)
+        assert send("state") == settled, "time stands still"
 
 
 def lines_of(connection, text):
@@ -336,13 +336,13 @@ def lines_of(connection, text):
 
 
 def test_a_slow_control_client_and_a_second_one_get_an_error():
-    with simulated("127.0.22.17") as (say, _):
-        assert say("state").startswith("ok Idle")
+    with simulated("127.0.22.17") as (send, _):
+        assert send("state").startswith("ok Idle")
         with socket.create_connection(("127.0.22.17", 1340), timeout=20) as second:
             stream = lines_of(second, "state\nhelp\n")
             assert stream.readline().startswith("error: Another client holds this control interface")
             assert stream.readline() == "", "and the connection ends"
-        assert say("state").startswith("ok Idle")
+        assert send("state").startswith("ok Idle")
 
 
 def test_a_half_closed_control_connection_is_answered():
@@ -360,10 +360,10 @@ def test_a_half_closed_control_connection_is_answered():
 
 
 def test_commands_are_answered_after_a_state_shows_their_effect():
-    with simulated("127.0.22.19") as (say, _), Client("127.0.22.19", 5) as client:
+    with simulated("127.0.22.19") as (send, _), Client("127.0.22.19", 5) as client:
         client.connect()
         for pressed in (True, False) * 10:
-            assert say("user_stop " + ("on" if pressed else "off")) == "ok"
+            assert send("user_stop " + ("on" if pressed else "off")) == "ok"
             # Whatever waits in the socket now was sent before the answer came.
             assert client.newest_state().mode == (USER_STOPPED if pressed else IDLE)
 
@@ -408,8 +408,8 @@ def test_franka_info_ignores_lateness_of_a_robot_with_another_pace(pace):
 
 
 def test_quit_ends_the_simulation():
-    with simulated("127.0.22.6") as (say, process):
-        assert say("quit") == "ok"
+    with simulated("127.0.22.6") as (send, process):
+        assert send("quit") == "ok"
         assert process.wait(10) == 0
 
 

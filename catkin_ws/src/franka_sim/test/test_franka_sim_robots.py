@@ -44,5 +44,5 @@ def test_kept_urdf_matches_the_description(name, monkeypatch):
     kept = ElementTree.parse(PACKAGE / "robots" / f"{name}.urdf").getroot()
     described = parts(ElementTree.fromstring(expanded.text))
     assert [part[1] for part in parts(kept)] == [part[1] for part in described]
-    for ours, due in zip(parts(kept), described):
-        assert ours == due
+    for ours, expected in zip(parts(kept), described):
+        assert ours == expected

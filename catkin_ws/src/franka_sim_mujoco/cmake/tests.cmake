@@ -3,7 +3,7 @@
 
 catkin_add_gtest(${PROJECT_NAME}_parts_test test/parts_test.cpp TIMEOUT 240)
 if(TARGET ${PROJECT_NAME}_parts_test)
-  # Test helpers of the robot's own package, which only the sources have.
+  # Test helpers of franka_sim, which only the source space has.
   target_include_directories(${PROJECT_NAME}_parts_test PRIVATE
     ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include ${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/test)
   target_link_libraries(${PROJECT_NAME}_parts_test
@@ -15,7 +15,7 @@ foreach(name devices parameters simulation worlds)
   add_rostest(test/${name}.test DEPENDENCIES
     franka_sim_mujoco_node franka_hw_sim franka_gripper_sim)
 endforeach()
-# Panda and FR3, and names that say nothing of the robot.
+# Panda and FR3, and names without the robot's type.
 foreach(robot panda fr3)
   add_rostest(test/interfaces.test ARGS robot:=${robot} arm_id:=my_${robot}
     DEPENDENCIES franka_sim_mujoco_node franka_hw_sim)

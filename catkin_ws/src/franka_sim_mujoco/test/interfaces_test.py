@@ -132,10 +132,10 @@ class InterfacesTest(unittest.TestCase):
         rospy_connections.init_node("interfaces_test")
         cls.arm = Arm("", rospy.get_param("~arm_id", "panda"))
         cls.strict = Arm("/strict", "strict")
-        for arm, wanted in ((cls.arm, "franka_state_controller"), (cls.strict, "hold")):
+        for arm, desired in ((cls.arm, "franka_state_controller"), (cls.strict, "hold")):
             end = time.monotonic() + 60
-            while arm.controllers().get(wanted) != "running":
-                assert time.monotonic() < end, f"{wanted} does not run: {arm.controllers()}"
+            while arm.controllers().get(desired) != "running":
+                assert time.monotonic() < end, f"{desired} does not run: {arm.controllers()}"
                 time.sleep(0.05)
 
     def setUp(self):
@@ -180,13 +180,13 @@ class InterfacesTest(unittest.TestCase):
         self.follows(states)
         reached = 0.0
         for state in states:
-            here, wanted = matrix(state.O_T_EE, 4), matrix(state.O_T_EE_d, 4)
-            self.assertLess(np.linalg.norm(here[:3, 3] - wanted[:3, 3]), 5e-4)
+            here, desired = matrix(state.O_T_EE, 4), matrix(state.O_T_EE_d, 4)
+            self.assertLess(np.linalg.norm(here[:3, 3] - desired[:3, 3]), 5e-4)
             # On a circle of 0.15 m about a point below (the formula), always of the same orientation.
-            dx, dz = wanted[[0, 2], 3] - before[[0, 2], 3]
+            dx, dz = desired[[0, 2], 3] - before[[0, 2], 3]
             self.assertAlmostEqual(math.hypot(dx, dz - 0.15), 0.15, delta=2e-4)
-            self.assertAlmostEqual(wanted[1, 3], before[1, 3], delta=1e-6)
-            self.assertLess(np.abs(wanted[:3, :3] - before[:3, :3]).max(), 1e-6)
+            self.assertAlmostEqual(desired[1, 3], before[1, 3], delta=1e-6)
+            self.assertLess(np.abs(desired[:3, :3] - before[:3, :3]).max(), 1e-6)
             reached = max(reached, math.atan2(-dx, 0.15 - dz))
         self.assertAlmostEqual(reached, math.pi / 2, delta=1e-3)
 
@@ -196,8 +196,8 @@ class InterfacesTest(unittest.TestCase):
         self.follows(states)
         path = [matrix(state.O_T_EE_d, 4)[:3, 3] - begin for state in states]
         furthest = max(path, key=np.linalg.norm)
-        wanted = 0.05 / 2 * 4 / math.sqrt(2) * np.array([1, 0, -1])
-        self.assertLess(np.linalg.norm(furthest - wanted), 1e-3)
+        desired = 0.05 / 2 * 4 / math.sqrt(2) * np.array([1, 0, -1])
+        self.assertLess(np.linalg.norm(furthest - desired), 1e-3)
         speeds = [np.linalg.norm(state.O_dP_EE_c[:3]) for state in states]
         self.assertAlmostEqual(max(speeds), 0.05, delta=1e-4)
 

@@ -191,13 +191,14 @@ class ParametersTest(unittest.TestCase):
             self.assertTrue(self.delete("machine").success)
 
     def test_robot_type_overrides_urdf_and_warns_on_mismatch(self):
-        heard, log = self.listen_to_log()
+        messages, log = self.listen_to_log()
         rospy.set_param("/believed/robot_type", "panda")
         answer = self.spawn_bent(rospy.get_param("/fr3_description"), "/believed")
         self.assertFalse(answer.success)
         self.assertIn("its stops are at -0.0375 and 3.7725", answer.error)
         self.expect_warning(
-            heard, "'machine' is simulated as panda, as the parameter /believed/robot_type says, although it"
+            messages,
+            "'machine' is simulated as panda, as the parameter /believed/robot_type says, although it",
         )
         log.unregister()
 
@@ -208,39 +209,39 @@ class ParametersTest(unittest.TestCase):
 
     def listen_to_log(self):
         """@returns a list that all further messages of the log are added to, and its subscriber."""
-        heard = []
-        log = rospy.Subscriber("/rosout", Log, heard.append)
+        messages = []
+        log = rospy.Subscriber("/rosout", Log, messages.append)
         end = time.monotonic() + WAIT
         while log.get_num_connections() < len(self.publishers_of("/rosout")):
             self.assertLess(time.monotonic(), end, "Not every node's log is heard.")
             time.sleep(0.01)
-        return heard, log
+        return messages, log
 
-    def expect_warning(self, heard, text):
+    def expect_warning(self, messages, text):
         """The first warning of the log that contains the text. @param heard of listen_to_log"""
         end = time.monotonic() + WAIT
         while True:
-            found = [said.msg for said in heard if text in said.msg and said.level == Log.WARN]
+            found = [message.msg for message in messages if text in message.msg and message.level == Log.WARN]
             if found:
                 return found[0]
-            self.assertLess(time.monotonic(), end, [said.msg for said in heard])
+            self.assertLess(time.monotonic(), end, [message.msg for message in messages])
             time.sleep(0.05)
 
     def test_positions_of_unknown_joints_are_ignored_with_a_warning(self):
-        heard, log = self.listen_to_log()
+        messages, log = self.listen_to_log()
         rospy.set_param("/handless/arm_id", "right")
         fingers = [(f"right_finger_joint{i}", 0.001) for i in (1, 2)]
         joints = [("right_joint1", 0.25), ("right_joint4", -1.5), ("right_joint6", 1.5), *fingers]
         answer = self.spawn("right", "/handless", rospy.get_param("/fr3_description"), joints)
         self.assertTrue(answer.success, answer.error)
         self.assertAlmostEqual(self.joints(["right_joint1"]).state.position[0], 0.25)
-        self.expect_warning(heard, "right_finger_joint1, right_finger_joint2. They are ignored")
+        self.expect_warning(messages, "right_finger_joint1, right_finger_joint2. They are ignored")
         log.unregister()
         self.assertTrue(self.delete("right").success)
 
     def test_the_namespace_of_the_description_is_used(self):
         # The manual's own snippet of the plugin.
-        heard, log = self.listen_to_log()
+        messages, log = self.listen_to_log()
         end = "</robotSimType>"
         urdf = self.panda.replace(end, end + "<robotNamespace>own_name</robotNamespace>")
         self.assertNotEqual(urdf, self.panda)
@@ -249,18 +250,18 @@ class ParametersTest(unittest.TestCase):
         self.assertTrue(answer.success, answer.error)
         service("/own_name/controller_manager/list_controllers", ListControllers)
         self.assertFalse([topic for topic, _ in rospy.get_published_topics() if topic.startswith("/ordered")])
-        self.expect_warning(heard, "lives in the namespace /own_name")
+        self.expect_warning(messages, "lives in the namespace /own_name")
         log.unregister()
         self.assertTrue(self.delete("panda").success)
 
     def test_gains_without_effect_are_named_in_one_warning(self):
-        heard, log = self.listen_to_log()
+        messages, log = self.listen_to_log()
         gains = {f"panda_joint{i}": {"p": 600, "i": 0, "d": 30} for i in range(1, 8)}
         rospy.set_param("/gains/arm_id", "panda")
         rospy.set_param("/gains/motion_generators/position/gains", gains)
         rospy.set_param("/gains/motion_generators/velocity/gains", gains)
         self.assertTrue(self.spawn("panda", "/gains").success)
-        warning = self.expect_warning(heard, "have no effect")
+        warning = self.expect_warning(messages, "have no effect")
         log.unregister()
         self.assertIn("/gains/motion_generators/velocity/gains, ", warning)
         self.assertIn("/gains/motion_generators/position/gains/*/d.", warning)

@@ -94,16 +94,16 @@ class SimulationTest(unittest.TestCase):
         rospy_connections.init_node("simulation_test")
         end = time.monotonic() + 40
         running = set()
-        wanted = {
+        expected = {
             "franka_state_controller",
             "cartesian_impedance_example_controller",
             "franka_gripper",
         }
-        while not wanted <= running and time.monotonic() < end:
+        while not expected <= running and time.monotonic() < end:
             answer = service("/controller_manager/list_controllers", ListControllers)()
             running = {c.name for c in answer.controller if c.state == "running"}
             time.sleep(0.1)
-        assert wanted <= running, f"only {running} run"
+        assert expected <= running, f"only {running} run"
         cls.step = staticmethod(service("/gazebo/step", Step))
 
     def tearDown(self):

@@ -113,24 +113,24 @@ class WorldsTest(unittest.TestCase):
 
     def external_torque_after(self, ticks):
         """External torque of joint 2 of panda_1 after a time of the simulation [Nm]."""
-        heard = []
+        messages = []
         topic = "/panda_1/franka_state_controller/franka_states"
-        subscriber = rospy.Subscriber(topic, FrankaState, heard.append)
+        subscriber = rospy.Subscriber(topic, FrankaState, messages.append)
         until(subscriber.get_num_connections, topic)
 
-        def heard_of_the_end():
+        def end_is_received():
             # States come at 30 Hz; the last one may still be in transit.
             end = call("step", Step, ticks).time
             patience = time.monotonic() + 0.5
             while time.monotonic() < patience:
-                if heard and (end - heard[-1].header.stamp).to_sec() < 0.08:
+                if messages and (end - messages[-1].header.stamp).to_sec() < 0.08:
                     return True
                 time.sleep(0.01)
             return False
 
-        until(heard_of_the_end, topic)
+        until(end_is_received, topic)
         subscriber.unregister()
-        return heard[-1].tau_ext_hat_filtered[1]
+        return messages[-1].tau_ext_hat_filtered[1]
 
     def test_1_both_arms_stand_in_the_world_of_the_sdf_file(self):
         world = call("get_world", GetWorld)
@@ -329,12 +329,12 @@ class WorldsTest(unittest.TestCase):
             call("push_body", PushBody, "feather", Vector3(1e4, 0, 0), NONE, False, Point(), 5)
             if runs:
                 until(lambda: call("get_world", GetWorld).paused, "the pause of a world that diverged")
-            told = call("step", Step, 5, fails=True).error
-            self.assertIn("The physics diverged: the acceleration of body 'feather", told)
+            error = call("step", Step, 5, fails=True).error
+            self.assertIn("The physics diverged: the acceleration of body 'feather", error)
             with self.assertRaises(rospy.ServiceException):
                 call("unpause_physics", Empty)
-            told = call("set_body_pose", SetBodyPose, "feather", at(0, 0, 1), fails=True).error
-            self.assertIn("until it is reset", told)
+            error = call("set_body_pose", SetBodyPose, "feather", at(0, 0, 1), fails=True).error
+            self.assertIn("until it is reset", error)
             call("reset", Trigger)
             self.assertEqual(call("get_world", GetWorld).paused, not runs)
         call("delete_object", DeleteObject, "feather")

@@ -1,12 +1,12 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Writes the CMake packages `FrankaCore` (what is always ours) and `Franka` (the public interface, which
-# the vendor's may replace) twice: beside the built libraries (devel space) and for installation.
+# Writes the CMake packages `FrankaCore` (always ours) and `Franka` (the public interface, which the
+# vendor's may replace) twice: beside the built libraries (devel space) and for installation.
 include(CMakePackageConfigHelpers)
 
 # Config and version are the same in both places; beside the built libraries the targets carry absolute
-# paths. LIBRARY stands in export set <package>Targets.
+# paths. LIBRARY is in export set <package>Targets.
 function(franka_export package library)
   set(build_dir ${franka_build_cmake_dir}/${package})
   set(destination ${franka_lib_destination}/cmake/${package})

@@ -11,11 +11,11 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 library=$(dirname "$here")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# Debian's python3 runs catkin, whatever stands first on PATH; no other workspace may answer for ours.
+# Debian's python3 runs catkin, even if another is first in PATH; no other workspace may be found.
 export PATH=/usr/bin:$PATH
 unset CMAKE_PREFIX_PATH ROS_PACKAGE_PATH LD_LIBRARY_PATH PYTHONPATH
 
-# The same sources are compiled in each case; not optimised, and once where there is a compiler cache.
+# Each case compiles the same sources: not optimised, and only once with a compiler cache.
 options=(-DCMAKE_BUILD_TYPE=Debug)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
@@ -27,7 +27,7 @@ fail() {
   exit 1
 }
 
-# Runs a step silently; shows what it said when it fails.
+# Runs a step silently; prints its output if it fails.
 step() {
   local name=$1
   shift
@@ -97,7 +97,7 @@ case_plain() {
   [ ! -e "$work/prefix/setup.sh" ] || fail "a plain build installed catkin's files"
   use_installed "plain install" "$work/prefix"
   use_installed "plain build folder" "$work/plain"
-  # franka_core stands beside the vendor's library: it may define nothing in namespace franka.
+  # franka_core is used together with the vendor's library: it must define nothing in namespace franka.
   local core
   core=$(find "$work/prefix" -name libfranka_core.so)
   if nm -DC --defined-only "$core" | grep -E ' (franka::|(vtable|typeinfo)( name)? for franka::)'; then
@@ -105,7 +105,7 @@ case_plain() {
   fi
 }
 
-# Another libfranka in the place of ours: only the core is built of ours, and both work together.
+# Another libfranka replaces ours: only our core is built, and both work together.
 case_vendor() {
   local vendor=$work/vendor
   step "vendor stub" cmake -S "$here/vendor_stub" -B "$work/vendor_build" "${options[@]}" \

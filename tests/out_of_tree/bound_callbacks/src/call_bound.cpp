@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Both kinds of bind in one program, with the placeholders of both where names may collide.
+// Both kinds of bind in one program, with the placeholders of both in scope.
 #include <franka_hw/trigger_rate.h>
 
 #include <boost/bind/bind.hpp>

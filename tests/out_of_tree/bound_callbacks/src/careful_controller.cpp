@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What was written for newer Boost already: the macro, the include and the namespace by itself.
+// Code written for newer Boost: it has the macro, the include and the namespace itself.
 #include <ros/ros.h>
 // Our headers come first, so that they meet the definition of the macro afterwards.
 #include <controller_interface/controller.h>

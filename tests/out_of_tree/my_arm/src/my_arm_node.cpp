@@ -11,7 +11,7 @@
 #include <mutex>
 #include <string>
 
-/// A robot that counts its commands and halves what is commanded to the last joint.
+/// A robot that counts its commands and halves the command of the last joint.
 class MyArm : public franka_hw::FrankaHW {
  public:
   bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override {

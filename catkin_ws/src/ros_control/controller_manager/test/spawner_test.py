@@ -129,14 +129,14 @@ class SpawnerTest(unittest.TestCase):
 
     def test_finds_a_publisher_whose_announcement_was_lost(self):
         deaf = mock.patch.object(RegManager, "publisher_update")
-        with deaf, mock.patch.object(spawner, "LONELY_TIME", 0.5):
+        with deaf, mock.patch.object(spawner, "RESUBSCRIBE_TIME", 0.5):
             listener = spawner.Listener("overheard")
             publisher = rospy.Publisher("overheard", Bool, queue_size=1, latch=True)
             publisher.publish(True)
             time.sleep(0.3)
-            self.assertFalse(listener.heard())
+            self.assertFalse(listener.has_message())
         with contextlib.closing(listener):
-            wait_until(listener.heard, "never heard")
+            wait_until(listener.has_message, "never heard")
 
     def test_waits_for_a_topic_without_limit_and_reports_it(self):
         publisher = rospy.Publisher("late", Bool, queue_size=1, latch=True)
@@ -153,7 +153,7 @@ class SpawnerTest(unittest.TestCase):
         publisher = rospy.Publisher("reported", Bool, queue_size=1, latch=True)
         reports = []
 
-        class Impatient:  # replaces Ending
+        class ShortEnding:  # replaces Ending
             def sleep(self, duration):
                 rospy.rostime.wallsleep(0.01)
 
@@ -162,9 +162,9 @@ class SpawnerTest(unittest.TestCase):
             # Times of the reports, and then the awaited topic.
             publisher.publish("only said false" in reports[-1])
 
-        impatient = mock.patch.multiple(spawner, FIRST_REPORT=0.0, REPORT_PERIOD=0.5)
-        with impatient, mock.patch.object(spawner.rospy, "logwarn", take):
-            spawner.wait_for_true("reported", Impatient())
+        short_ending = mock.patch.multiple(spawner, FIRST_REPORT=0.0, REPORT_PERIOD=0.5)
+        with short_ending, mock.patch.object(spawner.rospy, "logwarn", take):
+            spawner.wait_for_true("reported", ShortEnding())
         self.assertIn("/reported", reports[0])
         self.assertIn("has only said false so far", reports[-1])
 

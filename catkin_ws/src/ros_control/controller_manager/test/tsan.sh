@@ -4,7 +4,7 @@
 #
 # Builds the controller manager and its stress test with ThreadSanitizer and runs the test.
 # Needs a sourced workspace that has controller_manager_msgs and hardware_interface.
-# The exit status is 0 when no race was found and the test passed.
+# The exit status is 0 if no race was found and the test passed.
 #
 #   tsan.sh BUILD_DIRECTORY [OPERATIONS]     OPERATIONS: 10000 unless given
 set -eu

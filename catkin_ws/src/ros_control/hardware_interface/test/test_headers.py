@@ -142,7 +142,7 @@ def include_folders() -> list[Path]:
     return sources + generated + [Path("/usr/include") / name for name in DEBIAN]
 
 
-def complaints(source: str, folder: Path) -> str:
+def compiler_errors(source: str, folder: Path) -> str:
     """The compiler's errors about a text; empty if it compiles. Cached if there is ccache."""
     name = hashlib.sha256(source.encode()).hexdigest()[:16]
     (folder / f"{name}.cpp").write_text(source)
@@ -160,7 +160,7 @@ def verdicts(tmp_path_factory) -> dict[str, str]:
     sources |= {name: (HERE / "signatures" / name).read_text() for name in SIGNATURES}
     folder = tmp_path_factory.mktemp("headers")
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        found = pool.map(lambda source: complaints(source, folder), sources.values())
+        found = pool.map(lambda source: compiler_errors(source, folder), sources.values())
         return dict(zip(sources, found))
 
 
@@ -177,6 +177,6 @@ def test_every_class_and_signature_exists(package, verdicts):
 
 
 def test_missing_headers_and_wrong_types_are_detected(tmp_path):
-    assert "no_such_header" in complaints("#include <hardware_interface/no_such_header.h>\n", tmp_path)
+    assert "no_such_header" in compiler_errors("#include <hardware_interface/no_such_header.h>\n", tmp_path)
     wrong = '#include "signature.h"\nEXPECT_TYPE(int, 1.0);\n'
-    assert "static assertion failed" in complaints(wrong, tmp_path)
+    assert "static assertion failed" in compiler_errors(wrong, tmp_path)

@@ -24,22 +24,22 @@ class Ending:
     """
 
     def __init__(self):
-        self._asked = threading.Event()
+        self._requested = threading.Event()
         self._done = threading.Event()
         for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: self._asked.set())
+            signal.signal(number, lambda *_: self._requested.set())
         rospy.on_shutdown(self._wait_for_end)
 
     def _wait_for_end(self):
-        self._asked.set()
+        self._requested.set()
         self._done.wait(LONGEST_END)
 
-    def is_asked(self):
-        return self._asked.is_set()
+    def is_requested(self):
+        return self._requested.is_set()
 
     def sleep(self, duration):
         """Raises Ended if a request to exit interrupts the sleep."""
-        if self._asked.wait(duration):
+        if self._requested.wait(duration):
             raise Ended
 
     def finish(self):
@@ -61,7 +61,7 @@ class Ending:
         worker.start()
         while worker.is_alive():
             worker.join(POLL_PERIOD)
-            if self.is_asked() and worker.is_alive():
+            if self.is_requested() and worker.is_alive():
                 raise Ended
         if "error" in outcome:
             raise outcome["error"]

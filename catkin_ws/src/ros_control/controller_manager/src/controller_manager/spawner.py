@@ -33,7 +33,7 @@ PAUSE_AFTER_FAILED_LOAD = 1.0  # [s]
 # Time until a wait for a topic is first reported, and then the period.
 FIRST_REPORT = 10.0  # [s]
 REPORT_PERIOD = 60.0  # [s]
-LONELY_TIME = 3.0  # [s] after which a subscriber without a publisher is replaced
+RESUBSCRIBE_TIME = 3.0  # [s] after which a subscriber without a publisher is replaced
 # roslaunch ends all its nodes at once: time until a manager that broke a call off has exited.
 END_OF_MANAGER = 2.0  # [s]
 
@@ -98,7 +98,7 @@ class SimulatedClock:
         if not self._begun:
             if self._listener is None:
                 self._listener = Listener("/clock", Clock, lambda message: not message.clock.is_zero())
-            self._begun = self._listener.heard()
+            self._begun = self._listener.has_message()
             if self._begun:
                 self.close()
         return self._begun
@@ -169,24 +169,24 @@ class Listener:
         self._topic = topic
         self._kind = kind
         self._counts = counts
-        self._heard = False
+        self._has_message = False
         self._has_news = False
         self._subscribe()
 
     def _subscribe(self):
         self._subscriber = rospy.Subscriber(self._topic, self._kind, self._take)
-        self._doubt = time.monotonic() + LONELY_TIME
+        self._doubt = time.monotonic() + RESUBSCRIBE_TIME
 
     def _take(self, message):
         self._has_news = True
-        self._heard = self._heard or self._counts(message)
+        self._has_message = self._has_message or self._counts(message)
 
-    def heard(self):
+    def has_message(self):
         """Whether such a message has arrived."""
         if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._doubt:
             self.close()
             self._subscribe()
-        return self._heard
+        return self._has_message
 
     def account(self):
         """What has arrived instead of such a message, as the end of a sentence."""
@@ -207,7 +207,7 @@ def wait_for_true(topic, ending):
     begin = time.monotonic()
     report = begin + FIRST_REPORT
     with contextlib.closing(Listener(topic)) as listener:
-        while not listener.heard():
+        while not listener.has_message():
             if time.monotonic() > report:
                 rospy.logwarn(
                     "Controller Spawner: after %.0f s, %s %s. Waiting on.",

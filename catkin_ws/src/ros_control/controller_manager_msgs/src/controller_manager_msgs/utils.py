@@ -123,14 +123,14 @@ def filter_by_hardware_interface(ctrl_list, hardware_interface, match_substring=
 
 def filter_by_resources(ctrl_list, resources, hardware_interface=None, match_any=False):
     """Controllers that claim all, or any, of the resources, on the given interface if any."""
-    wanted = set(resources)
+    requested = set(resources)
     result = []
     for one in ctrl_list:
         claimed = set()
         for entry in one.claimed_resources:
             if hardware_interface in (None, entry.hardware_interface):
                 claimed.update(entry.resources)
-        if (wanted & claimed) if match_any else wanted <= claimed:
+        if (requested & claimed) if match_any else requested <= claimed:
             result.append(one)
     return result
 
