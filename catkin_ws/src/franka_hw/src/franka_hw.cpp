@@ -136,7 +136,7 @@ franka::Robot& FrankaHW::robot() const {
   return *robot_;
 }
 
-RobotMutex& FrankaHW::robotMutex() { return robot_mutex_; }
+std::mutex& FrankaHW::robotMutex() { return robot_mutex_; }
 
 franka::RobotMode FrankaHW::robotMode() const { return robot_mode_; }
 

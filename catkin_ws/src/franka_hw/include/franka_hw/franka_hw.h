@@ -148,8 +148,8 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
 
   /// @throws std::logic_error with a sentence when there is no connection
   virtual franka::Robot& robot() const;
-  /// Held by the thread that talks to the robot.
-  virtual RobotMutex& robotMutex();
+  /// Held by the thread that talks to the robot: armConnection().mutex().
+  virtual std::mutex& robotMutex();
   /// As of the last state.
   franka::RobotMode robotMode() const override;
   /// When the last state was measured, on the clock of ROS: the time that controllers are told.

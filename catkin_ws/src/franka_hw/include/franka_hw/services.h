@@ -64,8 +64,8 @@ class ServiceContainer {
 /// @param robot outlives the services @param robot_mutex is held by threads that use the robot
 void setupServices(franka::Robot& robot, RobotMutex& robot_mutex, ros::NodeHandle& node_handle,
                    ServiceContainer& services);
-/// The same for a robot without a FrankaHW. Such a mutex does not say why it is held: the services
-/// are refused after half a second.
+/// The same for any mutex, which does not say why it is held: the services are refused after half a
+/// second.
 void setupServices(franka::Robot& robot, std::mutex& robot_mutex, ros::NodeHandle& node_handle,
                    ServiceContainer& services);
 

@@ -94,7 +94,7 @@ TEST_F(Connection, OutlivesASilenceOfARestingRobot) {
 
 TEST_F(Connection, RunsTheServicesOfARestingRobot) {
   franka_hw::ServiceContainer services;
-  franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
+  franka_hw::setupServices(robot_.robot(), robot_.armConnection().mutex(), arm_.robot_nh, services);
   franka_msgs::SetLoad load;
   load.request.mass = 0.75;
   load.request.F_x_center_load = {0.01, 0.02, 0.03};
@@ -132,7 +132,7 @@ TEST_F(Connection, ALoopThatOnlyReadsDoesNotKeepSwitchesOut) {
 
 TEST_F(Connection, SettersOfAMovingRobotAnswerAtOnce) {
   franka_hw::ServiceContainer services;
-  franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
+  franka_hw::setupServices(robot_.robot(), robot_.armConnection().mutex(), arm_.robot_nh, services);
   Loop loop(robot_, arm_);
   ASSERT_TRUE(loop.switchTo({"JP"}, {}));
   ASSERT_TRUE(waitUntil([&] { return loop.controller("JP").updates_since_start > 10; }));
