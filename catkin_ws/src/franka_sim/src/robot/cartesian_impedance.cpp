@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/rotations.h>
 #include <franka_sim/robot/cartesian_impedance.h>
+#include <franka_sim/robot/joint_impedance.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -86,7 +87,8 @@ std::array<double, 7> cartesianImpedance(const CartesianImpedanceInput& in) noex
   Vector6 wrench;
   for (int i = 0; i < 6; i++) {
     const double mobility = half.col(i).squaredNorm();
-    const double damping = mobility > 0.0 ? 1.4 * std::sqrt(in.K[i] / mobility) : 0.0;
+    const double damping =
+        mobility > 0.0 ? 2.0 * kDampingRatio * std::sqrt(in.K[i] / mobility) : 0.0;
     wrench[i] = in.K[i] * task.error[i] + damping * task.speed[i];
   }
   std::array<double, 7> tau;

@@ -16,7 +16,7 @@ std::array<double, 7> JointImpedance::torque(const std::array<double, 7>& q_d,
   std::array<double, 7> tau;
   for (std::size_t i = 0; i < 7; i++) {
     const double inertia = mass[8 * i] + rotor_inertia_[i];
-    const double damping = 1.4 * std::sqrt(stiffness_[i] * inertia);
+    const double damping = 2.0 * kDampingRatio * std::sqrt(stiffness_[i] * inertia);
     tau[i] = stiffness_[i] * (q_d[i] - q[i]) + damping * (dq_d[i] - dq[i]) + coriolis[i];
   }
   return tau;

@@ -6,6 +6,10 @@
 
 namespace franka_sim {
 
+/// How the unit's own laws are damped, as a share of the critical damping of the inertia that the
+/// spring sees (decisions 10, 11).
+constexpr double kDampingRatio = 0.7;
+
 /// The unit's joint impedance law (decision 10): a spring K to the desired position, a damper
 /// D_i = 1.4 sqrt(K_i (M_ii + B_i)) to the desired velocity, and the Coriolis torques.
 /// D is 0.7 of critical for the inertia the spring sees; a joint without stiffness is not damped
