@@ -148,6 +148,7 @@ TEST(RobotModelTest, fusesWhatDoesNotMove) {
     }
   }
 }
+
 // An encoder never shows a target to the last bit, and clients divide by the way that is left.
 TEST(ComeToRest, IsAWayOfATenthOfAMilliradianFromTheTarget) {
   RobotDescription description = robot("panda");
@@ -161,7 +162,6 @@ TEST(ComeToRest, IsAWayOfATenthOfAMilliradianFromTheTarget) {
     EXPECT_LT(way, 2e-4) << joint;
   }
 }
-
 
 }  // namespace
 }  // namespace franka_sim::test
