@@ -46,10 +46,11 @@ def constant(file, words):
 
 
 def arm_limits(name):
-    """The first fields of a table of franka_core/limits.h."""
-    numbers = constant(
-        CORE + "limits.h", f"{name}{{" + 7 * f"{{{{{SEVEN}}}}}, " + "{#, #, #}, {#, #, #}, {#, #, #}"
-    )
+    """The fields that the pages use of a table of franka_core/limits.h."""
+    words = f"{name} = [] {{ ArmLimits arm{{}};"
+    for field in ("q_min", "q_max", "dq", "ddq", "dddq", "tau", "dtau"):
+        words += f" arm.{field} = {{{{{SEVEN}}}}};"
+    numbers = constant(CORE + "limits.h", words + " arm.translation = {#, #, #}; arm.rotation = {#, #, #};")
     joints = {
         field: numbers[7 * i : 7 * i + 7]
         for i, field in enumerate(("q_min", "q_max", "dq", "ddq", "dddq", "tau", "dtau"))

@@ -219,11 +219,6 @@ def test_tests_named_in_faults_exist():
     assert not missing
 
 
-def braced(source: str, name: str) -> list[int]:
-    """The numbers of a constant array."""
-    return [int(n) for n in re.search(rf"\b{name}\s*\{{\s*\{{([^}}]*)\}}\}}", source).group(1).split(",")]
-
-
 def rows(section: str) -> list[list[str]]:
     """The table rows of a section of the protocol page."""
     text = re.search(rf"^### {section} .*?(?=^##)", PAGES["protocol"], re.MULTILINE | re.DOTALL).group(0)
@@ -236,8 +231,10 @@ def test_the_protocol_page_has_the_numbers_and_sizes_of_the_code():
     commands = (LIBFRANKA / "include/franka_core/fci/commands.h").read_text(encoding="utf-8")
     enumeration = re.search(r"enum class Command [^{]*\{(.*?)\};", commands, re.DOTALL).group(1)
     names = re.findall(r"^  k(\w+),", enumeration, re.MULTILINE)
-    versions = ("kVersions3To5", "kVersions6And7", "kVersions8And9", "kVersion10")
-    columns = [braced(table, name) for name in versions]
+    code = {}
+    for name, cells in re.findall(r"\{Command::k(\w+), ([^}]*)\}", table):
+        code[name] = [int(cell) for cell in cells.replace("kAbsent", "-1").split(", ")]
+    assert list(code) == names
     numbers, sizes = {}, {}
     for name, *cells in rows("3.1")[1:]:
         listed = re.sub(r" \(.*\)", "", name).split(", ")
@@ -246,8 +243,8 @@ def test_the_protocol_page_has_the_numbers_and_sizes_of_the_code():
     for name, size, _ in rows("3.2")[1:]:
         for command in name.split(", "):
             sizes[command] = int(size.split(";")[0])
-    assert numbers == {name: [column[i] for column in columns] for i, name in enumerate(names)}
-    assert sizes == {name: 12 + size for name, size in zip(names, braced(table, "kRequestPayload"))}
+    assert numbers == {name: cells[:4] for name, cells in code.items()}
+    assert sizes == {name: 12 + cells[4] for name, cells in code.items()}
 
 
 def test_the_protocol_page_has_the_sizes_of_the_state():

@@ -13,7 +13,9 @@ namespace {
 
 constexpr char kName[] = "CartesianPoseExampleController";
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadius = 0.15;  // [m]
+constexpr double kRadius = 0.15;      // [m]
+constexpr double kCycle = 10.0;       // [s]
+constexpr double kSweep = kPi / 2.0;  // of the arc, there and back [rad]
 
 }  // namespace
 
@@ -38,7 +40,7 @@ void CartesianPoseExampleController::starting(const ros::Time& /*time*/) {
 void CartesianPoseExampleController::update(const ros::Time& /*time*/,
                                             const ros::Duration& period) {
   elapsed_ += period.toSec();
-  const double angle = kPi / 4.0 * (1.0 - std::cos(kPi / 5.0 * elapsed_));
+  const double angle = kSweep / 2.0 * (1.0 - std::cos(2.0 * kPi / kCycle * elapsed_));
   std::array<double, 16> pose = O_T_EE_start_;
   pose[12] -= kRadius * std::sin(angle);
   pose[14] -= kRadius * (std::cos(angle) - 1.0);

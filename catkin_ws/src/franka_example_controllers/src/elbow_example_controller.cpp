@@ -13,6 +13,8 @@ namespace {
 
 constexpr char kName[] = "ElbowExampleController";
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kCycle = 10.0;       // [s]
+constexpr double kSwing = kPi / 5.0;  // of joint 3 there and back [rad]
 
 }  // namespace
 
@@ -39,7 +41,7 @@ void ElbowExampleController::starting(const ros::Time& /*time*/) {
 void ElbowExampleController::update(const ros::Time& /*time*/, const ros::Duration& period) {
   elapsed_ += period.toSec();
   std::array<double, 2> elbow = elbow_start_;
-  elbow[0] += kPi / 10.0 * (1.0 - std::cos(kPi / 5.0 * elapsed_));
+  elbow[0] += kSwing / 2.0 * (1.0 - std::cos(2.0 * kPi / kCycle * elapsed_));
   pose_handle_->setCommand(O_T_EE_start_, elbow);
 }
 

@@ -13,7 +13,9 @@ namespace {
 
 constexpr char kName[] = "JointPositionExampleController";
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kOpposite = 4;  // the fifth joint moves in the opposite direction
+constexpr double kCycle = 10.0;             // [s]
+constexpr double kSwing = 0.2 * kPi / 8.0;  // of each joint there and back [rad]
+constexpr std::size_t kOpposite = 4;        // the fifth joint moves in the opposite direction
 
 }  // namespace
 
@@ -46,7 +48,7 @@ void JointPositionExampleController::starting(const ros::Time& /*time*/) {
 void JointPositionExampleController::update(const ros::Time& /*time*/,
                                             const ros::Duration& period) {
   elapsed_ += period.toSec();
-  const double swing = kPi / 16.0 * (1.0 - std::cos(kPi / 5.0 * elapsed_)) * 0.2;
+  const double swing = kSwing / 2.0 * (1.0 - std::cos(2.0 * kPi / kCycle * elapsed_));
   for (std::size_t i = 0; i < joint_handles_.size(); ++i) {
     joint_handles_[i].setCommand(q_start_[i] + (i == kOpposite ? -swing : swing));
   }

@@ -32,10 +32,6 @@ Joints withMargin(Joints limits) noexcept {
   return limits;
 }
 
-bool contains(ControlMode mode, ControlMode part) noexcept {
-  return (mode & part) != ControlMode::None;
-}
-
 bool isFiltered(const ShapingOptions& options) noexcept {
   return options.cutoff_frequency < franka::kMaxCutoffFrequency;
 }

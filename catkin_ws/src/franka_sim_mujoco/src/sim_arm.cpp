@@ -32,10 +32,6 @@ bool isFinite(const franka_core::RobotCommand& command) noexcept {
 /// An arm at full speed comes to rest within half a second.
 constexpr int kLongestStop = 2000;  // [ticks]
 
-bool contains(ControlMode mode, ControlMode part) noexcept {
-  return (mode & part) != ControlMode::None;
-}
-
 MotionGeneratorMode generatorOf(ControlMode mode) noexcept {
   if (contains(mode, ControlMode::JointPosition)) {
     return MotionGeneratorMode::kJointPosition;

@@ -12,12 +12,6 @@
 namespace franka_sim {
 namespace {
 
-Eigen::Vector3d vector(const std::array<double, 3>& values) {
-  return Eigen::Map<const Eigen::Vector3d>(values.data());
-}
-
-std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 template <std::size_t N>
 std::array<std::string, N> jointNames(const physics::RobotModel& robot, const std::string& prefix,
                                       const char* what) {

@@ -20,6 +20,11 @@
 
 namespace franka_sim {
 
+inline Eigen::Vector3d vector(const std::array<double, 3>& values) {
+  return Eigen::Vector3d::Map(values.data());
+}
+inline std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 /// A force at a point fixed to a body, for a number of ticks.
 struct Push {
   std::string body_name;  ///< to find the body again in a recompiled model

@@ -16,8 +16,6 @@ namespace {
 
 constexpr char kScope[] = "::";
 
-std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 bool startsWith(const std::string& text, const std::string& begin) {
   return text.compare(0, begin.size(), begin) == 0;
 }

@@ -16,10 +16,6 @@
 namespace franka_sim {
 namespace {
 
-Eigen::Map<const Eigen::Vector3d> vector(const std::array<double, 3>& values) {
-  return Eigen::Map<const Eigen::Vector3d>(values.data());
-}
-
 bool hasOneDegree(const mjModel& model, int joint) {
   return model.jnt_type[joint] == mjJNT_HINGE || model.jnt_type[joint] == mjJNT_SLIDE;
 }

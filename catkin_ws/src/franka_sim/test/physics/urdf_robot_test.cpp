@@ -148,6 +148,7 @@ TEST(RobotModelTest, FusesFixedLinks) {
     }
   }
 }
+
 // An encoder never shows a target to the last bit, and clients divide by the way that is left.
 TEST(ComeToRest, IsAWayOfATenthOfAMilliradianFromTheTarget) {
   RobotDescription description = robot("panda");

@@ -9,6 +9,10 @@
 
 namespace franka_sim_mujoco {
 
+inline bool contains(franka_hw::ControlMode mode, franka_hw::ControlMode part) noexcept {
+  return (mode & part) != franka_hw::ControlMode::None;
+}
+
 /// Processing of commands between controllers and robot, as in libfranka's control loops: the
 /// parameters of the same names of franka_hw.
 struct ShapingOptions {

@@ -44,48 +44,50 @@ struct ArmLimits {
 };
 
 /// Panda, also called FER: protocols 3 to 5.
-constexpr ArmLimits kFerLimits{{{-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973}},
-                               {{2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973}},
-                               {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}},
-                               {{15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0}},
-                               {{7500.0, 3750.0, 5000.0, 6250.0, 7500.0, 10000.0, 10000.0}},
-                               {{87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0}},
-                               {{1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0}},
-                               {2.0, 13.0, 6500.0},
-                               {2.5, 25.0, 12500.0},
-                               {2.175, 10.0, 5000.0},
-                               1.7,
-                               2.175,
-                               {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}}};
+constexpr ArmLimits kFerLimits = [] {
+  ArmLimits arm{};
+  arm.q_min = {{-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973}};
+  arm.q_max = {{2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973}};
+  arm.dq = {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}};
+  arm.ddq = {{15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0}};
+  arm.dddq = {{7500.0, 3750.0, 5000.0, 6250.0, 7500.0, 10000.0, 10000.0}};
+  arm.tau = {{87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0}};
+  arm.dtau = {{1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0}};
+  arm.translation = {2.0, 13.0, 6500.0};
+  arm.rotation = {2.5, 25.0, 12500.0};
+  arm.elbow = {2.175, 10.0, 5000.0};
+  arm.documented_translation_velocity = 1.7;
+  arm.documented_elbow_velocity = 2.175;
+  arm.rate_limiter_dq = {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}};
+  return arm;
+}();
 
 /// FR3 with system 5.9 or later: protocol 10 (decision 8).
-constexpr ArmLimits kFr3Limits{{{-2.9007, -1.8361, -2.9007, -3.0770, -2.8763, 0.4398, -3.0508}},
-                               {{2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508}},
-                               {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}},
-                               {{10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0}},
-                               {{5000.0, 5000.0, 5000.0, 5000.0, 5000.0, 5000.0, 5000.0}},
-                               {{87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0}},
-                               {{1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0}},
-                               {3.0, 9.0, 4500.0},
-                               {2.5, 17.0, 8500.0},
-                               {1.5, 10.0, 5000.0},
-                               3.0,
-                               2.62,
-                               {{2.0, 1.0, 1.5, 1.25, 3.0, 1.5, 3.0}}};
-
-namespace limits_detail {
-constexpr ArmLimits withPositions(ArmLimits limits, const std::array<double, 7>& q_min,
-                                  const std::array<double, 7>& q_max) {
-  limits.q_min = q_min;
-  limits.q_max = q_max;
-  return limits;
-}
-}  // namespace limits_detail
+constexpr ArmLimits kFr3Limits = [] {
+  ArmLimits arm{};
+  arm.q_min = {{-2.9007, -1.8361, -2.9007, -3.0770, -2.8763, 0.4398, -3.0508}};
+  arm.q_max = {{2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508}};
+  arm.dq = {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}};
+  arm.ddq = {{10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0}};
+  arm.dddq = {{5000.0, 5000.0, 5000.0, 5000.0, 5000.0, 5000.0, 5000.0}};
+  arm.tau = {{87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0}};
+  arm.dtau = {{1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 1000.0}};
+  arm.translation = {3.0, 9.0, 4500.0};
+  arm.rotation = {2.5, 17.0, 8500.0};
+  arm.elbow = {1.5, 10.0, 5000.0};
+  arm.documented_translation_velocity = 3.0;
+  arm.documented_elbow_velocity = 2.62;
+  arm.rate_limiter_dq = {{2.0, 1.0, 1.5, 1.25, 3.0, 1.5, 3.0}};
+  return arm;
+}();
 
 /// FR3 before system 5.9: protocols 6 to 9. Only the position limits differ.
-constexpr ArmLimits kFr3LimitsBefore59 = limits_detail::withPositions(
-    kFr3Limits, {{-2.7437, -1.7837, -2.9007, -3.0421, -2.8065, 0.5445, -3.0159}},
-    {{2.7437, 1.7837, 2.9007, -0.1518, 2.8065, 4.5169, 3.0159}});
+constexpr ArmLimits kFr3LimitsBefore59 = [] {
+  ArmLimits arm = kFr3Limits;
+  arm.q_min = {{-2.7437, -1.7837, -2.9007, -3.0421, -2.8065, 0.5445, -3.0159}};
+  arm.q_max = {{2.7437, 1.7837, 2.9007, -0.1518, 2.8065, 4.5169, 3.0159}};
+  return arm;
+}();
 
 /// The limits of a robot with this protocol version (decisions 8, 25).
 constexpr const ArmLimits& limitsOfProtocol(unsigned version) noexcept {
@@ -102,21 +104,27 @@ struct PositionVelocityLimits {
 };
 
 /// FR3, as in the client's header since libfranka 0.11 (protocol 5.5).
-constexpr PositionVelocityLimits kFr3PositionVelocityLimits{
-    {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}},
-    {{0.30, 0.20, 0.20, 0.30, 0.35, 0.35, 0.35}},
-    {{12.0, 5.17, 7.0, 8.0, 34.0, 11.0, 34.0}},
-    {{-2.7501, -1.7918, -2.9065, -3.0481, -2.8101, 0.54092, -3.0196}},
-    {{2.7501, 1.7918, 2.9065, -0.1458, 2.8101, 4.5205, 3.0196}}};
+constexpr PositionVelocityLimits kFr3PositionVelocityLimits = [] {
+  PositionVelocityLimits limits{};
+  limits.velocity = {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}};
+  limits.offset = {{0.30, 0.20, 0.20, 0.30, 0.35, 0.35, 0.35}};
+  limits.deceleration = {{12.0, 5.17, 7.0, 8.0, 34.0, 11.0, 34.0}};
+  limits.q_min = {{-2.7501, -1.7918, -2.9065, -3.0481, -2.8101, 0.54092, -3.0196}};
+  limits.q_max = {{2.7501, 1.7918, 2.9065, -0.1458, 2.8101, 4.5205, 3.0196}};
+  return limits;
+}();
 
 /// FR3 with system 5.9 or later, as in the URDF for clients of protocol 10; c is twice the URDF's
 /// deceleration (protocol 5.5).
-constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59{
-    kFr3Limits.dq,
-    {{0.6599, 0.2517, 0.2000, 0.3533, 0.5757, 0.4878, 0.4628}},
-    {{12.0, 5.17, 7.0, 8.0, 34.0, 11.0, 34.0}},
-    kFr3Limits.q_min,
-    kFr3Limits.q_max};
+constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59 = [] {
+  PositionVelocityLimits limits{};
+  limits.velocity = kFr3Limits.dq;
+  limits.offset = {{0.6599, 0.2517, 0.2000, 0.3533, 0.5757, 0.4878, 0.4628}};
+  limits.deceleration = {{12.0, 5.17, 7.0, 8.0, 34.0, 11.0, 34.0}};
+  limits.q_min = kFr3Limits.q_min;
+  limits.q_max = kFr3Limits.q_max;
+  return limits;
+}();
 
 /// Highest velocity of a joint (0 to 6) at position q [rad]: min(V, max(0, -o + sqrt(c (q_max -
 /// q)))).

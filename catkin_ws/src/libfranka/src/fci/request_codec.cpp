@@ -163,7 +163,7 @@ std::optional<std::uint32_t> commandNumber(std::uint16_t version, Command comman
   if (!isRobotVersion(version) || static_cast<std::size_t>(command) >= kCommandCount) {
     return std::nullopt;
   }
-  const std::int8_t number = table::numbers(version)[static_cast<std::size_t>(command)];
+  const std::int8_t number = table::numberOf(version, command);
   if (number < 0) {
     return std::nullopt;
   }
@@ -185,8 +185,7 @@ std::size_t requestSize(std::uint16_t version, Command command) noexcept {
     return 0;
   }
   const bool async = command == Command::kMove && hasAsyncMotion(version);
-  return kHeaderSize + table::kRequestPayload[static_cast<std::size_t>(command)] +
-         (async ? table::kAsyncMovePayload : 0);
+  return kHeaderSize + table::rowOf(command).payload + (async ? table::kAsyncMovePayload : 0);
 }
 
 CodecError nextMessage(Bytes stream, std::size_t max_size, Header& header) noexcept {

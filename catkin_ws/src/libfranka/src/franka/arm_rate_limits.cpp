@@ -22,28 +22,30 @@ franka_core::DerivativeLimits withMargin(const franka_core::DerivativeLimits& li
 }
 
 ArmRateLimits pandaLimits() {
-  return {kMaxTorqueRate,
-          kMaxJointAcceleration,
-          kMaxJointJerk,
-          kMaxJointVelocity,
-          std::nullopt,
-          0.0,
-          {kMaxTranslationalVelocity, kMaxTranslationalAcceleration, kMaxTranslationalJerk},
-          {kMaxRotationalVelocity, kMaxRotationalAcceleration, kMaxRotationalJerk},
-          {kMaxElbowVelocity, kMaxElbowAcceleration, kMaxElbowJerk}};
+  ArmRateLimits limits{};
+  limits.torque_rate = kMaxTorqueRate;
+  limits.joint_acceleration = kMaxJointAcceleration;
+  limits.joint_jerk = kMaxJointJerk;
+  limits.joint_velocity = kMaxJointVelocity;
+  limits.translation = {kMaxTranslationalVelocity, kMaxTranslationalAcceleration,
+                        kMaxTranslationalJerk};
+  limits.rotation = {kMaxRotationalVelocity, kMaxRotationalAcceleration, kMaxRotationalJerk};
+  limits.elbow = {kMaxElbowVelocity, kMaxElbowAcceleration, kMaxElbowJerk};
+  return limits;
 }
 
 ArmRateLimits fr3Limits(const franka_core::PositionVelocityLimits& velocities) {
   const franka_core::ArmLimits& arm = franka_core::kFr3Limits;
-  return {rate_limiting_detail::withMargin(arm.dtau),
-          rate_limiting_detail::withMargin(arm.ddq),
-          rate_limiting_detail::withMargin(arm.dddq),
-          Joints{},
-          velocities,
-          kLimitEps,
-          withMargin(arm.translation),
-          withMargin(arm.rotation),
-          withMargin(arm.elbow)};
+  ArmRateLimits limits{};
+  limits.torque_rate = rate_limiting_detail::withMargin(arm.dtau);
+  limits.joint_acceleration = rate_limiting_detail::withMargin(arm.ddq);
+  limits.joint_jerk = rate_limiting_detail::withMargin(arm.dddq);
+  limits.position_velocity = velocities;
+  limits.velocity_margin = kLimitEps;
+  limits.translation = withMargin(arm.translation);
+  limits.rotation = withMargin(arm.rotation);
+  limits.elbow = withMargin(arm.elbow);
+  return limits;
 }
 
 const tinyxml2::XMLElement* findJoint(const tinyxml2::XMLElement& robot, const std::string& name) {

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/exception.h>
 #include <franka/mobile_model.h>
-#include <franka_core/rotations.h>
-#include <tinyxml2.h>
+#include <urdf_parser/urdf_parser.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -33,93 +31,51 @@ using Chain = std::vector<Joint>;  // from the root on
   throw ModelException("libfranka: The model of a mobile base cannot be made. " + reason);
 }
 
-std::string attributeOf(const tinyxml2::XMLElement* element, const char* name) {
-  const char* text = element != nullptr ? element->Attribute(name) : nullptr;
-  return text != nullptr ? text : "";
-}
-
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-Eigen::Vector3d vectorOf(const tinyxml2::XMLElement* element, const char* name,
-                         const Eigen::Vector3d& otherwise) {
-  const std::string text = attributeOf(element, name);
-  if (text.empty()) {
-    return otherwise;
-  }
-  std::istringstream numbers(text);
-  Eigen::Vector3d vector;
-  if (!(numbers >> vector.x() >> vector.y() >> vector.z()) || !vector.allFinite()) {
-    refuse("Its description (URDF) has " + std::string(name) + "=\"" + text +
-           "\" where three numbers must stand.");
-  }
-  return vector;
-}
-
-Joint jointOf(const tinyxml2::XMLElement& element) {
-  const tinyxml2::XMLElement* origin = element.FirstChildElement("origin");
-  const Eigen::Vector3d rpy = vectorOf(origin, "rpy", Eigen::Vector3d::Zero());
+Joint jointOf(const urdf::Joint& described) {
+  const urdf::Vector3& position = described.parent_to_joint_origin_transform.position;
+  const urdf::Rotation& turn = described.parent_to_joint_origin_transform.rotation;
   Joint joint;
-  joint.origin.translation() = vectorOf(origin, "xyz", Eigen::Vector3d::Zero());
-  joint.origin.linear() = franka_core::rotationFromRpy(rpy);
-  joint.axis = vectorOf(element.FirstChildElement("axis"), "xyz", Eigen::Vector3d::UnitX());
+  joint.origin.translation() << position.x, position.y, position.z;
+  joint.origin.linear() = Eigen::Quaterniond(turn.w, turn.x, turn.y, turn.z).toRotationMatrix();
+  joint.slides = described.type == urdf::Joint::PRISMATIC;
+  const auto suffix = std::find_if(kSuffixes.begin(), kSuffixes.end(),
+                                   [&](const char* end) { return endsWith(described.name, end); });
+  if (suffix == kSuffixes.end() || described.type == urdf::Joint::FIXED) {
+    return joint;
+  }
+  joint.variable = static_cast<int>(suffix - kSuffixes.begin());
+  joint.axis << described.axis.x, described.axis.y, described.axis.z;
   if (!(joint.axis.norm() > 0.0)) {
-    refuse("Its description (URDF) has a joint without an axis: " + attributeOf(&element, "name") +
-           ".");
+    refuse("Its description (URDF) has a joint without an axis: " + described.name + ".");
   }
   joint.axis.normalize();
-  joint.slides = attributeOf(&element, "type") == "prismatic";
-  const auto suffix = std::find_if(kSuffixes.begin(), kSuffixes.end(), [&](const char* end) {
-    return endsWith(attributeOf(&element, "name"), end);
-  });
-  if (suffix != kSuffixes.end() && attributeOf(&element, "type") != "fixed") {
-    joint.variable = static_cast<int>(suffix - kSuffixes.begin());
-  }
   return joint;
 }
 
-using Elements = std::vector<const tinyxml2::XMLElement*>;
-
-Elements jointsOf(const tinyxml2::XMLElement& robot) {
-  Elements joints;
-  for (const auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
-    joints.push_back(joint);
-  }
-  return joints;
-}
-
 /// The joints from the root to the one whose name ends with the suffix, inclusive.
-Chain chainTo(const Elements& joints, const std::string& suffix) {
-  const auto find = [&joints](auto matches) {
-    const auto found = std::find_if(joints.begin(), joints.end(), matches);
-    return found != joints.end() ? *found : nullptr;
-  };
-  const tinyxml2::XMLElement* joint = find([&](const tinyxml2::XMLElement* candidate) {
-    return endsWith(attributeOf(candidate, "name"), suffix);
-  });
-  if (joint == nullptr) {
+Chain chainTo(const urdf::ModelInterface& robot, const std::string& suffix) {
+  const auto last = std::find_if(robot.joints_.begin(), robot.joints_.end(),
+                                 [&](const auto& joint) { return endsWith(joint.first, suffix); });
+  if (last == robot.joints_.end()) {
     refuse("Its description (URDF) has no joint whose name ends with " + suffix + ".");
   }
   Chain chain;
-  while (joint != nullptr) {
-    if (chain.size() == joints.size()) {
+  for (urdf::JointSharedPtr joint = last->second; joint != nullptr;
+       joint = robot.links_.at(joint->parent_link_name)->parent_joint) {
+    if (chain.size() == robot.joints_.size()) {
       refuse("Its description (URDF) has a circle of joints.");
     }
     chain.push_back(jointOf(*joint));
-    const std::string link = attributeOf(joint->FirstChildElement("parent"), "link");
-    joint = find([&](const tinyxml2::XMLElement* candidate) {
-      return attributeOf(candidate->FirstChildElement("child"), "link") == link;
-    });
   }
   std::reverse(chain.begin(), chain.end());
   return chain;
 }
 
-bool isMobile(const tinyxml2::XMLElement* robot) {
-  return attributeOf(robot, "name").compare(0, 3, "tmr") == 0;
-}
+bool isMobile(const urdf::ModelInterface& robot) { return robot.name_.compare(0, 3, "tmr") == 0; }
 
 }  // namespace
 
@@ -128,29 +84,26 @@ struct MobileModel::Data {
 };
 
 bool isMobileRobotUrdf(const std::string& urdf) {
-  tinyxml2::XMLDocument document;
-  return document.Parse(urdf.data(), urdf.size()) == tinyxml2::XML_SUCCESS &&
-         isMobile(document.FirstChildElement("robot"));
+  const urdf::ModelInterfaceSharedPtr robot = urdf.empty() ? nullptr : urdf::parseURDF(urdf);
+  return robot != nullptr && isMobile(*robot);
 }
 
 MobileModel::MobileModel(const std::string& urdf) : data_(std::make_unique<Data>()) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) {
-    refuse("Its description (URDF) is no XML.");
+  const urdf::ModelInterfaceSharedPtr robot = urdf.empty() ? nullptr : urdf::parseURDF(urdf);
+  if (robot == nullptr) {
+    refuse("Its description (URDF) cannot be read; the lines above name the mistake.");
   }
-  const tinyxml2::XMLElement* robot = document.FirstChildElement("robot");
-  if (!isMobile(robot)) {
+  if (!isMobile(*robot)) {
     refuse(
-        "The description (URDF) is of the robot \"" + attributeOf(robot, "name") +
+        "The description (URDF) is of the robot \"" + robot->name_ +
         "\", but that of a mobile base has a robot whose name begins with \"tmr\". Of an arm, use "
         "franka::Model (Robot::loadModel).");
   }
-  const Elements joints = jointsOf(*robot);
   for (const char* suffix : kSuffixes) {
-    chainTo(joints, suffix);  // each must exist
+    chainTo(*robot, suffix);  // each must exist
   }
   for (std::size_t i = 0; i < kDriveJoints.size(); i++) {
-    data_->chains[i] = chainTo(joints, kSuffixes[kDriveJoints[i]]);
+    data_->chains[i] = chainTo(*robot, kSuffixes[kDriveJoints[i]]);
   }
 }
 
