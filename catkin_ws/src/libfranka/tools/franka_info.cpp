@@ -29,12 +29,12 @@ constexpr const char* kUsage =
     "usage: franka_info ADDRESS [SECONDS]\n"
     "\n"
     "Connects to the robot at ADDRESS (name or IP, maybe with a port, HOST:PORT), listens for\n"
-    "SECONDS (2) and tells what it is, how it does, and whether it is ready to be controlled. The\n"
-    "robot is not moved. To time its answers it is asked meanwhile for a virtual wall (Panda) or\n"
-    "its description (FR3). An FR3 of protocol version 6 or 7 has no such question: if it is "
-    "idle,\n"
-    "it is told to keep the stiffness frame EE_T_K that it has. The status is 0 when the robot is\n"
-    "ready, 1 when it is not, 2 when it cannot be reached, 3 for arguments that make no sense.";
+    "SECONDS (2) and prints its type, its connection quality, and whether it is ready to be\n"
+    "controlled. The robot is not moved. To time its answers franka_info requests a virtual wall\n"
+    "(Panda) or the description (FR3). An FR3 of protocol version 6 or 7 has no such request: if "
+    "it\n"
+    "is idle, franka_info sets its present stiffness frame EE_T_K again. The status is 0 if the\n"
+    "robot is ready, 1 if it is not, 2 if it cannot be reached, 3 for invalid arguments.";
 
 enum Status { kReady = 0, kNotReady = 1, kUnreachable = 2, kBadArguments = 3 };
 
