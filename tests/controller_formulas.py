@@ -68,7 +68,7 @@ def joint_impedance_torques(error, error_rate):
 def cartesian_impedance_torques(J, pose, desired, q, dq, q_nullspace, stiffness, nullspace_stiffness):
     """(7,) [Nm] without Coriolis torques, after the gains have reached their targets.
 
-    @param J (6, 7); pose, wanted (4, 4); stiffness its two, [N/m] and [Nm/rad]
+    @param J (6, 7); pose, desired (4, 4); stiffness its two, [N/m] and [Nm/rad]
     """
     turn = turn_of(pose[:3, :3].T @ desired[:3, :3])
     error = np.concatenate([desired[:3, 3] - pose[:3, 3], pose[:3, :3] @ turn])
@@ -88,7 +88,7 @@ def turn_of(rotation):
 def start_time(times, desired, formula, earliest, latest):
     """Start time of a controller: the time at which desired values match its formula, to 0.1 ms.
 
-    @param times (n,) of the states [s]; wanted (n, ...) their desired values
+    @param times (n,) of the states [s]; desired (n, ...) their desired values
     @param formula of times (n,) since the begin, constant before it
     """
     candidates = np.arange(earliest, latest, 1e-4)

@@ -199,7 +199,7 @@ def lead(arm):
     pushed = arm.step(PUSH_LASTS - 0.1)[-1]
     arm.step(1.0)
     hand.unregister()
-    poses = {"wanted": desired, "reached": pose_of(reached), "pushed": pose_of(pushed)}
+    poses = {"desired": desired, "reached": pose_of(reached), "pushed": pose_of(pushed)}
     found = {name: pose.tolist() for name, pose in poses.items()}
     return {**found, "q_nullspace": begin.q}, arm.states[count:]
 

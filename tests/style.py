@@ -250,7 +250,7 @@ def main() -> int:
         parser.error(f"there is no check {', '.join(unknown)}; there are: {', '.join(CHECKS)}")
     files = tracked()
     if not files:
-        print("style: git lists no files here; `git status` says why.", file=sys.stderr)
+        print("style: git lists no files here; `git status` shows the reason.", file=sys.stderr)
         return 1
     failed = []
     for name in arguments.checks or CHECKS:

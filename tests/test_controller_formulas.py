@@ -154,7 +154,9 @@ def test_model_prints_the_textbook_values(run, number):
 
 
 def test_cartesian_impedance_reaches_its_equilibrium_and_yields_like_a_spring(run):
-    desired, reached, pushed = (np.array(run.report["led"][name]) for name in ("wanted", "reached", "pushed"))
+    desired, reached, pushed = (
+        np.array(run.report["led"][name]) for name in ("desired", "reached", "pushed")
+    )
     assert distances(reached, desired) < POSE_ERROR
     np.testing.assert_allclose(reached[:3, :3], desired[:3, :3], atol=JOINT_ERROR)
     gave_way = (pushed - reached)[:3, 3]
@@ -163,7 +165,7 @@ def test_cartesian_impedance_reaches_its_equilibrium_and_yields_like_a_spring(ru
 
 def test_cartesian_impedance_commands_match_its_control_law(run):
     """While the hand is pushed and released; the null space target is the start position."""
-    states, desired = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["wanted"])
+    states, desired = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["desired"])
     q_nullspace = run.report["led"]["q_nullspace"]
     some = np.arange(2, len(states.time), 15)
     expected = []

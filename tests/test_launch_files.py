@@ -114,7 +114,7 @@ def check_rviz(config: ROSLaunchConfig) -> int:
     for node in found:
         words = shlex.split(node.args)
         options = dict(zip(words[::2], words[1::2]))
-        assert "-f" in options, "rviz is told no fixed frame: it would be the file's, whatever the arm."
+        assert "-f" in options, "rviz gets no fixed frame: it would use the file's for any arm."
         description = config.params[name_for(node, "robot_description")].value
         assert options["-f"] in {
             link.get("name") for link in ElementTree.fromstring(description).iter("link")

@@ -244,7 +244,7 @@ def test_our_client_reports_invalid_states(stepped):
     finally:
         begin = time.monotonic()
         while own[0].sim.ask("state").startswith("Move"):
-            assert time.monotonic() - begin < 5.0, "The motion goes on without a client."
+            assert time.monotonic() - begin < 5.0, "The motion continues without a client."
         own[0].client.run_task("connect", address=own[0].proxy.address)
         own[0].client.run_task("recover")
     assert run(own, seconds=0.2, amplitude=0.0)[0]["outcome"] == "ok"

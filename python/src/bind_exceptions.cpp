@@ -36,7 +36,7 @@ void bindExceptions(py::module_& module) {
   bindPlain<franka::NetworkException>(module, "NetworkException", base,
                                       "The connection cannot be made, or is lost.");
   bindPlain<franka::ProtocolException>(module, "ProtocolException", base,
-                                       "The robot says what makes no sense.");
+                                       "The robot sent invalid data.");
   bindPlain<franka::CommandException>(module, "CommandException", base,
                                       "The robot refused or aborted a command.");
   bindPlain<franka::RealtimeException>(module, "RealtimeException", base,

@@ -90,7 +90,7 @@ void bindVacuum(py::module_& module) {
            "Vacuums an object [10 mbar] within a time (timedelta). Returns whether it is held.\n\n"
            "Raises CommandException, NetworkException.")
       .def("drop_off", &VacuumGripper::dropOff, py::call_guard<release>(), py::arg("timeout"),
-           "Drops what is held within a time (timedelta). Returns whether it did.\n\nRaises "
+           "Drops the part within a time (timedelta). Returns whether it did.\n\nRaises "
            "CommandException, NetworkException.")
       .def("stop", &VacuumGripper::stop, py::call_guard<release>(),
            "Ends what the gripper is doing. Returns whether it did.")

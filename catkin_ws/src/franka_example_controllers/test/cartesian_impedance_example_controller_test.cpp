@@ -310,7 +310,7 @@ TEST_F(ControllerTest, TakesStiffnessFromDynamicReconfigure) {
     EXPECT_TRUE(std::isfinite(parameter.value)) << parameter.name;
   }
   run(controller, robot, 5000);
-  EXPECT_NEAR(-10.0 * 0.2, robot.command[6], 1e-6) << "what is no number changes nothing";
+  EXPECT_NEAR(-10.0 * 0.2, robot.command[6], 1e-6) << "invalid values change nothing";
 }
 
 TEST_F(ControllerTest, ChangesNoTorqueByMoreThanOneNewtonmetre) {

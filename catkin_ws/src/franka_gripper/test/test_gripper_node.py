@@ -74,7 +74,7 @@ def errors_of_nodes(session) -> dict:
         "no rate": ["_robot_ip:=127.0.31.1", names, "_publish_rate:=0"],
         "no map": ["_robot_ip:=127.0.31.1", names, "_default_grasp_epsilon:=0.1"],
         "no such host": ["_robot_ip:=no.such.host.invalid", names],
-        "nobody there": ["_robot_ip:=127.0.31.9", names],
+        "no gripper": ["_robot_ip:=127.0.31.9", names],
     }
     nodes = {}
     for i, (name, arguments) in enumerate(cases.items()):
@@ -264,7 +264,7 @@ def test_a_lost_hand_is_reported_and_reconnected(report):
         ("no rate", "publish_rate must be a number not below 0.001"),
         ("no map", "default_grasp_epsilon must be a map"),
         ("no such host", "no gripper at no.such.host.invalid"),
-        ("nobody there", "no gripper at 127.0.31.9"),
+        ("no gripper", "no gripper at 127.0.31.9"),
     ],
 )
 def test_a_node_that_cannot_start_reports_why_and_exits(report, case, sentence):

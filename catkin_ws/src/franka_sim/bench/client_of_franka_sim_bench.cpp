@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A client of a running franka_sim, by this project's libfranka: zero torques for some seconds of
-// the robot's time. Prints as JSON what it saw:
+// the robot's time. Prints a report as JSON:
 //   times_real_time  the robot's time over the wall's; in lock-step the speed of the pair
 //   lost             commands that the robot counts as lost
 //   p50_us, p999_us  from an answer's sending to the next state's arrival; in lock-step the
@@ -32,7 +32,7 @@ struct Seen {
   double lost{0.0};
 };
 
-// The success rate is the share of the last hundred; its drops, summed, are what was lost.
+// The success rate is the share of the last hundred; the sum of its drops is the loss.
 class Losses {
  public:
   double count(double rate) {

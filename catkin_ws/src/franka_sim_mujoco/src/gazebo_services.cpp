@@ -112,7 +112,7 @@ void deleteModel(Simulation& simulation, const std::string& name) {
     simulation.removeObject(name);
   } else if (has(inventory.bodies)) {
     throw std::runtime_error("'" + name +
-                             "' belongs to the world file; only what was spawned can be deleted.");
+                             "' belongs to the world file; only spawned models can be deleted.");
   } else {
     throw std::runtime_error("There is no model '" + name + "' in the simulated world.");
   }

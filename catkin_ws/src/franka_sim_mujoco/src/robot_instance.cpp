@@ -108,7 +108,7 @@ void RobotInstance::startHardware(const RobotPlan& plan, const RobotHandle& robo
   if (!hardware_->initSim(plan.robot_namespace, node, robot, &plan.urdf, plan.transmissions)) {
     const std::string reason = hardware_->failure();
     throw std::runtime_error("The hardware of '" + name_ + "' (" + type + ") does not start: " +
-                             (reason.empty() ? "the log of the simulation says why." : reason));
+                             (reason.empty() ? "the simulation's log has the reason." : reason));
   }
   manager_ = std::make_unique<controller_manager::ControllerManager>(hardware_.get(), node);
   if (plan.joint_state_rate) {

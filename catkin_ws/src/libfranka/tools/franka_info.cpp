@@ -26,15 +26,12 @@ using franka_info::quantileOf;
 using franka_info::RoundTrips;
 
 constexpr const char* kDescription =
-    "Connects to the robot at ADDRESS, listens for SECONDS and tells what it is, how it does, and\n"
-    "whether it is ready to be controlled. The robot is not moved. To time its answers it is "
-    "asked\n"
-    "meanwhile for a virtual wall (Panda) or its description (FR3). An FR3 of protocol version 6 "
-    "or\n"
-    "7 has no such question: if it is idle, it is told to keep the stiffness frame EE_T_K that it\n"
-    "has. The status is 0 when the robot is ready, 1 when it is not, 2 when it cannot be reached, "
-    "3\n"
-    "for arguments that make no sense.";
+    "Connects to the robot at ADDRESS, listens for SECONDS and prints its type, its connection\n"
+    "quality, and whether it is ready to be controlled. The robot is not moved. To time its\n"
+    "answers franka_info requests a virtual wall (Panda) or the description (FR3). An FR3 of\n"
+    "protocol version 6 or 7 has no such request: if it is idle, franka_info sets its present\n"
+    "stiffness frame EE_T_K again. The status is 0 if the robot is ready, 1 if it is not, 2 if it\n"
+    "cannot be reached, 3 for invalid arguments.";
 
 enum Status { kReady = 0, kNotReady = 1, kUnreachable = 2, kBadArguments = 3 };
 

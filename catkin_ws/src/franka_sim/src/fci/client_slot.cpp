@@ -205,7 +205,7 @@ void ClientSlot::refuse(Entry& entry, Reason reason) {
 void ClientSlot::reportRefusal(const sockaddr_in& peer, Reason reason) {
   constexpr std::array<const char*, kReasons> kTexts{
       "there is a client already, and one at a time is served",
-      "it was too slow to say what it wants", "what it sent is no request",
+      "it was too slow to send its first request", "it sent an invalid request",
       "too many connections wait without having said who they are"};
   const Clock::time_point now = Clock::now();
   std::optional<Report>& last = reports_[reason];

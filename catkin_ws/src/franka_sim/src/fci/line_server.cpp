@@ -97,7 +97,7 @@ void LineServer::accept() {
       return;
     }
     auto connection = std::make_unique<Connection>(std::move(socket));
-    serveClient();  // who comes back at once finds its old connection not yet taken down
+    serveClient();  // a client that reconnects at once may still occupy the slot
     if (client_ && has_ended_) {
       published();
       client_.reset();
@@ -129,7 +129,7 @@ void LineServer::serveClient() {
   }
   has_ended_ = !client_->receive() || !client_->flush() || has_ended_;
   if (answer_ || client_->hasUnsent()) {
-    return;  // who does not read answers is sent no more of them
+    return;  // a client that does not read answers gets no more
   }
   const Bytes stream = client_->received();
   const std::uint8_t* const end = stream.data + stream.size;

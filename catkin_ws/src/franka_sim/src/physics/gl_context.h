@@ -19,7 +19,7 @@ class GlContext {
 /// EGL surfaceless, else OSMesa. The environment variable FRANKA_SIM_RENDERER (egl or osmesa)
 /// selects one of them. Both libraries are loaded here and not linked, so that a simulation without
 /// pictures has no graphics driver in its memory.
-/// @throws std::runtime_error with a sentence that says why neither works and which package to
+/// @throws std::runtime_error with the reason why neither works and the package to
 /// install.
 std::unique_ptr<GlContext> makeGlContext();
 

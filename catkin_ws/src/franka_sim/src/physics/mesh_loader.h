@@ -36,7 +36,7 @@ struct SolidMesh {
 
 /// A mesh file of any format assimp knows, converted for MuJoCo and kept in memory (kept_files.h);
 /// an unchanged file is read once. Any thread.
-/// @throws std::runtime_error with a sentence that names the file and what is wrong.
+/// @throws std::runtime_error with the file and the error.
 DrawnMesh loadMeshToDraw(const MeshSource& source);
 /// The same for collisions: the outermost points of all colours, of which MuJoCo takes the hull. A
 /// flat mesh gets a volume behind its front.

@@ -19,7 +19,7 @@ struct MeshFile {
 /// other formats are metres. Any thread; may take seconds for large files.
 /// @param submesh when not empty, only the nodes or geometries of this name
 /// @param center puts the middle of the bounding box at the origin
-/// @throws std::runtime_error with a sentence that names the file and what is wrong.
+/// @throws std::runtime_error with the file and the error.
 MeshFile readMeshFile(const std::string& file, const std::string& submesh = "",
                       bool center = false);
 

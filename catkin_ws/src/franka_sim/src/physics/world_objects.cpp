@@ -51,7 +51,7 @@ std::string World::unsupported(const std::string& object) const {
     list += (list.empty() ? "" : "; ") + what;
   }
   const std::string subject = object.empty() ? impl_->world->title() : "Object '" + object + "'";
-  return list.empty() ? list : subject + " asks for what is not simulated: " + list + ".";
+  return list.empty() ? list : subject + " has elements that are not simulated: " + list + ".";
 }
 
 std::vector<std::string> World::bodies() const {

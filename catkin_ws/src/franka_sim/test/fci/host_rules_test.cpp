@@ -307,7 +307,7 @@ TEST_F(HostRules, DoesNotCallRemovedRobots) {
 TEST_F(HostRules, InLockStepAPushRunsForItsTimeAndUntilRest) {
   use(waiting(PaceMode::kLockStep));
   host.letRun(50);
-  EXPECT_EQ(150, stepsUntilStill(150)) << "50, and 100 for what was set in motion";
+  EXPECT_EQ(150, stepsUntilStill(150)) << "50, and 100 until all is at rest";
 }
 
 TEST_F(HostRules, AResetCancelsTicksThatWereToRun) {

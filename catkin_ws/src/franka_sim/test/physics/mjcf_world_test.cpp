@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// World files by other authors: what is kept, and what is refused with which sentence.
+// World files by other authors: kept elements, and errors of refused ones.
 #include <unistd.h>
 
 #include <cstdio>

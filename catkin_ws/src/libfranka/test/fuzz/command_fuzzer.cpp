@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     franka_fuzz::require(encodeCommand(version, command, again) == CodecError::kNone &&
                              (error == CodecError::kNotFinite ||
                               franka_fuzz::same(again.data(), datagram.data, datagram.size)),
-                         "an accepted command comes back the same");
+                         "an accepted command is unchanged after decoding");
   }
   return 0;
 }

@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     gripper::encodeRequest(header.command_id, request, again);
     franka_fuzz::require(
         again.size == message.size && franka_fuzz::same(again.data, message.data, 10),
-        "an accepted request comes back the same");
+        "an accepted request is unchanged after decoding");
   }
   gripper::Reply reply;
   const auto command = static_cast<gripper::Command>(data[0] % 5);
@@ -29,13 +29,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             (again.size == message.size ||
              (command == gripper::Command::kConnect && again.size < message.size)) &&
             franka_fuzz::same(again.data + 10, message.data + 10, again.size - 10),
-        "an accepted reply comes back the same");
+        "an accepted reply is unchanged after decoding");
   }
   gripper::State state;
   if (gripper::decodeState(message, state) == CodecError::kNone) {
     gripper::StateBuffer again{};
     gripper::encodeState(state, again);
-    franka_fuzz::require(again[20] == message.data[20], "a state comes back the same");
+    franka_fuzz::require(again[20] == message.data[20], "a state is unchanged after decoding");
   }
   return 0;
 }

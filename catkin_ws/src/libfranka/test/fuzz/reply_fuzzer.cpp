@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
               (again.size + model.size == message.size ||
                (command == Command::kConnect && again.size < message.size)) &&
               again.data[12] == message.data[12],
-          "an accepted reply comes back the same");
+          "an accepted reply is unchanged after decoding");
     }
   }
   return 0;

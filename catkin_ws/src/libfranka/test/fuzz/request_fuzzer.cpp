@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     franka_fuzz::require(
         encodeRequest(version, header.command_id, request, again) == CodecError::kNone &&
             again.size == message.size && franka_fuzz::same(again.data, message.data, 12),
-        "an accepted request comes back the same");
+        "an accepted request is unchanged after decoding");
   }
   return 0;
 }

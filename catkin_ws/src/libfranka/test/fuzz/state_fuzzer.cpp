@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // Signalling NaNs may lose a bit in registers, so only modes and id are compared.
     franka_fuzz::require(twice.message_id == state.message_id && twice.errors == state.errors &&
                              twice.robot_mode == state.robot_mode,
-                         "a state comes back the same");
+                         "a state is unchanged after decoding");
   }
   return 0;
 }

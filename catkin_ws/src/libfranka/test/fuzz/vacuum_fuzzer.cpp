@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     vacuum::encodeRequest(header.command_id, request, again);
     franka_fuzz::require(
         again.size == message.size && franka_fuzz::same(again.data, message.data, again.size),
-        "an accepted request comes back the same");
+        "an accepted request is unchanged after decoding");
   }
   vacuum::Reply reply;
   const auto command = static_cast<vacuum::Command>(data[0] % 4);
@@ -28,14 +28,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         vacuum::encodeReply(command, header.command_id, reply, again) == CodecError::kNone &&
             (again.size == message.size ||
              (command == vacuum::Command::kConnect && again.size < message.size)),
-        "an accepted reply comes back the same");
+        "an accepted reply is unchanged after decoding");
   }
   vacuum::State state;
   if (vacuum::decodeState(message, state) == CodecError::kNone) {
     vacuum::StateBuffer again{};
     vacuum::encodeState(state, again);
     franka_fuzz::require(franka_fuzz::same(again.data(), message.data, again.size()),
-                         "a state comes back the same");
+                         "a state is unchanged after decoding");
   }
   return 0;
 }

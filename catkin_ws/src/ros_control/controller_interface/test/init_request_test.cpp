@@ -113,7 +113,7 @@ class InitRequestTest : public testing::Test {
 
 TEST_F(InitRequestTest, CallsBothInitsAndReportsTheClaims) {
   Single controller;
-  efforts_.claim("left over from somebody else");
+  efforts_.claim("left by another controller");
   ASSERT_TRUE(request(controller));
   EXPECT_TRUE(controller.isInitialized());
   EXPECT_THAT(controller.calls_, ElementsAre("two", "three"));

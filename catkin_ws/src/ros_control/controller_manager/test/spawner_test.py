@@ -119,7 +119,7 @@ class SpawnerTest(unittest.TestCase):
         for timeout in (["--no-timeout"], ["--timeout", "20"]):
             publisher.publish(False)
             with Running("spawner", *timeout, "--wait-for", "initialized", "a") as spawner:
-                wait_until(lambda: publisher.get_num_connections() > 0, "nobody listens")
+                wait_until(lambda: publisher.get_num_connections() > 0, "no subscriber")
                 time.sleep(0.5)
                 self.assertEqual({}, self.manager.states())
                 publisher.publish(True)
@@ -141,7 +141,7 @@ class SpawnerTest(unittest.TestCase):
     def test_waits_for_a_topic_without_limit_and_reports_it(self):
         publisher = rospy.Publisher("late", Bool, queue_size=1, latch=True)
         with Running("spawner", "--timeout", "0.5", "--wait-for", "late", "a") as running:
-            wait_until(lambda: publisher.get_num_connections() > 0, "nobody listens")
+            wait_until(lambda: publisher.get_num_connections() > 0, "no subscriber")
             time.sleep(1.0)  # twice its timeout for the controller manager
             self.assertTrue(running.is_running())
             publisher.publish(True)

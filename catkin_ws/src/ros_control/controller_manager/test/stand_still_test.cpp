@@ -105,7 +105,7 @@ TEST_F(StandStillTest, StartedSwitchIsAbortedWhenTheLoopReturns) {
   EXPECT_LT(secondsSince(begin), 3.0);
   robot_.after_script_ = RobotHW::SwitchState::DONE;
   step();
-  EXPECT_TRUE(controller("a").isAborted()) << "nobody waits for it any more";
+  EXPECT_TRUE(controller("a").isAborted()) << "no caller waits for it any more";
   EXPECT_TRUE(manager_->unloadController("a"));
   EXPECT_EQ(1, DummyController::living());
   EXPECT_TRUE(doSwitch({"c"}, {}));

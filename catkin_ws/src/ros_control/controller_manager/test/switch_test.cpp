@@ -119,7 +119,7 @@ TEST_F(SwitchTest, RefusesConflicts) {
   EXPECT_FALSE(doSwitch({"a", "b"}, {}, kBestEffort));
   ASSERT_TRUE(doSwitch({"a"}, {}));
   EXPECT_FALSE(doSwitch({"b"}, {}));
-  EXPECT_TRUE(doSwitch({"b"}, {"a"})) << "what is stopped does not count";
+  EXPECT_TRUE(doSwitch({"b"}, {"a"})) << "stopped controllers do not count";
   EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers, due to resource conflict"));
   EXPECT_THAT(log.text(), HasSubstr("Resource conflict on [j0].  Controllers = [a, b, ]"));
 }

@@ -38,7 +38,7 @@ void addExtraJoint(XmlRpcValue& entry, sensor_msgs::JointState& message) {
       entry["name"].getType() != XmlRpcValue::TypeString) {
     ROS_ERROR(
         "An entry of extra_joints is skipped: each must be a map with the string 'name', and "
-        "'position', 'velocity' and 'effort' if wanted.");
+        "'position', 'velocity' and 'effort' if needed.");
     return;
   }
   const std::string name = entry["name"];

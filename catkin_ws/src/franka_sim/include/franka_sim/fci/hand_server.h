@@ -36,8 +36,8 @@ class HandServer {
   bool hasClient() const noexcept { return slot_.confirmed(); }
   /// See ClientSlot::onRefusal.
   void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
-  /// Whether a command runs. It goes on after its client has disconnected: a hand must not drop an
-  /// object because a program ends.
+  /// Whether a command runs. It continues after its client has disconnected: a hand must not drop
+  /// an object because a program ends.
   bool busy() const noexcept { return unit_.outcome(last_) == GripperOutcome::kRunning; }
 
   /// Accepts, reads and answers. @param stops_only serves Connect and Stop only.

@@ -15,7 +15,7 @@ struct RobotDescription;
 /// Reads franka_description's physics.yaml.
 /// @param robot_type its section: "panda" or "fr3"
 /// @param friction_set "none", "fr3"; see the file
-/// @throws std::runtime_error with a sentence that names the file and what is wrong in it
+/// @throws std::runtime_error with the file and the error
 JointPhysics readJointPhysics(const std::string& file, const std::string& robot_type,
                               const std::string& friction_set);
 

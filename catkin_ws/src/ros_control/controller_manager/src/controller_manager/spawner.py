@@ -359,7 +359,7 @@ def spawn(options, spawner, ending):
         wait_for_true(options.wait_for, ending)
     spawner.load(controller_names(options.controllers))
     if not spawner.loaded:
-        raise SpawnerError("no controller could be loaded; the controller manager's log says why")
+        raise SpawnerError("no controller could be loaded; the controller manager's log has the reason")
     if options.stopped:
         rospy.loginfo("Loaded controllers: %s", ", ".join(spawner.loaded))
     else:
