@@ -13,9 +13,9 @@ namespace detail {
 
 /// The only thread of a process that sends messages of its real-time publishers.
 ///
-/// It checks every half millisecond while there are messages, and every five milliseconds after a
-/// second without: it needs no wake-up, so the real-time side makes no system call, and ten
-/// publishers cost one wake-up per cycle instead of ten. The thread exists while there are senders.
+/// It checks every 0.5 ms while there are messages and less often while there are none, down to
+/// every 5 ms after about 45 ms: it needs no wake-up, so the real-time side makes no system call,
+/// and ten publishers cost one wake-up per cycle instead of ten. The thread exists while there are senders.
 class PublishingThread {
  public:
   /// A publisher served by the thread.
