@@ -1,13 +1,18 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The order of updates that loses a publisher in rospy, but not after init_node()."""
+"""Orders of events that lose a publisher or a message in rospy, but not after init_node()."""
 
+import socket
 import threading
 
 import pytest
 import rospy
 import rospy_connections
+from rospy.impl import registration
 from rospy.impl.registration import RegManager
+from rospy.impl.tcpros_pubsub import TCPROSHandler
+from rospy.topics import _PublisherImpl
+from std_msgs.msg import String
 
 TOPIC, PUBLISHER, OTHER = "/grasp/result", "http://hand:1", "http://hand:2"
 
@@ -45,6 +50,7 @@ def connections(*updates: list[str], expected: int) -> set:
 @pytest.fixture
 def mended(monkeypatch):
     monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
+    monkeypatch.setattr(TCPROSHandler, "topic_connection_handler", TCPROSHandler.topic_connection_handler)
     monkeypatch.setattr(rospy, "init_node", lambda *_: None)
     rospy_connections.init_node("any")
 
@@ -69,8 +75,46 @@ def test_no_publisher_is_lost(mended, updates, expected):
     assert connections(*updates, expected=len(expected)) == expected
 
 
+def can_publish_before_the_subscriber_is_added(monkeypatch) -> bool:
+    """Whether another thread can publish after the subscriber got its confirmation, before it is added."""
+    topic = _PublisherImpl(TOPIC, String)
+    published = []
+
+    def publish():
+        if topic.publock.acquire(timeout=0.2):
+            topic.publock.release()
+            published.append(True)
+
+    def add_connection(self, connection):
+        thread = threading.Thread(target=publish)
+        thread.start()
+        thread.join()
+        return real_add(self, connection)
+
+    real_add = _PublisherImpl.add_connection
+    monkeypatch.setattr(_PublisherImpl, "add_connection", add_connection)
+    monkeypatch.setattr(registration.get_topic_manager(), "get_publisher_impl", lambda _: topic)
+    server, client = socket.socketpair()
+    header = {"topic": TOPIC, "md5sum": String._md5sum, "type": String._type, "callerid": "/any"}
+    with server, client:
+        assert TCPROSHandler().topic_connection_handler(server, ("127.0.0.1", 1), header) is None
+        assert len(topic.connections) == 1
+        assert topic.publock.acquire(timeout=0)  # free again
+    return bool(published)
+
+
+def test_plain_rospy_publishes_before_the_subscriber_is_added(monkeypatch):
+    """If this fails, Debian has fixed rospy, and this part of the package is no longer needed."""
+    assert can_publish_before_the_subscriber_is_added(monkeypatch)
+
+
+def test_publishing_waits_until_the_subscriber_is_added(mended, monkeypatch):
+    assert not can_publish_before_the_subscriber_is_added(monkeypatch)
+
+
 def test_init_node_passes_its_arguments_on(monkeypatch):
     monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
+    monkeypatch.setattr(TCPROSHandler, "topic_connection_handler", TCPROSHandler.topic_connection_handler)
     calls = []
     monkeypatch.setattr(rospy, "init_node", lambda *arguments, **options: calls.append((arguments, options)))
     rospy_connections.init_node("name", anonymous=True)

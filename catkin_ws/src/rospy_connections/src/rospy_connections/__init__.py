@@ -9,12 +9,22 @@ master's later updates. On a busy machine an update can overtake the answer. ros
 message, which is the outdated answer, and the subscriber waits forever for a publisher that exists (seen: an
 action client whose server started in the same few milliseconds; it reports "no server"). Connecting to a
 publisher that has exited does no harm, so pending publishers are never removed.
+
+A publisher that gets a subscriber first confirms the connection to it and adds it to its subscribers
+afterwards. A message that is published in between is lost for this subscriber (seen on a busy machine: the
+result of an action whose client had just found the server). Publishing therefore waits until the subscriber
+is added.
 """
 
 import sys
 
 import rospy
-from rospy.impl.registration import RegManager
+from rospy.impl.registration import RegManager, get_topic_manager
+from rospy.impl.tcpros_pubsub import TCPROSHandler
+
+LONGEST_WAIT = (
+    1.0  # [s] for a publisher that is blocked by another subscriber, which must not hold up all others
+)
 
 
 def _publisher_update(self, resolved_name, uris):
@@ -23,6 +33,21 @@ def _publisher_update(self, resolved_name, uris):
         waiting = [uri for name, queued in self.updates if name == resolved_name for uri in queued]
         self.updates.append((resolved_name, list(dict.fromkeys([*uris, *waiting]))))
         self.cond.notify_all()
+
+
+_rospys_handler = TCPROSHandler.topic_connection_handler
+
+
+def _topic_connection_handler(self, sock, client_addr, header):
+    """TCPROSHandler.topic_connection_handler, during which nothing is published on the topic."""
+    topic = get_topic_manager().get_publisher_impl(header.get("topic"))
+    lock = topic and topic.publock
+    locked = bool(lock) and lock.acquire(timeout=LONGEST_WAIT)
+    try:
+        return _rospys_handler(self, sock, client_addr, header)
+    finally:
+        if locked:
+            lock.release()
 
 
 def answer_help(command: str, text: str) -> None:
@@ -36,6 +61,8 @@ def answer_help(command: str, text: str) -> None:
 
 
 def init_node(*arguments, **options) -> None:
-    """rospy.init_node(), after which subscribers find their publishers in any order of start."""
+    """rospy.init_node(), after which subscribers find their publishers in any order of start, and miss no
+    message after that."""
     RegManager.publisher_update = _publisher_update
+    TCPROSHandler.topic_connection_handler = _topic_connection_handler
     rospy.init_node(*arguments, **options)
