@@ -80,6 +80,9 @@ class TeleopGripperTest(unittest.TestCase):
         type(self).width = WIDEST
         self.hands.orders.clear()
         self.hands.homing_error, self.hands.grasp_lasts = "", 0.0
+        # Parameters from the command line of an earlier test's node stay on the server.
+        if rospy.has_param("teleop_gripper_node"):
+            rospy.delete_param("teleop_gripper_node")
         self.node = None
 
     def tearDown(self):
