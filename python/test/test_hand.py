@@ -18,21 +18,25 @@ def test_the_hand_and_threads_that_run_while_it_moves(robots, addresses, name):
     assert state.max_width == pytest.approx(0.08)
     assert not state.is_grasped and state.temperature > 0 and state.time > 0
 
-    counted, moving = [0], threading.Event()
+    times, moved = [], threading.Event()
 
-    def count():
-        while not moving.is_set():
-            counted[0] += 1
+    def run_beside():
+        while not moved.is_set():
+            times.append(time.monotonic())
             time.sleep(1e-3)
 
-    counter = threading.Thread(target=count)
-    counter.start()
-    before = counted[0]
-    assert hand.move(0.05, 0.05)
-    # With the interpreter's lock held nothing would be counted; a busy machine counts less than 400.
-    assert counted[0] - before > 5
-    moving.set()
-    counter.join()
+    thread = threading.Thread(target=run_beside)
+    thread.start()
+    try:
+        begin = time.monotonic()
+        assert hand.move(0.05, 0.001)  # 20 s of the robot's time, which lock-step makes short
+        end = time.monotonic()
+    finally:
+        moved.set()
+        thread.join()
+    # If the motion held the interpreter's lock, the other thread would stand still.
+    quarter = (end - begin) / 4
+    assert [t for t in times if begin + quarter < t < end - quarter]
     assert not hand.grasp(0.02, 0.1, 20.0)  # nothing there
     with pytest.raises(pyfranka.CommandException):
         hand.move(0.5, 0.1)
