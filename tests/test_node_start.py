@@ -190,7 +190,7 @@ def set_controllers(master, arm_id):
         master.set("/" + name, parameters)
 
 
-@pytest.mark.parametrize("there, told", [("fr3", "panda"), ("panda", "fr3")])
+@pytest.mark.parametrize("there, described", [("fr3", "panda"), ("panda", "fr3")])
 def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, described):
     set_controllers(master, "panda")
     master.set("/robot_description", ros_nodes.robot_description(described, arm_id="panda"))

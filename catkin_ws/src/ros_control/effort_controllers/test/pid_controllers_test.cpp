@@ -52,8 +52,8 @@ TEST_F(PidControllers, HoldsAPositionByAnEffort) {
   EXPECT_NEAR(10.0 * 0.2 + 2.0 * 0.2 / 0.001, robot_.effort_command_[kArm], 1e-6);
   step();
   EXPECT_NEAR(10.0 * 0.2, robot_.effort_command_[kArm], 1e-9);
-  publisher.publish(one(kNan));
   LogCatcher log;
+  publisher.publish(one(kNan));
   ASSERT_TRUE(stepsUntil([&] { return !log.text().empty(); }));
   EXPECT_THAT(log.text(), HasSubstr("joint 'arm'"));
   step();

@@ -15,7 +15,8 @@ namespace detail {
 ///
 /// It checks every 0.5 ms while there are messages and less often while there are none, down to
 /// every 5 ms after about 45 ms: it needs no wake-up, so the real-time side makes no system call,
-/// and ten publishers cost one wake-up per cycle instead of ten. The thread exists while there are senders.
+/// and ten publishers cost one wake-up per cycle instead of ten. The thread exists while there are
+/// senders.
 class PublishingThread {
  public:
   /// A publisher served by the thread.
