@@ -1,9 +1,10 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The figures of docs/fidelity.md and docs/limits.md, each beside the place in the code that decides it.
+"""The figures of docs/fidelity.md and docs/limits.md, each with its source in the code.
 
-An entry is (words of the page, value). Each `#` of the words stands for one figure. The value, in the page's
-unit, is a number for all of them or a list of one for each; all numbers of a list have to equal a single `#`.
+An entry is (words of the page, value). Each `#` in the words stands for one figure. The value, in the page's
+unit, is a number for all figures or a list with one number for each; all numbers of a list must equal a
+single `#`.
 """
 
 import math
@@ -37,7 +38,7 @@ def pattern(words):
 
 
 def constant(file, words):
-    """The number, or the list of numbers, that a source file has in these words, wherever it has them."""
+    """The number, or the list of numbers, in these words of a source file; all occurrences must agree."""
     source = re.sub(r"(?<!:)//.*", "", (SOURCES / file).read_text())
     found = {match.groups() for match in pattern(words).finditer(" ".join(source.split()))}
     assert len(found) == 1, f"{file} has {len(found)} values of: {words}"
@@ -46,7 +47,7 @@ def constant(file, words):
 
 
 def arm_limits(name):
-    """The fields that the pages use of a table of franka_core/limits.h."""
+    """The fields of a table in franka_core/limits.h that the pages use."""
     words = f"{name} = [] {{ ArmLimits arm{{}};"
     for field in ("q_min", "q_max", "dq", "ddq", "dddq", "tau", "dtau"):
         words += f" arm.{field} = {{{{{SEVEN}}}}};"
@@ -196,7 +197,7 @@ def fidelity():
 
 
 def radius_of_round_way(protocol):
-    """Of the circle that the tip of the rod goes round z of O [m]."""
+    """Radius of the circle on which the tip of the rod moves around z of O [m]."""
     way = f"{{Part::kTranslation, {{{{{SEVEN}}}}}, {{0, 0, 1}}, #, true}}"
     *q, rod = constant(WAYS, f"{{{protocol}, kVelocityOnly, {way}")
     hand = constant(
@@ -207,7 +208,7 @@ def radius_of_round_way(protocol):
 
 
 def longest_way(velocity, acceleration, tick):
-    """Of a joint whose velocity limit is approached: `reach` of limit_profile.h [rad]."""
+    """Longest way of a joint that approaches its velocity limit: `reach` of limit_profile.h [rad]."""
     profile = TESTS + "robot/limit_profile.h"
     ramp, hold = constant(profile, "kRamp = #;"), constant(profile, "kHold = #;")
     effort = constant(profile, "double effort = #)")
@@ -217,7 +218,7 @@ def longest_way(velocity, acceleration, tick):
 
 
 def limits():
-    """The entries of docs/limits.md outside of its table, which test_limits_page.py compares."""
+    """The entries of docs/limits.md, except its table, which test_limits_page.py compares."""
     tick = constant(CORE + "tick.h", "kTick = #;")
     panda, fr3 = arm_limits("kFerLimits"), arm_limits("kFr3Limits")
     way = TESTS + "robot/limit_way.h"
@@ -227,7 +228,7 @@ def limits():
         straight_ways.append([100 * share, limit, round(share * limit, 1)])
     joint_5 = fr3["q_max"][4] - fr3["q_min"][4]
     radii = [radius_of_round_way(protocol) for protocol in (5, 10)]
-    # Of a joint 4 in the middle of its range to a float's 24 bits, and in a third difference.
+    # Rounding of joint 4 in the middle of its range to a float's 24 bits; its effect on a third difference.
     power = 2 ** (math.frexp((panda["q_min"][3] + panda["q_max"][3]) / 2)[1] - 1)
     rounding = power * 2**-24
     jerk = (1 + 3 + 3 + 1) * rounding / tick**3

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """docs/fidelity.md: each line has its kind and names existing tests.
 
-Its figures, and those of docs/limits.md, are those of the code (page_figures.py).
+Its figures, and those of docs/limits.md, equal the values in the code (page_figures.py).
 """
 
 import re
@@ -14,12 +14,12 @@ import pytest
 TOP = Path(__file__).resolve().parent.parent
 SOURCES = TOP / "catkin_ws/src"
 TEST = re.compile(r"`((?:[A-Z]\w*\.[A-Za-z]\w*)|(?:test_\w+(?:\.py)?))`")
-# What is no figure: text in backticks and targets of links (names, paths, expressions), digits that belong to
-# a name (q4, FR3), and numbers that name a joint or a version of the protocol.
+# Not figures: text in backticks and targets of links (names, paths, expressions), digits that belong to
+# a name (q4, FR3), and numbers of joints or of protocol versions.
 NAMES = re.compile(
     r"`[^`]*`|\]\([^)]*\)|\b(?:joints?|protocol|version)\s\d+(?:(?:,| to| and|, and)\s\d+)*", re.IGNORECASE
 )
-# A quantity in words is one as well: it is written in digits, so that it can be compared.
+# A quantity in words is also reported: figures must have digits, so that they can be compared.
 IN_WORDS = (
     r"\b(?:an?|half|one|two|three|four|five|six|seven|eight|nine|ten|twenty|hundred|thousand)\s"
     r"(?:(?:milli|micro)?seconds?|minutes?|(?:milli|centi)?metres?|degrees|percent|times)\b"
@@ -30,7 +30,7 @@ KINDS = {"physics", "exact", "approximation"}
 
 
 def lines():
-    """Table rows and list items, the latter joined."""
+    """Table rows, and list items with their continuation lines joined."""
     found = []
     for line in (TOP / "docs/fidelity.md").read_text().splitlines():
         if line.startswith(("| ", "* ")) and not line.endswith("held by |"):
@@ -69,7 +69,7 @@ def test_rows_have_a_known_kind():
 
 
 def text_of(page):
-    """In one line; without the table of docs/limits.md, which test_limits_page.py compares."""
+    """The text in one line, without the table of docs/limits.md, which test_limits_page.py compares."""
     text = (TOP / page).read_text()
     if page == "docs/limits.md":
         text = re.sub(r"^\|.*$", "", text, flags=re.MULTILINE)
@@ -77,7 +77,7 @@ def text_of(page):
 
 
 def faults(text, entries):
-    """What is wrong with the figures of a text, in sentences."""
+    """Messages about wrong, missing and unknown figures of a text."""
     known = {place for name in NAMES.finditer(text) for place in range(*name.span())}
     for words, value in entries:
         expected = value if isinstance(value, list) else [value]

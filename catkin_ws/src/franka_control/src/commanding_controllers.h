@@ -6,10 +6,11 @@
 
 namespace franka_control {
 
-/// Stops the running controllers that command anything; those that only look go on. By the services
-/// of the controller manager, which wait for the control loop: not for its thread.
+/// Stops the running controllers that command anything; controllers that only read continue. Calls
+/// the services of the controller manager, which wait for the control loop: must not be called by
+/// its thread.
 /// @param nh of the manager
-/// @returns false after a sentence when they could not be stopped
+/// @returns false, after logging the reason, if they could not be stopped
 bool stopCommandingControllers(const ros::NodeHandle& nh);
 
 }  // namespace franka_control

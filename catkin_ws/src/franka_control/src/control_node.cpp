@@ -17,7 +17,7 @@ namespace franka_control {
 
 namespace {
 
-// A timer of zero would never fire.
+// A timer with period zero would never fire.
 const ros::WallDuration kAtOnce(0.001);
 
 }  // namespace
@@ -97,11 +97,11 @@ void ControlNode::controllerThrew(const std::string& what) {
 }
 
 void ControlNode::recoveredByOthers() {
-  // Somebody else recovered the robot, or released the user stop.
+  // The robot was recovered by another client, or its user stop was released.
   if (restarts_controllers_ || !franka_hw_.controllerActive()) {
     connection_.recoveredElsewhere();
   } else if (!stopping_controllers_.exchange(true)) {
-    // Stopping waits for this loop.
+    // Called by a timer, because stopping controllers waits for this loop.
     stop_timer_ = public_nh_.createWallTimer(
         kAtOnce,
         [this](const ros::WallTimerEvent&) {
@@ -125,8 +125,8 @@ void ControlNode::moveRobot() {
 bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& period) {
   const bool first = period.isZero();
   robot_health_->state(*robot_state_);
-  // After an interruption the controllers start anew from where the robot stands. Those that a
-  // switch has just started must not: they may have got a goal already.
+  // After an interruption the controllers are restarted at the robot's present position.
+  // Controllers that a switch has just started must not be restarted: they may already have a goal.
   const bool anew = first && (interrupted_ || franka_hw_.motionGoesOn());
   if (first) {
     interrupted_ = false;

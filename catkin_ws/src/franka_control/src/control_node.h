@@ -18,22 +18,23 @@
 
 namespace franka_control {
 
-/// The node franka_control_node: one arm, one controller manager, and what keeps them running
-/// together through errors. Only a signal ends it.
+/// The node franka_control_node: one arm and one controller manager, which continue after errors.
+/// Only a signal ends the node.
 ///
-/// What the arm offers and how it recovers and reconnects: franka_hw::ArmConnection. A parameter
-/// beside those of FrankaHW, in the node's own namespace: `restart_controllers_after_recovery`
-/// (bool, true): whether controllers that were running when the robot stopped start again after a
-/// recovery, through their starting(), or are stopped first.
+/// Services of the arm, its recovery and its reconnection: franka_hw::ArmConnection. Besides those
+/// of FrankaHW, there is one parameter in the node's own namespace:
+/// `restart_controllers_after_recovery` (bool, true): whether controllers that were running when
+/// the robot stopped are started again after a recovery, through their starting(), or are stopped
+/// first.
 ///
-/// One thread calls init() and run(), which is the robot's.
+/// One thread, the robot's, calls init() and run().
 class ControlNode {
  public:
   ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle& private_nh);
 
-  /// @returns false after a sentence when the robot cannot be set up
+  /// @returns false, after logging the reason, if the robot cannot be set up
   bool init();
-  /// The loop; returns when ROS ends.
+  /// The control loop; returns when ROS shuts down.
   void run();
 
  private:
@@ -47,7 +48,7 @@ class ControlNode {
   ros::NodeHandle public_nh_, private_nh_;
   franka_hw::FrankaHW franka_hw_;
   franka_hw::ArmConnection& connection_{franka_hw_.armConnection()};
-  const franka::RobotState* robot_state_{nullptr};  // what the controllers see
+  const franka::RobotState* robot_state_{nullptr};  // the state that the controllers read
   std::unique_ptr<controller_manager::ControllerManager> controller_manager_;
   std::unique_ptr<RobotHealth> robot_health_;
   std::unique_ptr<LoopHealth> loop_health_;
@@ -55,7 +56,7 @@ class ControlNode {
   ros::WallTimer stop_timer_;
   std::atomic_bool stopping_controllers_{false};
 
-  bool interrupted_{false};  // the last motion, by an error
+  bool interrupted_{false};  // an error ended the last motion
   bool restarts_controllers_{true};
   franka_hw::ThrownReport thrown_report_;
   ros::Time last_update_;

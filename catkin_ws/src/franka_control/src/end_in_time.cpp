@@ -12,7 +12,7 @@ namespace franka_control {
 
 namespace {
 
-// Between two looks at whether ROS ends.
+// Time between two checks whether ROS shuts down.
 constexpr std::chrono::milliseconds kPeriod{50};
 
 }  // namespace
@@ -30,7 +30,7 @@ EndInTime::~EndInTime() {
 }
 
 void EndInTime::watch() {
-  // Not ros::ok(), which is false before the first node handle, too.
+  // Not ros::ok(), which is also false before the first node handle.
   while (!ros::isShuttingDown()) {
     if (endedWithin(kPeriod)) {
       return;

@@ -10,19 +10,19 @@
 
 namespace franka_control {
 
-/// Sees to it that a node ends when it is told to (SIGINT, rosnode kill, ros::shutdown), whatever
-/// its threads wait for: a robot that says nothing is waited for up to a minute, and libfranka
-/// cannot be interrupted. What has not ended by itself in time ends with the process; the robot
-/// then sees its connection closed, as it does when the cable is pulled.
+/// Ensures that a node ends after a shutdown of ROS (SIGINT, rosnode kill, ros::shutdown), even if
+/// its threads wait: libfranka waits up to a minute for a silent robot and cannot be interrupted.
+/// If the node has not ended by itself in time, the process is ended; the robot then detects a
+/// closed connection, as if the cable were pulled.
 ///
-/// The first object of a main(), so that it outlives all that may wait.
+/// Create it as the first object of main(), so that it outlives all objects that may wait.
 class EndInTime {
  public:
-  /// @param node its name, for the sentence on standard error
+  /// @param node its name, for the message on standard error
   /// @param patience from the shutdown of ROS to the end of the process
   explicit EndInTime(std::string node,
                      std::chrono::milliseconds patience = std::chrono::milliseconds(1200));
-  /// The node has ended by itself.
+  /// Called when the node has ended by itself.
   ~EndInTime();
   EndInTime(const EndInTime&) = delete;
   EndInTime& operator=(const EndInTime&) = delete;

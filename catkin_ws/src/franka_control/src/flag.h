@@ -9,8 +9,8 @@
 
 namespace franka_control {
 
-/// Leaves `flag` where the parameter is not set. @returns false after a sentence where it is
-/// something else
+/// Reads a boolean parameter; does not change `flag` if the parameter is not set. @returns false,
+/// after logging the reason, if it is not a boolean
 inline bool readFlag(const std::string& name, const ros::NodeHandle& nh, bool& flag) {
   if (!nh.hasParam(name) || nh.getParam(name, flag)) {
     return true;

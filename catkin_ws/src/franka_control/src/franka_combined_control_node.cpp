@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Several arms under one controller manager, each with a thread of its own for its robot.
+// Several arms under one controller manager. Each arm has its own thread for its robot.
 #include <controller_manager/controller_manager.h>
 #include <franka/control_tools.h>
 #include <franka_hw/franka_combined_hw.h>
@@ -35,7 +35,7 @@ constexpr char kUsage[] =
     "  roslaunch franka_control franka_combined_control.launch \\\n"
     "    robot_ips:=\"{panda_1/robot_ip: ADDRESS, panda_2/robot_ip: ADDRESS}\" (or sim:=true)";
 
-/// What is told of one arm on /diagnostics.
+/// The status of one arm on /diagnostics.
 class ArmHealth {
  public:
   ArmHealth(const ros::NodeHandle& nh, franka_hw::FrankaCombinableHW& arm)
@@ -44,7 +44,7 @@ class ArmHealth {
                    .getRobotState()),
         health_(nh, arm.getArmID(), arm.getArmID(), arm.armConnection(), arm.responseTimes()) {}
 
-  /// Once a cycle, after read().
+  /// Called once per cycle, after read().
   void update() { health_.state(state_); }
 
  private:
@@ -52,8 +52,8 @@ class ArmHealth {
   franka_control::RobotHealth health_;
 };
 
-/// Whether this thread needs real-time priority: where realtime_config does not say to do without,
-/// and some arm's thread may need it.
+/// Whether this thread needs real-time priority: unless realtime_config is ignore, and if the
+/// thread of at least one arm may need it.
 bool enforcesRealtime(const ros::NodeHandle& nh, const franka_hw::FrankaCombinedHW& robots) {
   const std::vector<franka_hw::FrankaCombinableHW*>& arms = robots.arms();
   return nh.param<std::string>("realtime_config", "enforce") != "ignore" &&
@@ -61,8 +61,8 @@ bool enforcesRealtime(const ros::NodeHandle& nh, const franka_hw::FrankaCombined
                                       [](const auto* arm) { return arm->enforcesRealtime(); }));
 }
 
-/// Real-time priority for this thread. @returns false after a sentence where it is needed and
-/// cannot be had
+/// Sets real-time priority for this thread. @returns false, after logging the reason, if it is
+/// enforced but not available
 bool raisePriority(bool enforce) {
   std::string error;
   if (franka::setCurrentThreadToHighestSchedulerPriority(&error)) {
@@ -79,14 +79,14 @@ bool raisePriority(bool enforce) {
   return false;
 }
 
-/// The milliseconds of this computer since some moment in the past. Several robots have no clock in
-/// common.
+/// The milliseconds of this computer's clock since a moment in the past. Several robots have no
+/// common clock.
 franka::Duration ownMilliseconds() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
   return franka::Duration(std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
 }
 
-/// One cycle of the controllers. One that throws stops all arms, like an error of theirs.
+/// One cycle of the controllers. An exception stops all arms, as an error of the arms does.
 void updateControllers(controller_manager::ControllerManager& controllers,
                        franka_hw::FrankaCombinedHW& robots, franka_hw::ThrownReport& thrown,
                        const ros::Time& time, const ros::Duration& period) {

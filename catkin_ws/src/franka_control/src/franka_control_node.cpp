@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   if (!node.init()) {
     return 1;
   }
-  // Services, actions and publishers beside the loop, which has this thread for itself.
+  // Threads for services, actions and publishers; the main thread runs only the loop.
   ros::AsyncSpinner spinner(4);
   spinner.start();
   node.run();

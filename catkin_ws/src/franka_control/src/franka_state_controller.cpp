@@ -19,9 +19,9 @@ namespace franka_control {
 namespace {
 
 constexpr std::size_t kJoints = 7;
-constexpr int kQueueSize = 1;  // a late state is of no use: only the newest waits
+constexpr int kQueueSize = 1;  // only the newest state is queued, because old states are useless
 
-/// Prepares a joint state of seven joints, so that the loop only writes numbers.
+/// Prepares a joint state of seven joints, so that the loop only has to write numbers.
 void prepare(const std::vector<std::string>& joint_names, sensor_msgs::JointState& message) {
   message.name = joint_names;
   message.position.resize(kJoints);

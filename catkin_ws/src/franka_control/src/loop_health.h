@@ -13,9 +13,9 @@
 
 namespace franka_control {
 
-/// What is told of the controllers on /diagnostics: how long they take.
+/// The status of the controllers on /diagnostics: the duration of their cycles.
 ///
-/// The loop calls `cycleBegins` and `cycleEnds`, which neither lock nor allocate.
+/// The thread of the loop calls `cycleBegins` and `cycleEnds`. Real-time safe.
 class LoopHealth {
  public:
   /// @param hardware_id names the robot, or the robots, in the diagnostics
@@ -29,9 +29,9 @@ class LoopHealth {
 
   std::chrono::steady_clock::time_point begin_{};
   std::atomic<std::uint64_t> cycles_{0};    // of controllers, since the last report
-  std::atomic<std::int64_t> total_{0};      // [ns] that they took
+  std::atomic<std::int64_t> total_{0};      // [ns] their total duration
   std::atomic<std::int64_t> longest_{0};    // [ns]
-  std::atomic<std::uint64_t> overruns_{0};  // cycles longer than a millisecond, ever
+  std::atomic<std::uint64_t> overruns_{0};  // cycles longer than a millisecond, since the start
   Status status_;
 };
 

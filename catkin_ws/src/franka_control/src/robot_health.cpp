@@ -14,7 +14,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-// Below this share of commands received the robot is near an abort (20 lost in a row). [1]
+// Below this share of received commands the robot is near an abort (20 lost in a row). [1]
 constexpr double kPoorSuccessRate = 0.95;
 
 std::string modeName(franka::RobotMode mode) {

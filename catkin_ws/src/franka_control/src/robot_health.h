@@ -14,14 +14,14 @@
 
 namespace franka_control {
 
-/// What is told of a robot on /diagnostics: its mode and errors, the share of commands that reached
-/// it, how fast they left, and how evenly its states arrived.
+/// The status of a robot on /diagnostics: its mode and errors, the share of commands that reached
+/// it, the response times, and how evenly its states arrived.
 ///
-/// The loop calls `state`, which neither locks nor allocates.
+/// The thread of the loop calls `state`. Real-time safe.
 class RobotHealth {
  public:
   /// @param name of the status @param arm_id names the robot @param connection to it
-  /// @param response_times of the robot; reports are taken here alone
+  /// @param response_times of the robot; only this object takes reports
   RobotHealth(const ros::NodeHandle& nh, const std::string& name, const std::string& arm_id,
               const franka_hw::ArmConnection& connection, franka_hw::ResponseTimes& response_times);
 

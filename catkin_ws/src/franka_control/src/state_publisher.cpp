@@ -10,8 +10,8 @@ namespace franka_control {
 namespace {
 
 constexpr double kLongestPause = 0.002;  // [s]
-/// For so long roscpp's own thread may be late as well. More would make states old that a slow
-/// subscriber gets.
+/// roscpp's own thread may also be late by this time. A larger value would make the states older
+/// that a slow subscriber receives.
 constexpr double kLongestDelay = 0.064;  // [s]
 
 int queueSize(double period) {

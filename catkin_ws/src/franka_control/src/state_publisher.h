@@ -15,36 +15,37 @@
 
 namespace franka_control {
 
-/// Publishes states of a 1 kHz loop. kWaiting of them may wait for a machine that does not let the
-/// publishing thread run; later ones are lost then.
+/// Publishes states of a 1 kHz loop. Up to kWaiting states are queued while the publishing thread
+/// does not run; later ones are lost.
 ///
-/// One thread fills messages (`next`, `handOver`: no allocation, lock or system call), a thread of
-/// its own sends them in the same order.
+/// The thread of the loop fills messages (`next`, `handOver`: no allocation, lock or system call);
+/// a thread of this object sends them in the same order.
 class StatePublisher {
  public:
   static constexpr std::size_t kWaiting = 64;
 
-  /// @param period between two messages [s]: how often the thread looks for them, and how many may
-  /// wait for a subscriber's connection
+  /// @param period between two messages [s]: sets how often the thread checks for them, and how
+  /// many may wait for a subscriber's connection
   /// @throws ros::InvalidNameException if the topic's name is not valid.
   StatePublisher(const ros::NodeHandle& node, const std::string& topic, double period);
-  /// Withdraws the topic; what was not sent is dropped.
+  /// Withdraws the topic; messages that were not sent are dropped.
   ~StatePublisher();
   StatePublisher(const StatePublisher&) = delete;
   StatePublisher& operator=(const StatePublisher&) = delete;
 
-  /// The message to be filled, with whatever it held once, or null while too many wait.
+  /// The next message to fill, which still has old content, or null while too many messages wait.
+  /// Real-time safe.
   franka_msgs::FrankaState* next() noexcept;
-  /// Has the message sent that `next` gave.
+  /// Queues the message that `next` returned. Real-time safe.
   void handOver() noexcept;
 
  private:
   void run();
 
   ros::Publisher publisher_;
-  std::chrono::duration<double> pause_;  ///< between looks
+  std::chrono::duration<double> pause_;  ///< between two checks
   std::vector<franka_msgs::FrankaState> ring_;
-  std::atomic<std::size_t> handed_over_{0}, sent_{0};  ///< how many, ever
+  std::atomic<std::size_t> handed_over_{0}, sent_{0};  ///< counts since the start
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

@@ -16,8 +16,8 @@ class Status {
  public:
   using Describe = std::function<void(diagnostic_updater::DiagnosticStatusWrapper&)>;
 
-  /// @param name of the status, behind the node's @param hardware_id names the robot
-  /// @param describe fills it in, in a thread of the node handle; outlives this
+  /// @param name of the status, after the node's name @param hardware_id names the robot
+  /// @param describe fills the status, in a thread of the node handle; outlives this object
   Status(const ros::NodeHandle& nh, const std::string& name, const std::string& hardware_id,
          const Describe& describe)
       : updater_(nh, ros::NodeHandle(nh)) {

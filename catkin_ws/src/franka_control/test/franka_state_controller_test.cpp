@@ -44,7 +44,7 @@ bool waitFor(const std::function<bool()>& condition) {
   return true;
 }
 
-/// Keeps what arrives on one topic.
+/// Collects the messages of one topic.
 template <typename Message>
 class Listener {
  public:
@@ -148,7 +148,7 @@ TEST_F(FrankaStateControllerTest, PublishesEveryTopicOfAnyArm) {
 
     franka_msgs::FrankaState expected;
     toMessage(robot.state, expected);
-    expected.header = state.last().header;  // compared by itself
+    expected.header = state.last().header;  // compared separately
     EXPECT_EQ(expected, state.last());
     EXPECT_EQ(stamp, state.last().header.stamp);
     EXPECT_EQ("", state.last().header.frame_id);
@@ -199,7 +199,7 @@ TEST_F(FrankaStateControllerTest, PublishesAtTheRateAskedFor) {
   Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
   ASSERT_TRUE(waitFor([&] { return states.isConnected(); }));
 
-  // One simulated second, no faster than the messages are taken.
+  // One simulated second, not faster than the messages are received.
   controller.starting(ros::Time(100.0));
   std::size_t expected = 0;
   for (unsigned i = 1; i <= 999; ++i) {
@@ -227,7 +227,7 @@ TEST_F(FrankaStateControllerTest, LosesNoStateToAThreadThatIsLate) {
   Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
   ASSERT_TRUE(waitFor([&] { return states.isConnected(); }));
 
-  // Faster than any thread is woken up; then, with the machine's time, for long.
+  // Each round is faster than any thread wakes up, and then waits for its messages.
   controller.starting(ros::Time(20.0));
   constexpr unsigned kAtOnce = 60, kRounds = 20;
   for (unsigned i = 1; i <= kRounds * kAtOnce; ++i) {

@@ -10,7 +10,7 @@
 
 namespace franka_control {
 
-/// A robot state in which every field, and every element of it, has a value of its own.
+/// A robot state in which all fields, and all their elements, have different values.
 class RandomStates {
  public:
   franka::RobotState next() {

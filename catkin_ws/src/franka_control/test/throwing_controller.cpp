@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// A controller that throws when it is told to; for tests/test_controllers_and_errors.py, which
-// makes it known to pluginlib.
+// A controller that throws on request; for tests/test_controllers_and_errors.py, which registers it
+// with pluginlib.
 #include <controller_interface/controller.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <pluginlib/class_list_macros.h>
@@ -13,9 +13,9 @@
 
 namespace franka_control_test {
 
-/// Holds its `joints` (names) by commanding no torques beside those that the robot adds. Throws in
-/// the callback that its parameter `throws_in` names (starting, update, or none), in update a few
-/// cycles after the start. The parameter is read at each start.
+/// Holds its `joints` (names): commands zero torque in addition to the robot's own torques. Throws
+/// in the callback that its parameter `throws_in` names (starting, update, or none); in update a
+/// few cycles after the start. The parameter is read at each start.
 class ThrowingController
     : public controller_interface::Controller<hardware_interface::EffortJointInterface> {
  public:

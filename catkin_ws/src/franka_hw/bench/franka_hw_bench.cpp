@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// One millisecond's work of FrankaHW against the same without controllers and limits; and how long
-// a switch takes until the robot has its first command. Needs a master, for the parameters.
+// Compares one cycle of FrankaHW with a cycle without controllers and limits. Also measures the
+// time from a switch to its first command at the robot. Needs a ROS master, for the parameters.
 #include <benchmark/benchmark.h>
 #include <rt_guard/rt_guard.h>
 

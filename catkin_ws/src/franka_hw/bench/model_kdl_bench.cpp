@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 
-// ModelKDL against the bare KDL solvers on the same chain in the same run: mass, Coriolis, gravity
-// and zero Jacobian in one go, at 1000 random states. The counter "ratio" of the last line is the
-// figure.
+// Compares ModelKDL with the bare KDL solvers on the same chain in the same run: mass, Coriolis,
+// gravity and zero Jacobian, at 1000 random states. The counter "ratio" of the last line is the
+// result.
 
 #include <benchmark/benchmark.h>
 #include <franka_core/arm_model.h>
@@ -59,7 +59,7 @@ std::vector<Array7> states() {
   return result;
 }
 
-/// Processor time, which a busy machine does not stretch.
+/// Processor time, which other processes do not lengthen.
 double secondsPerGo(const benchmark::State& state, std::clock_t start) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC /
          static_cast<double>(state.iterations());

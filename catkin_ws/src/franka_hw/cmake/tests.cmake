@@ -19,7 +19,7 @@ target_compile_definitions(franka_hw_test PRIVATE
   FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
 target_link_libraries(franka_hw_test franka_hw)
 
-# Alone in its executable, because the guard against allocations replaces malloc.
+# A separate executable, because the guard against allocations replaces malloc.
 catkin_add_gtest(model_kdl_test test/model_kdl_test.cpp)
 target_compile_options(model_kdl_test PRIVATE -Wall -Wextra)
 target_compile_definitions(model_kdl_test PRIVATE
@@ -27,7 +27,7 @@ target_compile_definitions(model_kdl_test PRIVATE
 target_include_directories(model_kdl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 target_link_libraries(model_kdl_test franka_hw Franka::Core ${CMAKE_DL_LIBS})
 
-# FrankaHW with everything around it, against the robot that the tests of libfranka use.
+# FrankaHW and its environment, with the fake robot of the libfranka tests.
 find_package(rostest REQUIRED)
 find_package(controller_manager REQUIRED)
 add_rostest_gtest(franka_hw_robot_test test/franka_hw_robot.test
@@ -43,7 +43,7 @@ add_rostest_gtest(franka_hw_robot_test test/franka_hw_robot.test
   test/robot/support.cpp
   test/robot/switching_test.cpp
 )
-# Unoptimised, for compiling it is most of what these tests cost.
+# Unoptimised, because compilation takes most of the time of these tests.
 target_compile_options(franka_hw_robot_test PRIVATE -Wall -Wextra -O0)
 target_compile_definitions(franka_hw_robot_test PRIVATE
   FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")

@@ -35,7 +35,7 @@ std::string AbortReporter::save(const std::vector<franka::Record>& log) const {
   const std::time_t now = std::time(nullptr);
   char stamp[32];
   std::strftime(stamp, sizeof(stamp), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
-  // The robot's own time tells two aborts of one second apart.
+  // The robot's own time distinguishes two aborts in the same second.
   const std::string path = directory_ + "/franka_abort_" + arm_id_ + "_" + stamp + "_" +
                            std::to_string(log.back().state.time.toMSec()) + ".csv";
   std::ofstream file(path);

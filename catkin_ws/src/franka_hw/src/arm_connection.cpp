@@ -17,7 +17,7 @@ namespace franka_hw {
 
 namespace {
 
-// How often a robot that rests is asked for a state before it counts as gone.
+// The number of attempts to read a state before a robot at rest counts as lost.
 constexpr int kReadAttempts = 3;
 
 using RecoveryServer = actionlib::SimpleActionServer<franka_msgs::ErrorRecoveryAction>;
@@ -44,7 +44,7 @@ struct ArmConnection::Offer {
   std::string arm_id;
   AbortReporter aborts;
   ros::Publisher has_error_publisher;
-  bool has_error{false};  // as published; of the robot's thread
+  bool has_error{false};  // the published value; used by the robot's thread
   ros::ServiceServer connect, disconnect;
   // While connected:
   std::unique_ptr<ServiceContainer> setters;
@@ -88,7 +88,7 @@ bool ArmConnection::disconnect() {
 void ArmConnection::lose(const std::string& what) {
   const std::lock_guard<std::mutex> lock(connection_mutex_);
   if (!connected()) {
-    return;  // given up meanwhile
+    return;  // given up in the meantime
   }
   ROS_ERROR_STREAM((offer_ ? offer_->arm_id : "FrankaHW") << ": " << reconnection_.report(what));
   state_.handle(ArmEvent::kLost);
@@ -175,7 +175,7 @@ void ArmConnection::recover() {
   const std::string arm = offer_ ? "'" + offer_->arm_id + "'" : "the robot";
   const auto lock = mutex_.takeWhile([this] { return needsRecovery(); });
   if (!lock) {
-    // The robot is not touched: a recovery ahead of time must not clear an error still to come.
+    // Nothing is sent to the robot: an early recovery must not clear a later error.
     ROS_WARN_STREAM("FrankaHW: a recovery of " << arm
                                                << " was requested, but there is nothing to "
                                                   "recover.");
@@ -187,7 +187,7 @@ void ArmConnection::recover() {
                                    "connect first.");
   }
   ROS_INFO_STREAM("FrankaHW: recovering " << arm << " from the error.");
-  // An error of the controllers' own (NaN, a lost connection) leaves the robot Idle.
+  // After an error of a controller (NaN) or of the connection, the robot is Idle.
   if (robot_->readOnce().robot_mode != franka::RobotMode::kIdle) {
     robot_->automaticErrorRecovery();
   }
@@ -273,7 +273,8 @@ void ArmConnection::offerRobot() {
 
 void ArmConnection::withdrawRobot() {
   if (offer_ && offer_->recovery) {
-    // A recovery under way still answers through this pointer: it ends before reset() clears it.
+    // A running recovery still sends its result through this pointer: shutdown() ends it before
+    // reset() clears the pointer.
     offer_->recovery->shutdown();
     offer_->recovery.reset();
     offer_->setters.reset();

@@ -15,7 +15,7 @@ struct Transition {
 constexpr Transition kTransitions[] = {
     {ArmState::kDisconnected, ArmEvent::kConnected, ArmState::kIdle},
     {ArmState::kLost, ArmEvent::kConnected, ArmState::kIdle},
-    // What ran when the robot was lost must not move it before somebody says so.
+    // Controllers that ran when the robot was lost must not move it before a recovery.
     {ArmState::kLostInError, ArmEvent::kConnected, ArmState::kError},
 
     {ArmState::kIdle, ArmEvent::kGivenUp, ArmState::kDisconnected},
@@ -24,7 +24,7 @@ constexpr Transition kTransitions[] = {
     {ArmState::kLost, ArmEvent::kGivenUp, ArmState::kDisconnected},
     {ArmState::kLostInError, ArmEvent::kGivenUp, ArmState::kDisconnected},
 
-    // Within a motion the loss ends the motion first.
+    // A loss within a motion ends the motion first.
     {ArmState::kIdle, ArmEvent::kLost, ArmState::kLost},
     {ArmState::kStopped, ArmEvent::kLost, ArmState::kLostInError},
     {ArmState::kError, ArmEvent::kLost, ArmState::kLostInError},
@@ -33,14 +33,14 @@ constexpr Transition kTransitions[] = {
     {ArmState::kMoving, ArmEvent::kMotionEnded, ArmState::kIdle},
     {ArmState::kBraking, ArmEvent::kMotionEnded, ArmState::kError},
 
-    // Reported when the motion has ended.
+    // Reported after the motion has ended.
     {ArmState::kIdle, ArmEvent::kRobotStopped, ArmState::kStopped},
 
     {ArmState::kIdle, ArmEvent::kFailed, ArmState::kError},
     {ArmState::kMoving, ArmEvent::kFailed, ArmState::kBraking},
     {ArmState::kStopped, ArmEvent::kFailed, ArmState::kError},
     {ArmState::kLost, ArmEvent::kFailed, ArmState::kLostInError},
-    // A controller was started in the moment in which the robot was given up.
+    // A controller was started while the robot was given up.
     {ArmState::kDisconnected, ArmEvent::kFailed, ArmState::kLostInError},
 
     {ArmState::kStopped, ArmEvent::kRecovered, ArmState::kIdle},
@@ -85,7 +85,7 @@ bool ArmStateMachine::handle(ArmEvent event) noexcept {
     if (state_.compare_exchange_weak(before, after)) {
       return true;
     }
-    after = before;  // another thread was faster
+    after = before;  // another thread has changed the state
   }
   return false;
 }

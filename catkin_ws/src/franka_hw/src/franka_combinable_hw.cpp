@@ -91,7 +91,7 @@ void FrankaCombinableHW::watchRobot() {
     states_.write({*state, ResponseTimes::Clock::now()});
   } else {
     if (controllerActive()) {
-      connection_.fail();  // it was given up in the moment in which a controller started
+      connection_.fail();  // it was given up while a controller started
     }
     connection_.reconnect();
   }
@@ -111,7 +111,7 @@ void FrankaCombinableHW::control(
   try {
     run_function_(*robot_, Callback());
   } catch (const MotionInterrupted&) {
-    // The robot was told to stop and braked by itself.
+    // The motion was ended on purpose; the robot has braked by itself.
   }
 }
 
@@ -122,7 +122,7 @@ franka::Torques FrankaCombinableHW::torqueCallback(const franka::RobotState& rob
     return finished(effort_joint_command_libfranka_, robot_state);
   }
   const Answer& answer = answers_.read();
-  // What was computed before the last motion ended does not belong to this one.
+  // Commands computed before the last motion ended do not belong to this one.
   effort_joint_command_libfranka_ =
       answer.since > motion_ended_ ? answer.torques : franka::Torques(std::array<double, 7>{});
   if (commandHasNaN(effort_joint_command_libfranka_)) {
@@ -189,7 +189,7 @@ bool FrankaCombinableHW::prepareSwitch(
   const bool was_active = controllerActive();
   const bool agrees = FrankaHW::prepareSwitch(start_list, stop_list);
   if (!was_active && controllerActive()) {
-    error_recovered_ = true;  // a switch was taken back: its controllers start anew
+    error_recovered_ = true;  // a switch was cancelled: its controllers are restarted
   }
   return agrees;
 }
@@ -203,7 +203,7 @@ void FrankaCombinableHW::read(const ros::Time& /*time*/, const ros::Duration& /*
 }
 
 void FrankaCombinableHW::write(const ros::Time& /*time*/, const ros::Duration& period) {
-  // The controllers have been reset in the cycle between read() and this.
+  // The controllers have been reset in this cycle, between read() and write().
   if (controller_needs_reset_ && error_recovered_) {
     controller_needs_reset_ = false;
     error_recovered_ = false;

@@ -78,7 +78,7 @@ void FrankaCombinedHW::recover() {
   std::string failures;
   for (FrankaCombinableHW* const arm : arms_) {
     if (!arm->hasOwnError() && !(arm->connected() && arm->needsRecovery())) {
-      continue;  // it has none, or was given up and keeps nobody waiting
+      continue;  // has no error, or was given up and stops no other arm
     }
     try {
       arm->resetError();
@@ -104,7 +104,7 @@ void FrankaCombinedHW::handleError() {
   if (is_recovering_) {
     return;
   }
-  // One controller moves all arms: when one stops, the others must. They go on with it.
+  // One controller may move all arms: if one arm stops, the others must stop until its recovery.
   const bool any = anyOwnError();
   for (FrankaCombinableHW* const arm : arms_) {
     arm->waitForOthers(any && !arm->hasOwnError());

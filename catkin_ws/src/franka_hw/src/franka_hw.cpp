@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// FrankaHW: its beginning, its connection, its interfaces and its state.
+// FrankaHW: set-up, connection, interfaces and state.
 #include <franka/exception.h>
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/model.h>
@@ -18,12 +18,12 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegreesPerRadian = 57.29577951308232;
-// How often joints near their ends are printed at most. [s]
+// Shortest time between two warnings of joints near their ends. [s]
 constexpr double kLimitReportPeriod = 5.0;
 constexpr double kLimitCheckPeriod = 0.5;
-// Between two attempts to reach a robot that is starting. [s]
+// Time between two attempts to reach a robot that is starting. [s]
 constexpr double kConnectPeriod = 0.2;
-// For somebody whose robot does not answer because there is none.
+// For a user without a robot.
 constexpr char kNoRobot[] =
     " Without a robot, start a simulated one: give the launch file sim:=true, or run "
     "`franka_sim --robot panda --ip 127.0.0.1` (or fr3, any loopback address) "

@@ -13,7 +13,7 @@ namespace franka_hw {
 
 namespace {
 
-// Above these the robot would refuse to end a motion: it has to brake first. [rad/s]
+// Above these speeds the robot would refuse to end a motion: it has to brake first. [rad/s]
 constexpr double kDesiredAtRest = 0.005;
 constexpr double kMeasuredAtRest = 0.05;
 // A robot needs some hundred milliseconds to come to rest from full speed.
@@ -24,7 +24,7 @@ bool anyAbove(const std::array<double, 7>& values, double limit) noexcept {
                      [limit](double value) { return std::abs(value) > limit; });
 }
 
-/// The mode the controllers ask for on this arm. @returns false for claims nobody knows
+/// The mode that the controllers need on this arm. @returns false for unknown claims
 bool modeOf(const std::string& arm_id, const std::list<hardware_interface::ControllerInfo>& list,
             ControlMode& mode) {
   ResourceWithClaimsMap resources = getResourceMap(list);
@@ -36,7 +36,7 @@ bool modeOf(const std::string& arm_id, const std::list<hardware_interface::Contr
   return true;
 }
 
-/// Whether one of the controllers commands anything, be it by names of no arm.
+/// Whether one of the controllers claims a resource, even one that belongs to no arm.
 bool commands(const std::list<hardware_interface::ControllerInfo>& list) {
   return std::any_of(list.begin(), list.end(), [](const auto& info) {
     return std::any_of(info.claimed_resources.begin(), info.claimed_resources.end(),
@@ -88,7 +88,7 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
     return false;
   }
   if (start_mode == ControlMode::None && stop_mode == ControlMode::None) {
-    // Who only looks does not disturb a motion.
+    // Controllers that only read do not change a motion.
     return !commands(start_list) || mayStart(start_list);
   }
   const bool unused = preparation_pending_.exchange(false);
@@ -101,7 +101,7 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   }
   const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
   const RunSettings settings = requestedSettings(mode);
-  // Torques may pass from one controller to the next within a motion: nothing has to come to rest.
+  // Torques may pass from one controller to the next within a motion: it need not end.
   if (controller_active_ && mode == ControlMode::JointTorque && settings == run_settings_) {
     return true;
   }
@@ -137,7 +137,7 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
 }
 
 bool FrankaHW::mayStart(const std::list<hardware_interface::ControllerInfo>& list) const {
-  // Before init() there is no robot that could be another one than the parameters say.
+  // Before init() no robot is known, so there is nothing to compare with the parameters.
   const std::string refusal = initialized_ ? refusalOfMotions() : std::string();
   if (refusal.empty()) {
     return true;
@@ -165,7 +165,7 @@ void FrankaHW::goOnAsBefore(bool was_active) {
 }
 
 bool FrankaHW::endMotion() {
-  // Not by means of robot_mutex_: a loop that only reads takes it again before others wake up.
+  // Does not use robot_mutex_: a loop that only reads locks it again before other threads wake up.
   controller_active_ = false;
   const auto deadline = std::chrono::steady_clock::now() + kLongestStop;
   while (in_control_) {
@@ -202,7 +202,8 @@ void FrankaHW::control(
   if (!controller_active_) {
     return;
   }
-  // With two callbacks (torques beside a motion generator) the controllers run once a millisecond.
+  // With two callbacks (torques and a motion generator) the controllers run only once per
+  // millisecond.
   franka::Duration last_time = robot_state_libfranka_.time;
   bool first = true;
   const Callback once_a_state = [&](const franka::RobotState& robot_state,
@@ -225,7 +226,7 @@ void FrankaHW::control(
   try {
     run_function_(connected_robot, once_a_state);
   } catch (const MotionInterrupted&) {
-    // The robot was told to stop and braked by itself.
+    // The motion was ended on purpose; the robot has braked by itself.
   }
 }
 
@@ -235,8 +236,8 @@ bool FrankaHW::isMoving(const franka::RobotState& robot_state) noexcept {
 
 bool FrankaHW::setRunFunction(const ControlMode& requested_control_mode, bool limit_rate,
                               double cutoff_frequency, franka::ControllerMode internal_controller) {
-  // Every run function hands its commands through controlCallback, which refers to what write()
-  // fills.
+  // Every run function passes its commands through controlCallback, which refers to the members
+  // that write() fills.
   const auto callback = [this](const auto& command, const Callback& ros_callback) {
     return [this, &command, ros_callback](const franka::RobotState& state, franka::Duration step) {
       return controlCallback(command, ros_callback, state, step);
@@ -281,7 +282,7 @@ bool FrankaHW::setRunFunction(const ControlMode& requested_control_mode, bool li
       return useGenerator(pose_cartesian_command_libfranka_);
     case ControlMode::CartesianVelocity:
       return useGenerator(velocity_cartesian_command_libfranka_);
-    default:  // two generators at once
+    default:  // two motion generators at the same time
       return false;
   }
 }

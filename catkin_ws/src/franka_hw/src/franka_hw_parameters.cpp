@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// FrankaHW: what it reads from the parameter server.
+// FrankaHW: its parameters.
 #include <franka/control_tools.h>
 #include <franka/rate_limiting.h>
 #include <franka_core/realtime_rule.h>
@@ -17,7 +17,7 @@ namespace {
 const std::vector<double> kTorqueThresholds{20.0, 20.0, 18.0, 18.0, 16.0, 14.0, 12.0};  // [Nm]
 const std::vector<double> kForceThresholds{20.0, 20.0, 20.0, 25.0, 25.0, 25.0};         // [N, Nm]
 
-/// Reads what must be there. @returns false after a sentence
+/// Reads a required parameter. @returns false, after logging the reason, if it is missing or wrong
 template <typename T>
 bool require(const ros::NodeHandle& nh, const std::string& name, const char* what, T& value) {
   if (nh.getParam(name, value)) {
@@ -98,7 +98,7 @@ bool FrankaHW::readJointNames(const ros::NodeHandle& nh) {
 }
 
 bool FrankaHW::readConnectTimeout(const ros::NodeHandle& nh) {
-  std::string name;  // one for all arms of a combined node stands in its namespace
+  std::string name;  // in a combined node, one parameter in the node's namespace may serve all arms
   if (!nh.searchParam("connect_timeout", name)) {
     return true;
   }
@@ -136,11 +136,11 @@ bool FrankaHW::readRealtimeConfig(const ros::NodeHandle& nh) {
 
 bool FrankaHW::readIgnoreMismatch(const ros::NodeHandle& nh) {
   mismatch_parameter_ = nh.resolveName("ignore_robot_mismatch");
-  // One for all arms of a combined node stands in its namespace.
+  // In a combined node, one parameter in the node's namespace may serve all arms.
   const auto find = [nh](std::string& name) {
     return nh.searchParam("ignore_robot_mismatch", name);
   };
-  // Read again at every switch: one may be told of it and try again.
+  // Read again at every switch, so that the user can set it after a refusal and try again.
   get_ignore_robot_mismatch_ = [nh, find] {
     std::string name;
     bool ignore = false;

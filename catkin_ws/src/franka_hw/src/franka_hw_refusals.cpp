@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// FrankaHW: why controllers do not get to command the robot.
+// FrankaHW: the reasons to refuse controllers.
 #include <franka/control_tools.h>
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/robot_mismatch.h>
@@ -34,7 +34,7 @@ std::string FrankaHW::realtimeRefusal() const {
   std::string reason =
       "the running kernel has no real-time support (Debian: package linux-image-rt-amd64).";
   if (franka::hasRealtimeKernel()) {
-    // Tried on a thread of its own: the caller's priority stays.
+    // Tried in a separate thread, so that the caller's priority does not change.
     bool possible = false;
     std::thread([&] {
       possible = franka::setCurrentThreadToHighestSchedulerPriority(&reason);

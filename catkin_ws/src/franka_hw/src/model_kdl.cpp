@@ -93,7 +93,7 @@ void checkChain(const KDL::Chain& chain, const std::string& root, const std::str
   }
 }
 
-/// Puts the fixed end of a chain into its last moving segment, so that the chain ends in the
+/// Merges the fixed end of a chain into its last moving segment, so that the chain ends in the
 /// flange.
 /// @returns the pose of the flange in the last moving link
 KDL::Frame foldFixedEnd(KDL::Chain& chain) {
@@ -121,10 +121,10 @@ KDL::Frame foldFixedEnd(KDL::Chain& chain) {
 
 }  // namespace
 
-/// Everything the calls write to, and the chain they read.
+/// The chain and all data that the calls write.
 ///
 /// The chain ends in the flange, and the payload is added to its last segment in place: the solvers
-/// hold a reference to the chain, so they see it without being built anew.
+/// refer to the chain, so they use the payload without being built again.
 struct ModelKDL::Workspace {
   Workspace(const urdf::Model& model, const std::string& root, const std::string& tip,
             double singularity_threshold)
@@ -158,7 +158,7 @@ struct ModelKDL::Workspace {
     chain.getSegment(kJoints - 1).setInertia(last_inertia + payload);
   }
 
-  /// Frames, joint axes and joint origins in O.
+  /// Updates frames, joint axes and joint origins in O.
   void moveTo(const std::array<double, 7>& positions) {
     KDL::Frame frame;
     for (unsigned int i = 0; i < kJoints; ++i) {
@@ -170,7 +170,7 @@ struct ModelKDL::Workspace {
     }
   }
 
-  /// Pose of a frame in O, after moveTo().
+  /// Pose of a frame in O. Call moveTo() first.
   KDL::Frame poseOf(franka::Frame frame, const std::array<double, 16>& F_T_EE,
                     const std::array<double, 16>& EE_T_K) const {
     const KDL::Frame& flange = frames.back();
@@ -188,8 +188,8 @@ struct ModelKDL::Workspace {
     }
   }
 
-  /// Jacobian of a point fixed to the link of a frame, after moveTo(), seen from axes turned by
-  /// rotation.
+  /// Jacobian of a point fixed to the link of a frame, in axes turned by rotation. Call moveTo()
+  /// first.
   std::array<double, 42> jacobianOf(franka::Frame frame, const KDL::Vector& point,
                                     const KDL::Rotation& rotation) {
     std::array<double, 42> jacobian{};
@@ -208,7 +208,8 @@ struct ModelKDL::Workspace {
     return jacobian;
   }
 
-  /// An eigenvalue decomposition is dear, and a warning need not come at 1 kHz: hence the pace.
+  /// Runs at a reduced rate: an eigenvalue decomposition is expensive, and the warning is not
+  /// needed at 1 kHz.
   void checkSingularity(const std::array<double, 42>& jacobian) {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_check) {
@@ -314,8 +315,9 @@ std::array<double, 7> ModelKDL::coriolis(const std::array<double, 7>& q,
 std::array<double, 7> ModelKDL::gravity(const std::array<double, 7>& q, double total_mass,
                                         const std::array<double, 3>& F_x_Ctotal,
                                         const std::array<double, 3>& gravity_earth) const {
-  // KDL's solver fixes the gravity vector when it is built. Statics answer for any vector: each
-  // joint carries the moment, about its axis, of all that hangs outboard of it.
+  // KDL's solver fixes the gravity vector when it is built. The static equilibrium holds for any
+  // vector: the torque of each joint is the moment, about its axis, of the weight of all links
+  // beyond it.
   Workspace& work = *workspace_;
   work.moveTo(q);
   const KDL::Vector g = toVector(gravity_earth);

@@ -14,10 +14,10 @@ namespace {
 constexpr char kEffortInterface[] = "hardware_interface::EffortJointInterface";
 constexpr uint8_t kJointsOfAnArm = 7;
 
-/// Where the interface stands in one claim of a ResourceWithClaimsMap.
+/// Index of the interface in one claim of a ResourceWithClaimsMap.
 constexpr std::size_t kInterfaceIndex = 2;
 
-/// The counter an interface type is counted in; nullptr for interfaces a Franka arm does not have.
+/// The counter of an interface type; nullptr for interfaces that a Franka arm does not have.
 uint8_t* counterOf(const std::string& interface_type, ResourceClaims& claims) {
   if (interface_type == kEffortInterface) {
     return &claims.joint_torque_claims;
@@ -106,7 +106,7 @@ ControlMode getControlMode(const std::string& arm_id, ArmClaimedMap& arm_claim_m
       continue;
     }
     if (mode != ControlMode::None) {
-      return ControlMode::None;  // two motion generators at once
+      return ControlMode::None;  // two motion generators at the same time
     }
     mode = generator;
   }

@@ -39,13 +39,13 @@ void ResponseTimes::stateArrived(franka::Duration robot_time, Clock::time_point 
   last_time_ = robot_time;
   last_arrival_ = now;
   published_.write(window_);
-  if (starts_anew) {  // no later wish
+  if (starts_anew) {  // not for a request that came after the check above
     starts_anew_.store(false, std::memory_order_release);
   }
 }
 
 void ResponseTimes::noteDelay(franka::Duration robot_time, Clock::time_point now) noexcept {
-  // Against an origin that is the same for all states of a motion.
+  // Relative to an origin that is the same for all states of a motion.
   const Clock::duration delay =
       now.time_since_epoch() - std::chrono::milliseconds(robot_time.toMSec());
   least_delay_ = begins_ ? delay : std::min(least_delay_, delay);

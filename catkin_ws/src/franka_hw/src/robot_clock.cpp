@@ -9,14 +9,13 @@ namespace franka_hw {
 
 namespace {
 
-// Beyond this the two clocks have nothing to do with each other: simulated time that was reset, or
-// a robot that stood still. [s]
+// Beyond this the two clocks are unrelated: simulated time was reset, or the robot stood still. [s]
 constexpr double kLost = 0.5;
-// How much of the passing time may be used to come nearer to the clock of ROS.
+// The largest adjustment to the clock of ROS, as a share of the elapsed time.
 constexpr double kSlew = 0.01;
 
-/// ros::Time throws where a sum leaves its range; 32 bits of seconds hold every sum made here, but
-/// not one below zero.
+/// Avoids the exception that ros::Time throws if a sum leaves its range: 32 bits of seconds hold
+/// every sum here, except one below zero.
 ros::Time later(const ros::Time& time, double seconds) noexcept {
   ros::Time sum;
   const double total = std::max(0.0, seconds);

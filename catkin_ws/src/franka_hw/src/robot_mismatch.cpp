@@ -14,16 +14,16 @@ namespace {
 
 using franka_core::ArmLimits;
 
-// How far a description may exceed the robot's range. Chosen here: ranges that somebody rounded to
-// degrees pass, and the two robots differ by 0.46 rad at joint 6. [rad]
+// How far a description may exceed the robot's range. Chosen here: accepts ranges that were rounded
+// to degrees; the two robots differ by 0.46 rad at joint 6. [rad]
 constexpr double kTolerance = 0.1;
 
-/// The widest range that this kind of robot has; older FR3s have narrower ones.
+/// The widest range of this kind of robot; older FR3s have narrower ones.
 const ArmLimits& limitsOf(bool is_fr3) {
   return is_fr3 ? franka_core::kFr3Limits : franka_core::kFerLimits;
 }
 
-/// The first joint (0 to 6) that the description lets move where this kind of robot cannot.
+/// The first joint (0 to 6) that can move further in the description than in this kind of robot.
 std::optional<std::size_t> tooWide(const urdf::Model& description,
                                    const std::array<std::string, 7>& joint_names,
                                    const ArmLimits& limits) {
@@ -38,7 +38,7 @@ std::optional<std::size_t> tooWide(const urdf::Model& description,
   return std::nullopt;
 }
 
-/// The arms whose first joints the description holds, as "'panda', 'left'".
+/// The arms whose first joints are in the description, as "'panda', 'left'".
 std::string armsIn(const urdf::Model& description) {
   const std::string ending = "_joint1";
   std::set<std::string> arms;

@@ -9,12 +9,12 @@ namespace franka_hw {
 
 namespace {
 
-// Between two attempts to lock.
+// Time between two attempts to lock.
 constexpr std::chrono::microseconds kMoment{100};
-// How many moments the reading loop gives way at most.
+// The largest number of kMoment that the reading loop gives way.
 constexpr int kLongestWay = 50;
-// A thread that only reads a state holds the robot for a millisecond or two, and longer where the
-// machine is busy with other work or the robot silent.
+// A thread that only reads a state holds the robot for one or two milliseconds, and longer if the
+// machine is busy with other work or the robot is silent.
 constexpr std::chrono::milliseconds kSoon{500};
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 /// Locks a robot's mutex for a short operation.
 using Take = std::function<std::unique_lock<std::mutex>()>;
 
-/// @throws franka::InvalidOperationException for a robot that could not be had in time
+/// @throws franka::InvalidOperationException if the robot could not be locked in time
 std::unique_lock<std::mutex> orRefuse(std::unique_lock<std::mutex> lock) {
   if (!lock) {
     throw franka::InvalidOperationException(
@@ -28,7 +28,7 @@ void refuseInMotion(const RobotMutex& robot_mutex) {
   }
 }
 
-/// Offers handlers that have the robot for themselves while they work.
+/// Offers handlers that hold the robot's mutex while they work.
 void offerSetters(franka::Robot& robot, const Take& take, ros::NodeHandle& node_handle,
                   ServiceContainer& services) {
   forEachSetter([&](auto setter) {

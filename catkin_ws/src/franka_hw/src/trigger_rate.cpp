@@ -12,7 +12,7 @@ namespace franka_hw {
 
 namespace {
 
-/// Longest period kept [s]; slower rates never fire within a robot's life anyway.
+/// Longest period [s]; slower rates do not fire within a robot's life in any case.
 constexpr double kLongestPeriod = 1e9;
 
 ros::Duration periodOf(double rate) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// ArmConnection without a robot and without ROS; with both: robot/connection_test.cpp and
+// ArmConnection without a robot and without ROS. Tests with both: robot/connection_test.cpp and
 // robot/combined_test.cpp.
 #include <franka/exception.h>
 #include <franka_hw/arm_connection.h>
@@ -142,7 +142,7 @@ TEST(RobotMutex, RequestForAnotherRobotIsNone) {
   const ArmStateMachine state;
   RobotMutex mutex(state), other(state);
   const RobotMutex::Request request(other);
-  // Many times, of which a busy machine delays some.
+  // Repeated, because a busy machine delays some of the calls.
   auto shortest = std::chrono::steady_clock::duration::max();
   for (int i = 0; i < 20; i++) {
     const auto begin = std::chrono::steady_clock::now();

@@ -12,7 +12,7 @@
 namespace franka_hw {
 namespace {
 
-/// The state after these events, which follow on a first connection.
+/// The state after a first connection and these events.
 ArmState connectedAfter(std::initializer_list<ArmEvent> events) {
   ArmStateMachine machine;
   machine.handle(ArmEvent::kConnected);

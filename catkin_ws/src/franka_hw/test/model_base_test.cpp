@@ -12,7 +12,7 @@ namespace {
 static_assert(!std::is_default_constructible_v<FrankaModelHandle>);
 static_assert(std::is_nothrow_destructible_v<ModelBase>);
 
-/// Remembers what it was asked and answers with numbers that say which function answered.
+/// Records its arguments and returns numbers that identify the called function.
 class RecordingModel : public ModelBase {
  public:
   using ModelBase::bodyJacobian;
@@ -99,7 +99,7 @@ class ModelTest : public testing::Test {
     state.m_total = 5.0;
     state.F_x_Ctotal.fill(6.0);
     state.O_ddP_O = {{1.0, 2.0, 3.0}};
-    // What a model of the total load must never be given:
+    // These values must never reach a model of the total load:
     state.m_load = state.m_ee = -1.0;
     state.q_d.fill(-1.0);
   }

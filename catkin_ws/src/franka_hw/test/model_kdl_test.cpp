@@ -51,7 +51,7 @@ urdf::Model parsed(const std::string& text) {
   return model;
 }
 
-/// One state of the arm and everything that hangs on it.
+/// One state of the arm and its expected results.
 struct Sample {
   Array7 q, dq;
   Array16 F_T_EE, EE_T_K;
@@ -209,20 +209,21 @@ TEST_P(ModelKDLTest, AgreesWithKdlSolversOfAnAugmentedChain) {
 }
 
 TEST_P(ModelKDLTest, HoldsTheStretchedArm) {
-  // Upright and stretched, joint 2 carries each link's mass times how far out (x) its centre
-  // stands: links 2 to 7, the frames of link 4 and 7 standing out by 0.0825 m and 0.088 m.
+  // Upright and stretched, joint 2 carries the sum of each link's mass times the horizontal
+  // distance (x) of its centre of mass: links 2 to 7; the frames of links 4 and 7 are at 0.0825 m
+  // and 0.088 m.
   const double moment = 0.646926 * -0.003141 + 3.228604 * 0.027518 + 3.587895 * (0.0825 - 0.05317) +
                         1.225946 * -0.011953 + 1.666555 * 0.060149 + 0.735522 * (0.088 + 0.010517);
   const Array7 gravity = model.gravity({}, 0.0, {}, {{0.0, 0.0, kHang}});
   EXPECT_NEAR(moment * kHang, gravity[1], 1e-9);
-  // One kilogram at the flange, 88 mm out, on top of it.
+  // With a load of one kilogram at the flange, at 88 mm.
   const Array7 loaded = model.gravity({}, 1.0, {}, {{0.0, 0.0, kHang}});
   EXPECT_NEAR(-0.088 * 9.81, loaded[1] - gravity[1], 1e-9);
 }
 
 TEST_P(ModelKDLTest, ReadsTurnedInertialFrames) {
-  // The same inertias written in turned frames are other inertias; both readers must see the same
-  // ones.
+  // The same numbers in turned frames are different inertias; both readers must read the same
+  // inertias.
   const std::string turned = replaced(urdf_text, "<origin rpy=\"0 0 0\" xyz=\"0.027518",
                                       "<origin rpy=\"0.3 -0.2 1.1\" xyz=\"0.027518");
   const ModelKDL turned_model(parsed(turned), robot + "_link0", robot + "_link8");
@@ -284,7 +285,7 @@ TEST_P(ModelKDLTest, WarnsOfSingularitiesAtAModestPace) {
 INSTANTIATE_TEST_SUITE_P(Robots, ModelKDLTest, testing::Values("panda", "fr3"),
                          [](const auto& info) { return std::string(info.param); });
 
-/// What a refused robot description is answered with.
+/// The message for a refused robot description.
 std::string refusal(const std::string& urdf_text, const std::string& root, const std::string& tip) {
   try {
     const ModelKDL model(parsed(urdf_text), root, tip);

@@ -44,7 +44,7 @@ ControllerInfo controller(const std::string& name, std::vector<InterfaceResource
   return info;
 }
 
-/// How the two kinds of hardware judge a set of controllers, and the mode they would run in.
+/// The result of both kinds of hardware for a set of controllers, and its control mode.
 struct Verdict {
   bool franka_hw_refuses;
   bool combinable_hw_refuses;
@@ -88,7 +88,7 @@ TEST(FindArmId, TakesWhatStandsBeforeTheLastMarker) {
       {"my_arm_2_joint7", "my_arm_2"},
       {"a_joint_b_joint3", "a_joint_b"},
       {"a_robot_joint3", "a_robot"},
-      {"a_joint_robot", "a"},  // joints are looked for first
+      {"a_joint_robot", "a"},  // joints are searched for first
       {"_joint_robot", "_joint"},
   };
   for (const auto& [resource, expected] : cases) {

@@ -11,13 +11,14 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// Times on a clock that the test turns.
+/// Times on a clock that the test sets.
 class Times : public testing::Test {
  protected:
   static ResponseTimes::Clock::time_point at(int us) {
     return ResponseTimes::Clock::time_point(std::chrono::hours(5) + microseconds(us));
   }
-  /// A cycle of the robot's millisecond `ms`, whose state comes so late and is answered after that.
+  /// A cycle of the robot's millisecond `ms`: its state arrives `delay` late and is answered
+  /// `response` later.
   void cycle(unsigned ms, int delay, int response) {
     const int arrival = static_cast<int>(1000 * ms) + delay;
     times_.stateArrived(franka::Duration(ms), at(arrival));
@@ -40,7 +41,7 @@ TEST_F(Times, AreThoseOfTheCycles) {
   cycle(10, 300, 100);
   cycle(11, 200, 150);
   cycle(12, 450, 350);
-  cycle(13, 250, 900);  // not over yet: another callback may answer, too
+  cycle(13, 250, 900);  // not complete: another callback may still answer
   const ResponseTimes::Report report = times_.take();
   EXPECT_EQ(3u, report.cycles);
   EXPECT_NEAR(200e-6, report.mean, 1e-12);
@@ -54,7 +55,7 @@ TEST_F(Times, OfTheNextReportAreItsOwn) {
   cycle(2, 900, 500);
   times_.take();
   EXPECT_EQ(0u, times_.take().cycles) << "nothing has happened since";
-  cycle(3, 700, 20);  // counts the answer before
+  cycle(3, 700, 20);  // completes the previous cycle
   cycle(4, 710, 30);
   cycle(5, 705, 40);
   const ResponseTimes::Report report = times_.take();
@@ -108,10 +109,10 @@ TEST_F(Times, LoseNothingBetweenTwoThreads) {
   }
   done = true;
   reads.join();
-  const ResponseTimes::Report rest = times_.take();  // all, where the reader came late
+  const ResponseTimes::Report rest = times_.take();  // everything, if the reader started late
   counted += rest.cycles;
   longest = std::max(longest, rest.longest);
-  // A cycle that ends between the look at a report and its end belongs to none.
+  // A cycle that ends while a report is being taken is in no report.
   EXPECT_LE(counted, kCycles);
   EXPECT_GT(counted, 0u);
   EXPECT_NEAR(1e-4, longest, 1e-12);

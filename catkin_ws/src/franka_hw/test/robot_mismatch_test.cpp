@@ -18,7 +18,7 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
   }
 }
 
-/// The description of one of the two robots, its joints named after the arm, with one text
+/// The description of one of the two robots: its joints are named after the arm, and one text is
 /// replaced.
 urdf::Model describe(const std::string& robot, const std::string& arm_id,
                      const std::string& from = "@", const std::string& to = "") {

@@ -11,7 +11,7 @@
 namespace franka_hw {
 namespace {
 
-/// Writes down what it is called with.
+/// Records its calls.
 class Recorder {
  public:
   using Joints = std::array<double, 7>;

@@ -27,7 +27,7 @@ namespace {
 
 constexpr char kLog[] = "franka_hw_sim";
 constexpr double kSwitchTimeout = 3.0;     ///< [s]
-constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit gives up after 5 s of its own
+constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit's own limit is 5 s
 constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
 constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
 
@@ -36,8 +36,7 @@ std::string notATransform(const std::string& name, const std::array<double, 16>&
          franka_sim::frameFault(matrix) + ".";
 }
 
-/// Logs unusual thresholds. @throws std::runtime_error with a sentence for the first invalid
-/// threshold
+/// Logs unusual thresholds. @throws std::runtime_error for the first invalid threshold
 franka_sim::CollisionThresholds checked(const franka_sim::CollisionThresholds& thresholds,
                                         const std::string& phase) {
   const std::string fault = checkThresholds(thresholds);
@@ -52,7 +51,7 @@ franka_sim::CollisionThresholds checked(const franka_sim::CollisionThresholds& t
 }
 
 /// The setters of franka::Robot for a simulated control unit. Used between ticks.
-/// @throws std::runtime_error with a sentence where the unit refuses
+/// @throws std::runtime_error if the unit refuses
 class UnitSetters {
  public:
   using Torques = std::array<double, 7>;  // thresholds [Nm]
@@ -312,7 +311,7 @@ bool ArmServices::recovering() {
 std::vector<std::string> ArmServices::runningArmControllers() {
   const std::string service = node_.resolveName("controller_manager/list_controllers");
   controller_manager_msgs::ListControllers list;
-  // waitForService would sleep in simulated time, for ever while the simulation is paused.
+  // waitForService would sleep in simulated time, without an end while the simulation is paused.
   if (!ros::service::exists(service, false) || !ros::service::call(service, list)) {
     throw std::runtime_error("The controllers cannot be restarted: " + service +
                              " does not answer.");

@@ -83,7 +83,7 @@ void warnOfGains(const ros::NodeHandle& node, const std::string& arm_id) {
   }
 }
 
-/// In parentheses, where there is something to say beyond the error's name.
+/// Details in parentheses, if there are more than the error's name.
 std::string detailOf(const SimArm::Abort& abort, std::size_t error) {
   std::string detail;
   if (error == franka_core::indexOf(franka_core::RobotError::kJointReflex) &&
@@ -309,7 +309,7 @@ FrankaHWSim::SwitchState FrankaHWSim::switchResult() const {
 
 FrankaHWSim::SwitchState FrankaHWSim::switchResult(
     const hardware_interface::ControllerInfo& controller) const {
-  // Who commands nothing of the arm need not wait for it.
+  // A controller that commands nothing of the arm need not wait for it.
   return commandsArm(controller, arm_id_) ? switchResult() : SwitchState::DONE;
 }
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// FrankaHWSim: what the URDF declares, and the handles made of it.
+// FrankaHWSim: the declarations of the URDF, and the handles for them.
 #include <franka_sim_mujoco/franka_hw_sim.h>
 #include <joint_limits_interface/joint_limits_urdf.h>
 #include <ros/console.h>
@@ -17,7 +17,7 @@ constexpr char kLog[] = "franka_hw_sim";
 
 using transmission_interface::TransmissionInfo;
 
-/// Names with and without the package in front are both in use.
+/// Names with and without the package prefix are both in use.
 bool namesInterface(const std::string& found, const std::string& wanted) {
   return found == wanted || found == "hardware_interface/" + wanted;
 }
@@ -213,14 +213,14 @@ void FrankaHWSim::registerLimits(const urdf::Model& model) {
           velocities_.getHandle(joint.name), limits, soft_limits));
     }
   }
-  // Looking is no claim.
+  // getHandle() has claimed the joints, but only for their limits.
   positions_.clearClaims();
   velocities_.clearClaims();
 }
 
 void FrankaHWSim::holdJointLimits(const ros::Duration& period) {
   if (arm_->switchResult() == SimArm::Switch::kOngoing) {
-    // Nobody commands yet: the limits must not remember where the last motion was wanted.
+    // No controller commands yet: the limits must not start from the positions of the last motion.
     position_limits_.reset();
     return;
   }

@@ -24,7 +24,7 @@ namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
 
-/// What the URDF's <gazebo><plugin> element says about hardware.
+/// The URDF's <gazebo><plugin> element, as far as it concerns the hardware.
 struct PluginElement {
   std::string hardware_type, robot_namespace;
   double control_period{1e-3};
@@ -70,7 +70,7 @@ PluginElement readPluginElement(const std::string& urdf) {
   return result;
 }
 
-/// "panda" or "fr3"; the log tells which, and why.
+/// "panda" or "fr3"; the result and its reason are logged.
 std::string chooseRobotType(const ros::NodeHandle& node, const RobotPlan& plan) {
   const std::string parameter = node.resolveName("robot_type");
   const std::optional<std::string> asked = readString(node, "robot_type");
@@ -102,7 +102,8 @@ franka_sim::JointPhysics choosePhysics(const ros::NodeHandle& node, const std::s
   return franka_sim::readJointPhysics(folder + "/config/physics.yaml", robot_type, friction);
 }
 
-/// As Gazebo's spawner: the description's own robotNamespace counts, the order's where it has none.
+/// As in Gazebo's spawner: the robotNamespace of the description, or that of the order if there is
+/// none.
 std::string chooseNamespace(const SpawnOrder& order, const PluginElement& plugin) {
   const std::string& own = plugin.robot_namespace;
   if (own.empty()) {
@@ -120,8 +121,8 @@ std::string chooseNamespace(const SpawnOrder& order, const PluginElement& plugin
   return own;
 }
 
-/// Positions of joints that the robot does not have are left out, with a warning: the original's
-/// launch files name the fingers also where there is no hand.
+/// Omits positions of joints that the robot does not have, with a warning: the original's launch
+/// files name the fingers even if there is no hand.
 std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf::Model& model) {
   std::map<std::string, double> known;
   std::string unknown;
@@ -194,7 +195,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
     plan.arm_physics = choosePhysics(node, plan.robot_type);
     franka_sim::applyJointPhysics(plan.arm_physics, plan.arm_id, plan.description);
     if (!plan.fci_ip.empty()) {
-      // It stands at its initial positions as a real one would.
+      // As a real robot, it rests with a small distance from its initial positions.
       franka_sim::comeToRest(franka_sim::kJointStiffness, plan.arm_id, plan.description);
     }
   }

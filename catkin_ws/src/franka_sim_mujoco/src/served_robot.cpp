@@ -20,8 +20,8 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-/// The robot's configuration, which users enter in Desk, comes from the same parameters as that of
-/// a robot under controllers in process; its behaviour is that of the FCI.
+/// The configuration, which users of a real robot enter in Desk, is read from the same parameters
+/// as for controllers in this process; the behaviour is that of the FCI.
 franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& robot) {
   if (!plan.urdf.getJoint(plan.arm_id + "_joint1")) {
     throw std::runtime_error("its URDF has no joint '" + plan.arm_id +

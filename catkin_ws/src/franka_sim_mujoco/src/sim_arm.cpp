@@ -82,7 +82,7 @@ void SimArm::show() noexcept {
   }
 }
 
-// The manual's formulas are for the values that are shown; reflexes have a rule of their own.
+// The manual's formulas use the published values; reflexes have a different rule.
 void SimArm::showContacts() noexcept {
   if (hasReflexes(unit_.configuration().rules)) {
     return;
@@ -121,7 +121,7 @@ const franka_core::RobotCommand* SimArm::command() noexcept {
   return generates() ? &command_ : nullptr;
 }
 
-// Tells the other threads how the arm fares.
+// Passes the condition of the arm to other threads.
 void SimArm::watch() noexcept {
   const bool faulty = unit_.state().robot_mode == RobotMode::kReflex;
   if (faulty && !faulty_.load(std::memory_order_relaxed)) {
@@ -193,8 +193,8 @@ void SimArm::tryToStart() noexcept {
   }
   switch_ = Switch::kDone;
   resetCommands();
-  // Controllers that start in this very tick read where the new motion begins, not the old one's
-  // end: positions that begin with a step make every rate limiter oscillate.
+  // Controllers that start in this tick read the start of the new motion, not the end of the old
+  // one: a step in the first position would make every rate limiter oscillate.
   show();
 }
 
@@ -210,7 +210,7 @@ void SimArm::refuse(Refusal why) noexcept {
   }
 }
 
-// The last commands of a controller that went must not act on.
+// The last commands of a stopped controller must not stay in effect.
 void SimArm::resetCommands() noexcept {
   const franka_core::RobotState& state = unit_.state();
   commands_ = ArmCommands();
@@ -256,7 +256,7 @@ bool SimArm::setConnected(bool connected) noexcept {
 }
 
 void SimArm::worldWasReset() noexcept {
-  // The history of a motion ends here; its controllers start anew with the next tick.
+  // The motion ends here; its controllers start again in the next tick.
   const bool moving = unit_.state().robot_mode == RobotMode::kMove && generates();
   if (moving) {
     stopMotion();

@@ -10,7 +10,7 @@ namespace franka_info {
 
 namespace {
 // Clocks differ by less than 0.1 %; a robot in lock-step is slower by 5 % or more. Chosen here
-// between both.
+// between these values.
 constexpr double kSamePace = 0.01;
 }  // namespace
 

@@ -10,7 +10,7 @@
 namespace franka_info {
 
 namespace {
-// Short enough for statistics, long enough not to be a load itself.
+// Short enough for statistics, long enough not to load the connection.
 constexpr std::chrono::milliseconds kPause{25};
 }  // namespace
 
@@ -45,7 +45,7 @@ void RoundTrips::repeat() {
     try {
       ask_();
     } catch (const franka::CommandException&) {
-      // A refusal is an answer, too.
+      // A refusal is also an answer.
     } catch (const std::exception& error) {
       error_ = error.what();
       return;

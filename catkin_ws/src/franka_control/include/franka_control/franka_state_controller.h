@@ -22,29 +22,30 @@ namespace franka_control {
 
 class StatePublisher;
 
-/// Publishes the state of one arm; commands nothing, so it may run beside any other controller.
+/// Publishes the state of one arm. Commands nothing, so it may run together with any other
+/// controller.
 ///
 /// Parameters in the controller's namespace: `arm_id`, `joint_names` (seven) and `publish_rate`
-/// [Hz] (30). Topics there: `franka_states` (the complete state), `joint_states` (q, dq, tau_J),
-/// `joint_states_desired` (q_d, dq_d, tau_J_d) and `F_ext` (K_F_ext_hat_K, in `<arm_id>_K`); beside
-/// them
-/// `/tf` from `<arm_id>_link8` over `_NE` and `_EE` to `_K`. Stamps are the time update() is given.
+/// [Hz] (30). Topics in this namespace: `franka_states` (the complete state), `joint_states` (q,
+/// dq, tau_J), `joint_states_desired` (q_d, dq_d, tau_J_d) and `F_ext` (K_F_ext_hat_K, in
+/// `<arm_id>_K`). Also publishes `/tf` from `<arm_id>_link8` over `_NE` and `_EE` to `_K`. Stamps
+/// are the time argument of update().
 ///
-/// update() runs in the 1 kHz loop: it neither allocates nor locks nor waits. Complete states wait
-/// for a thread that is late, up to 64 of them; the other messages are dropped when the last one
-/// has not been taken yet.
+/// update() is called by the thread of the 1 kHz loop. Real-time safe. Up to 64 complete states are
+/// queued if the publishing thread is late; each other message is dropped if the previous one has
+/// not been sent yet.
 class FrankaStateController
     : public controller_interface::MultiInterfaceController<franka_hw::FrankaStateInterface> {
  public:
   FrankaStateController();
   ~FrankaStateController() override;
 
-  /// @returns false, after one sentence in the log, when a parameter is missing or wrong or the
-  /// robot has no state handle `<arm_id>_robot`.
+  /// @returns false, after one sentence in the log, if a parameter is missing or wrong or the robot
+  /// has no state handle `<arm_id>_robot`.
   bool init(hardware_interface::RobotHW* robot_hardware, ros::NodeHandle& root_node_handle,
             ros::NodeHandle& controller_node_handle) override;
 
-  /// Begins the first period; the first messages go out at its end.
+  /// Begins the first period; the first messages are sent at its end.
   void starting(const ros::Time& time) override;
 
   void update(const ros::Time& time, const ros::Duration& period) override;

@@ -14,8 +14,8 @@ namespace franka_control {
 /// are the same on both sides; time is in [s]. Real-time safe.
 void toMessage(const franka::RobotState& state, franka_msgs::FrankaState& message) noexcept;
 
-/// Turns a 4x4 column-major transform into translation and unit quaternion. Rotations that are not
-/// quite orthonormal, such as those typed with four digits, are normalised. Real-time safe.
+/// Converts a 4x4 column-major transform to a translation and a unit quaternion. Rotations that are
+/// not exactly orthonormal, such as values typed with four digits, are normalised. Real-time safe.
 geometry_msgs::Transform toTransform(const std::array<double, 16>& transform) noexcept;
 
 }  // namespace franka_control

@@ -11,16 +11,16 @@
 
 namespace franka_hw {
 
-/// Keeps what is known about the last abort of a motion where people find it: on the latched topic
-/// `abort` (std_msgs/String) and, where there is a log, in a CSV file. Not for the loop.
+/// Reports the last abort of a motion: on the latched topic `abort` (std_msgs/String) and, if there
+/// is a log, in a CSV file. Called outside the control loop. Not real-time safe.
 class AbortReporter {
  public:
-  /// Files go to the parameter `abort_log_directory`, searched for from the namespace of the robot
-  /// upwards, or to ROS's own log directory.
-  /// @param nh namespace of the robot @param arm_id part of the files' names
+  /// The files are written to the directory of the parameter `abort_log_directory`, which is
+  /// searched for from the namespace of the robot upwards, or else to ROS's log directory.
+  /// @param nh namespace of the robot @param arm_id part of the file names
   AbortReporter(ros::NodeHandle& nh, const std::string& arm_id);
 
-  /// @param what a sentence for the user @param log the last states and commands, maybe empty
+  /// @param what a sentence for the user @param log the last states and commands, may be empty
   void report(const std::string& what, const std::vector<franka::Record>& log);
 
  private:

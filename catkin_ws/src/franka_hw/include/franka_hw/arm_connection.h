@@ -21,32 +21,32 @@
 
 namespace franka_hw {
 
-/// The connection to one robot: the robot, its mutex, the state that the connection is in
-/// (arm_state.h), and what follows from it: recovery, reconnection, reports of aborts and losses.
+/// The connection to one robot: the robot, its mutex, the state of the connection (arm_state.h),
+/// recovery, reconnection, and reports of aborts and losses.
 ///
-/// Once offer() is called, users reach it in ROS: the setters (services.h) and the action
-/// error_recovery while it is connected, the services `connect` and `disconnect` and the latched
+/// After offer(), the connection is available in ROS: the setters (services.h) and the action
+/// error_recovery while it is connected; the services `connect` and `disconnect` and the latched
 /// topics `has_error` and `abort` always.
 ///
 /// Threads: one thread, the robot's, reads the robot, moves it and reconnects. Services, actions
-/// and the owner's other threads do the rest.
+/// and the owner's other threads call the rest.
 class ArmConnection {
  public:
-  /// The hardware interface that has the connection. Called from several threads.
+  /// The hardware interface that owns the connection. Called from several threads.
   class Owner {
    public:
     virtual ~Owner() = default;
-    /// A robot that is completely set up. @throws franka::Exception
+    /// @returns a robot that is completely set up @throws franka::Exception
     virtual std::unique_ptr<franka::Robot> openRobot() = 0;
-    /// What the service `connect` does. @throws franka::Exception
+    /// Implements the service `connect`. @throws franka::Exception
     virtual void connect() = 0;
-    /// What the service `disconnect` does. @returns false while a controller commands the robot
+    /// Implements the service `disconnect`. @returns false while a controller commands the robot
     virtual bool disconnect() = 0;
-    /// As of the last state.
+    /// The mode in the last state.
     virtual franka::RobotMode robotMode() const = 0;
-    /// Whether a recovery has to follow if the robot is lost now.
+    /// Whether a loss of the robot now requires a recovery.
     virtual bool lossIsError() const = 0;
-    /// Called before a recovery ends an error, while the robot is Idle and locked.
+    /// Called before a recovery ends an error. The robot is then Idle, and its mutex is locked.
     virtual void errorEnds() = 0;
   };
 
@@ -58,10 +58,10 @@ class ArmConnection {
 
   /// @name The connection. Thread-safe. Not real-time safe.
   /// @{
-  /// Connects and offers what needs a robot; does nothing when connected.
+  /// Connects, and offers the services that need a robot; does nothing when connected.
   /// @throws franka::Exception of Owner::openRobot()
   void connect();
-  /// Ends the connection, and with it an error. @returns false while a motion has the robot
+  /// Ends the connection and its error. @returns false while a motion holds the robot
   bool disconnect();
   /// @}
 
@@ -69,39 +69,39 @@ class ArmConnection {
   ArmState state() const noexcept { return state_.state(); }
   /// Real-time safe. Thread-safe.
   bool connected() const noexcept { return isConnected(state()); }
-  /// Null while there is none. For the holder of the mutex.
+  /// Null without a connection. Only for the holder of the mutex.
   const std::unique_ptr<franka::Robot>& robot() const noexcept { return robot_; }
   RobotMutex& mutex() noexcept { return mutex_; }
 
   /// @name Errors
   /// @{
-  /// Reports an error that is not the robot's: the motion, if there is one, ends. Real-time safe.
+  /// Reports an error that is not the robot's: a motion under way ends. Real-time safe.
   /// Thread-safe.
   void fail() noexcept { state_.handle(ArmEvent::kFailed); }
-  /// Reports that the robot is Idle without our recovery: its own error has ended. Real-time safe.
-  /// Thread-safe.
-  void recoveredElsewhere() noexcept { state_.handle(ArmEvent::kRecoveredElsewhere); }
-  /// Whether this robot has to recover. Real-time safe. Thread-safe.
-  bool hasOwnError() const noexcept { return isInError(state()); }
-  /// As hasOwnError(), or because this arm waits for another one. Real-time safe. Thread-safe.
-  bool hasError() const noexcept { return hasOwnError() || waits_for_others_; }
-  /// Whether this arm must not move because of the error of another one. @returns whether that is
-  /// new. Real-time safe. Thread-safe.
-  bool waitForOthers(bool waits) noexcept { return waits_for_others_.exchange(waits) != waits; }
-  /// Whether there is an own error, or the robot was stopped while no controller moved it.
+  /// Reports that the robot is Idle without a recovery by this object: its own error has ended.
   /// Real-time safe. Thread-safe.
+  void recoveredElsewhere() noexcept { state_.handle(ArmEvent::kRecoveredElsewhere); }
+  /// Whether this robot needs a recovery. Real-time safe. Thread-safe.
+  bool hasOwnError() const noexcept { return isInError(state()); }
+  /// As hasOwnError(), or this arm waits for another one. Real-time safe. Thread-safe.
+  bool hasError() const noexcept { return hasOwnError() || waits_for_others_; }
+  /// Sets whether this arm must not move because another one has an error. @returns whether that
+  /// has changed. Real-time safe. Thread-safe.
+  bool waitForOthers(bool waits) noexcept { return waits_for_others_.exchange(waits) != waits; }
+  /// Whether there is an own error, or the robot stopped while no controller moved it. Real-time
+  /// safe. Thread-safe.
   bool needsRecovery() const noexcept;
-  /// Clears the robot's error and ends the own one. A robot that is Idle has none. Where nothing
-  /// needs it, only a warning is logged. Thread-safe. Not real-time safe.
+  /// Clears the robot's error and ends the own one. A robot that is Idle has no error. If there is
+  /// nothing to recover, only a warning is logged. Thread-safe. Not real-time safe.
   /// @throws franka::Exception when the robot refuses or is not connected
   void recover();
-  /// What error_recovery does before it recovers. To be set before the first one.
+  /// Sets what error_recovery does before it recovers. Call it before the first recovery.
   void beforeRecovery(std::function<void()> task) { before_recovery_ = std::move(task); }
   /// @}
 
   /// @name For the robot's thread. Not real-time safe.
   /// @{
-  /// Holds the mutex for a motion. False where none may begin: the robot is not connected, or has
+  /// Holds the mutex for a motion. False if no motion may begin: the robot is not connected, or has
   /// an error.
   class Motion {
    public:
@@ -117,34 +117,35 @@ class ArmConnection {
     bool begun_;
   };
   /// Runs `motion`, which holds a Motion, and reports what ended it. After offer().
-  /// @returns whether it ended in order
+  /// @returns whether it ended without an error
   bool move(const std::function<void()>& motion);
-  /// The next state of a robot at rest. @returns none when it is not connected or has just been
-  /// lost, which is reported
+  /// The next state of a robot at rest. @returns none if it is not connected, or if the connection
+  /// has just been lost, which is reported
   std::optional<franka::RobotState> readAtRest();
-  /// The same for the holder of the mutex. A robot that is silent for longer than libfranka waits
-  /// is waited for three times as long: a computer that is busy with other work may leave a
-  /// simulated robot without time for a second and more.
-  /// @throws franka::NetworkException when it is gone
+  /// As readAtRest(), for the holder of the mutex. Waits three times as long as libfranka for a
+  /// silent robot: on a busy computer a simulated robot may not run for a second or more.
+  /// @throws franka::NetworkException if the connection is lost
   static franka::RobotState readPatiently(franka::Robot& robot);
-  /// Connects to a robot that was lost, if that is desired and time for it.
+  /// Connects to a robot that was lost, if the parameter `reconnect` is true and the next attempt
+  /// is due.
   void reconnect();
-  /// Publishes `has_error` where it has changed. Outside of motions.
+  /// Publishes `has_error` if it has changed. Called outside of motions.
   void publishError();
   /// @}
 
   /// @name Set-up, in this order
   /// @{
-  /// Reads the parameter `reconnect`. @returns false after a sentence when it is wrong
+  /// Reads the parameter `reconnect`. @returns false, after logging the reason, if it is wrong
   bool init(const ros::NodeHandle& nh) { return reconnection_.init(nh); }
   /// Offers services, action and topics. @param nh their namespace @param arm_id for messages
   void offer(const ros::NodeHandle& nh, const std::string& arm_id);
-  /// Withdraws what was offered, and waits for calls under way. The robot's thread has ended.
+  /// Withdraws what was offered, and waits for calls under way. Called after the robot's thread has
+  /// ended.
   void close();
   /// @}
 
  private:
-  struct Offer;  // to ROS
+  struct Offer;  // services, action and topics in ROS
 
   void abort(ArmEvent event, const std::string& what, const std::vector<franka::Record>& log);
   void lose(const std::string& what);
@@ -157,7 +158,7 @@ class ArmConnection {
   RobotMutex mutex_{state_};
   std::unique_ptr<franka::Robot> robot_;
   std::atomic_bool waits_for_others_{false};
-  std::mutex connection_mutex_;  // one at a time connects, disconnects or loses; before mutex_
+  std::mutex connection_mutex_;  // held to connect, disconnect or lose; locked before mutex_
   std::unique_ptr<Offer> offer_;
   std::function<void()> before_recovery_;
   Reconnection reconnection_;

@@ -6,7 +6,7 @@
 
 namespace franka_hw {
 
-/// What the connection to one arm is in.
+/// The state of the connection to one arm.
 enum class ArmState {
   kDisconnected,  ///< not connected yet, or given up by the user
   kIdle,          ///< connected; no motion holds the robot
@@ -28,8 +28,8 @@ enum class ArmEvent {
   kMotionEnded,
   kRobotStopped,        ///< a reflex, or another abort by the robot
   kFailed,              ///< an error that is not the robot's
-  kRecovered,           ///< by a recovery of ours
-  kRecoveredElsewhere,  ///< the robot is Idle again without us: its user stop was released
+  kRecovered,           ///< by a recovery of ArmConnection
+  kRecoveredElsewhere,  ///< the robot is Idle again by other means: its user stop was released
 };
 constexpr int kArmEventCount = 9;
 
@@ -38,13 +38,13 @@ constexpr int kArmEventCount = 9;
 bool isConnected(ArmState state) noexcept;
 /// A motion holds the robot.
 bool isInMotion(ArmState state) noexcept;
-/// A recovery has to follow.
+/// The robot needs a recovery.
 bool isInError(ArmState state) noexcept;
 bool isLost(ArmState state) noexcept;
 /// @}
 
-/// The state of the connection to one arm and the table of its transitions (arm_state.cpp). An
-/// event without a transition from the present state changes nothing. Real-time safe. Thread-safe.
+/// The state of the connection to one arm. The table of its transitions: arm_state.cpp. An event
+/// without a transition from the present state changes nothing. Real-time safe. Thread-safe.
 class ArmStateMachine {
  public:
   explicit ArmStateMachine(ArmState state = ArmState::kDisconnected) noexcept : state_(state) {}

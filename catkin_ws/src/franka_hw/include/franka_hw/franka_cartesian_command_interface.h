@@ -11,7 +11,7 @@ namespace franka_hw {
 
 /// Reads the state of one arm and commands a Cartesian pose with an optional elbow.
 ///
-/// Refers to command arrays its hardware owns and must not outlive them. Real-time safe.
+/// Refers to command arrays of its hardware and must not outlive them. Real-time safe.
 class FrankaCartesianPoseHandle : public FrankaStateHandle {
  public:
   FrankaCartesianPoseHandle() = delete;
@@ -42,14 +42,14 @@ class FrankaCartesianPoseHandle : public FrankaStateHandle {
   std::array<double, 2>* elbow_;
 };
 
-/// Hands out FrankaCartesianPoseHandles and claims the arm for the one who asks.
+/// Provides FrankaCartesianPoseHandles and claims the arm for the controller that gets one.
 class FrankaPoseCartesianInterface
     : public hardware_interface::HardwareResourceManager<FrankaCartesianPoseHandle,
                                                          hardware_interface::ClaimResources> {};
 
 /// Reads the state of one arm and commands a Cartesian velocity with an optional elbow.
 ///
-/// Refers to command arrays its hardware owns and must not outlive them. Real-time safe.
+/// Refers to command arrays of its hardware and must not outlive them. Real-time safe.
 class FrankaCartesianVelocityHandle : public FrankaStateHandle {
  public:
   FrankaCartesianVelocityHandle() = delete;
@@ -80,7 +80,7 @@ class FrankaCartesianVelocityHandle : public FrankaStateHandle {
   std::array<double, 2>* elbow_;
 };
 
-/// Hands out FrankaCartesianVelocityHandles and claims the arm for the one who asks.
+/// Provides FrankaCartesianVelocityHandles and claims the arm for the controller that gets one.
 class FrankaVelocityCartesianInterface
     : public hardware_interface::HardwareResourceManager<FrankaCartesianVelocityHandle,
                                                          hardware_interface::ClaimResources> {};

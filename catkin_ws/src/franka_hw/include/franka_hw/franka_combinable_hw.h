@@ -15,30 +15,30 @@ namespace franka_hw {
 
 /// One of several arms that run under one controller manager, with torque control only.
 ///
-/// Each arm has a thread of its own that talks to its robot; read() and write(), which belong to
-/// the controllers' loop, exchange states and commands with it without waiting. An error on this
-/// arm is published on `has_error` and ends its motion; error_recovery, or resetError(), clears it,
-/// and the controllers are then reset.
+/// Each arm has a thread of its own that communicates with its robot. read() and write(), called by
+/// the thread of the controllers' loop, exchange states and commands with it without waiting. An
+/// error of this arm is published on `has_error` and ends its motion; error_recovery, or
+/// resetError(), clears it, and the controllers are then reset.
 ///
-/// A robot that is lost is such an error, too, for the others wait for it until it is given up.
-/// What the arm offers in its namespace and how it recovers and reconnects: ArmConnection.
+/// The loss of a robot is an error, too: the other arms wait until it recovers or is given up. The
+/// services of the arm, its recovery and its reconnection: ArmConnection.
 class FrankaCombinableHW : public FrankaHW {
  public:
   FrankaCombinableHW() = default;
-  /// Ends the arm's thread and with it the motion.
+  /// Ends the arm's thread and its motion.
   ~FrankaCombinableHW() override;
 
   bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override;
   void initROSInterfaces(ros::NodeHandle& robot_hw_nh) override;
 
-  /// Moves the robot until the controllers are stopped or an error is triggered. In the arm's
-  /// thread.
+  /// Moves the robot until the controllers are stopped or an error is triggered. Called by the
+  /// arm's thread.
   void control(const std::function<bool(const ros::Time&, const ros::Duration&)>& ros_callback =
                    [](const ros::Time&, const ros::Duration&) { return true; }) override;
 
   bool checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const override;
-  /// As of FrankaHW; once init() is done, it refuses to start what commands an arm that is not
-  /// connected. The original agrees, and its arm's thread then ends the process.
+  /// As FrankaHW. After init(), refuses to start controllers that command an arm without a
+  /// connection. The original accepts them, and its arm's thread then ends the process.
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
 
@@ -49,20 +49,20 @@ class FrankaCombinableHW : public FrankaHW {
   std::string getArmID() const noexcept;
   /// Ends the motion as if the robot had an error.
   void triggerError();
-  /// Whether the robot stopped: by an error of its own, or because another arm has one.
+  /// Whether the robot has stopped because of its own error or because of another arm's.
   bool hasError() const noexcept;
-  /// Whether it is this robot that has to recover.
+  /// Whether this robot needs a recovery.
   bool hasOwnError() const noexcept;
-  /// Ends the motion while another arm has an error, and lets it go on, with the controllers
-  /// started anew, when that has recovered. Real-time safe.
+  /// Ends the motion while another arm has an error. After that arm's recovery the motion continues
+  /// and the controllers are reset. Real-time safe.
   void waitForOthers(bool waits);
-  /// ArmConnection::recover().
+  /// As ArmConnection::recover().
   void resetError();
-  /// ArmConnection::needsRecovery().
+  /// As ArmConnection::needsRecovery().
   bool needsRecovery() const noexcept;
-  /// ArmConnection::beforeRecovery().
+  /// As ArmConnection::beforeRecovery().
   void beforeRecovery(std::function<void()> task);
-  /// Whether the controllers have to start anew, because an error was cleared.
+  /// Whether the controllers have to be reset, because an error was cleared.
   bool controllerNeedsReset() const noexcept;
 
  protected:
@@ -71,7 +71,7 @@ class FrankaCombinableHW : public FrankaHW {
                       double cutoff_frequency, franka::ControllerMode internal_controller) override;
 
  private:
-  /// Torques, and when the state arrived that they were computed from.
+  /// Torques, and the arrival time of the state from which they were computed.
   struct Answer {
     franka::Torques torques{std::array<double, 7>{}};
     ResponseTimes::Clock::time_point since{};
@@ -89,8 +89,8 @@ class FrankaCombinableHW : public FrankaHW {
 
   Latest<ArrivedState> states_;
   Latest<Answer> answers_;
-  ResponseTimes::Clock::time_point read_arrival_{};  // of the state that the controllers see
-  ResponseTimes::Clock::time_point motion_ended_{};  // of the arm's thread
+  ResponseTimes::Clock::time_point read_arrival_{};  // of the state that the controllers read
+  ResponseTimes::Clock::time_point motion_ended_{};  // written by the arm's thread
 
   std::atomic_bool error_recovered_{false};
   std::atomic_bool controller_needs_reset_{false};

@@ -13,8 +13,9 @@
 
 namespace franka_hw {
 
-/// Several FrankaCombinableHW as one robot. An error on one arm stops all of them; error_recovery
-/// in this one's namespace recovers all, the arms' own actions one.
+/// Several FrankaCombinableHW as one robot. An error of one arm stops all of them. The action
+/// error_recovery in the namespace of this robot recovers all arms; each arm's own action recovers
+/// that arm.
 class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
  public:
   FrankaCombinedHW() = default;
@@ -23,25 +24,26 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
   /// Loads the arms named in `robot_hardware` and offers error_recovery, connect and disconnect.
   bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override;
 
-  /// Reads all arms, and passes the error of one on to the others.
+  /// Reads all arms, and stops the others if one has an error.
   void read(const ros::Time& time, const ros::Duration& period) override;
 
-  /// Whether the controllers have to start anew, because an error was cleared on some arm.
+  /// Whether the controllers have to be reset, because an error of an arm was cleared.
   bool controllerNeedsReset();
   bool hasError();
-  /// Ends the motions of all arms as if each had an error; for errors of the controllers' own.
+  /// Ends the motions of all arms as if each had an error. Used for errors of controllers.
   void triggerError();
-  /// What the actions error_recovery, of one arm or of all, do before they clear an error. To be
-  /// set before the first.
+  /// Sets what the actions error_recovery, of one arm or of all, do before they clear an error.
+  /// Call it before the first recovery.
   void beforeRecovery(const std::function<void()>& task);
 
-  /// Connects the arms that are not connected, also where one of them fails.
-  /// @throws franka::NetworkException that names each arm that failed, why, and those that did not
+  /// Connects the arms that are not connected, even if one of them fails.
+  /// @throws franka::NetworkException that names each arm that failed, the reasons, and the other
+  /// arms
   void connect();
-  /// @returns false, leaving all connected, while a controller commands one of them
+  /// @returns false, and leaves all connected, while a controller commands one of them
   bool disconnect();
 
-  /// The arms among the parts of the robot. They live as long as this.
+  /// The arms of this robot. They live as long as this object.
   const std::vector<FrankaCombinableHW*>& arms() const noexcept { return arms_; }
 
  private:
@@ -52,7 +54,7 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
   void handleError();
   bool anyOwnError() const;
 
-  std::vector<FrankaCombinableHW*> arms_;  // of robot_hw_list_
+  std::vector<FrankaCombinableHW*> arms_;  // owned by robot_hw_list_
   std::unique_ptr<RecoveryServer> recovery_server_;
   std::function<void()> before_recovery_;
   ros::ServiceServer connect_server_;

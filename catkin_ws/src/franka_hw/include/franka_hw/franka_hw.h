@@ -41,18 +41,18 @@
 
 namespace franka_hw {
 
-/// A Franka arm over the Franka Control Interface, as ros_control sees it.
+/// A Franka arm as hardware of ros_control, connected over the Franka Control Interface.
 ///
 /// Offers joint states, the three joint command interfaces, the state, the model and both Cartesian
-/// command interfaces, and soft limits for the joints whose URDF has them. Which of them may be
-/// claimed together: resource_helpers.h.
+/// command interfaces, and soft limits for the joints whose URDF has them. The interfaces that may
+/// be claimed together: resource_helpers.h.
 ///
 /// Threads: one thread alternates between control(), while a controller commands the arm, and
 /// update() with readOnce() otherwise; it calls the controller manager in both. All virtual
 /// functions of the control cycle (read, write, update, enforceLimits, checkJointLimits, reset, the
-/// callbacks) belong to that thread and neither allocate, lock nor log. prepareSwitch, connect,
-/// disconnect and the services come from other threads; a thread that talks to the robot holds
-/// robotMutex(), during a motion control() does.
+/// callbacks) are called by that thread and neither allocate, lock nor log. prepareSwitch, connect,
+/// disconnect and the services are called by other threads. A thread that communicates with the
+/// robot holds robotMutex(); control() holds it during a motion.
 class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owner {
  public:
   /// Thresholds of contact and collision, [Nm] and [N, Nm].
@@ -70,109 +70,114 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   FrankaHW();
   ~FrankaHW() override;
 
-  /// Reads the parameters, connects to the robot and registers the interfaces. Once only. A robot
-  /// that cannot be reached is asked again for `connect_timeout` seconds (parameter, 0 unless
-  /// given).
-  /// @param root_nh where robot_description stands @param robot_hw_nh where the parameters stand
-  /// @returns false after a sentence that says what is missing or wrong
+  /// Reads the parameters, connects to the robot and registers the interfaces. Call it once only.
+  /// If the robot cannot be reached, tries again for `connect_timeout` seconds (parameter, default
+  /// 0).
+  /// @param root_nh namespace of robot_description @param robot_hw_nh namespace of the parameters
+  /// @returns false, after logging what is missing or wrong
   bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override;
 
-  /// Reads the parameters. @returns false after a sentence that says what is missing or wrong
+  /// Reads the parameters. @returns false, after logging what is missing or wrong
   virtual bool initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh);
   /// Registers the interfaces.
   virtual void initROSInterfaces(ros::NodeHandle& robot_hw_nh);
-  /// Sets up the parameters that are read anew at every switch of controllers: rate_limiting,
+  /// Sets up the parameters that are read again at every switch of controllers: rate_limiting,
   /// cutoff_frequency and internal_controller.
   virtual void setupParameterCallbacks(ros::NodeHandle& robot_hw_nh);
 
   /// Connects to the robot and sets its collision behavior; does nothing when connected.
   /// @throws franka::Exception when the robot cannot be reached or refuses
   void connect() override;
-  /// Ends the connection. @returns false, after a sentence, while a controller commands the robot
+  /// Ends the connection. @returns false, after logging the reason, while a controller commands the
+  /// robot
   bool disconnect() override;
-  /// Ends the connection also while controllers are active, but not within a motion.
+  /// Ends the connection even if controllers are active, but not within a motion.
   virtual void dropConnection();
   /// Whether there is a connection.
   virtual bool connected();
-  /// The connection itself: its state, its errors and its services.
+  /// The connection: its state, its errors and its services.
   ArmConnection& armConnection() noexcept { return connection_; }
   const ArmConnection& armConnection() const noexcept { return connection_; }
 
-  /// Moves the robot until the controllers that command it are stopped; returns at once when there
-  /// are none, or when armConnection() has an error. Holds robotMutex() meanwhile.
-  /// @param ros_callback called once a millisecond of the robot's time, with that time on the clock
-  /// of ROS and the time since the last call, which is zero for the first; false ends the motion.
-  /// @throws franka::Exception when the motion ends otherwise
+  /// Moves the robot until the controllers that command it are stopped; returns at once if there
+  /// are none, or if armConnection() has an error. Holds robotMutex() during this time.
+  /// @param ros_callback called once per millisecond of the robot's time, with that time on the
+  /// clock of ROS and the time since the last call, which is zero for the first call; if it returns
+  /// false, the motion ends.
+  /// @throws franka::Exception if the motion ends otherwise
   virtual void control(
       const std::function<bool(const ros::Time&, const ros::Duration&)>& ros_callback);
 
   /// ArmConnection::readPatiently() of this robot.
   franka::RobotState readPatiently() { return ArmConnection::readPatiently(robot()); }
 
-  /// Takes a robot state over that was read outside of control().
+  /// Takes over a robot state that was read outside of control().
   virtual void update(const franka::RobotState& robot_state);
 
   /// Whether a controller commands the robot.
   virtual bool controllerActive() const noexcept;
 
-  /// Whether the motion that was prepared last goes on with controllers that commanded the one
-  /// before it: they have to start anew then. Those a switch has just started need not.
+  /// Whether the motion that was prepared last continues with controllers that commanded the motion
+  /// before it. These controllers have to be restarted; controllers that the switch has just
+  /// started need not.
   virtual bool motionGoesOn() const noexcept;
 
   bool checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const override;
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                 const std::list<hardware_interface::ControllerInfo>& stop_list) override;
-  /// Decides on the control mode after the switch. A motion that has to change is ended here: this
-  /// waits for it, and refuses after two seconds. A call with the lists exchanged, before
-  /// doSwitch(), takes the preparation back: the motion goes on, its controllers start anew.
-  /// Controllers that could not move the robot (no real-time priority, which realtime_config
-  /// enforces) or must not (it is another one than its parameters say) are refused with a sentence.
+  /// Sets the control mode after the switch. A motion that has to change is ended here: waits for
+  /// its end, and refuses the switch after two seconds. A call with the lists exchanged, before
+  /// doSwitch(), cancels the preparation: the motion continues, and its controllers are restarted.
+  /// Controllers are refused, after logging the reason, if they cannot move the robot (no real-time
+  /// priority, which realtime_config enforces) or must not (the robot is not the one in its
+  /// parameters).
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
 
-  /// The commands that the controllers have given: [rad], [rad/s], [Nm].
+  /// The controllers' last commands: [rad], [rad/s], [Nm].
   virtual std::array<double, 7> getJointPositionCommand() const noexcept;
   virtual std::array<double, 7> getJointVelocityCommand() const noexcept;
   virtual std::array<double, 7> getJointEffortCommand() const noexcept;
 
-  /// Cuts the controllers' joint commands to the soft limits. @param period since the last cycle;
-  /// nothing happens when it is zero
+  /// Limits the controllers' joint commands to the soft limits. @param period since the last cycle;
+  /// does nothing if it is zero
   virtual void enforceLimits(const ros::Duration& period);
-  /// Makes the position limits start from the present positions.
+  /// Sets the start of the position limits to the present positions.
   virtual void reset();
-  /// Notes which joints are near an end of their range; a timer prints them, at most every 5 s.
+  /// Records the joints that are near an end of their range; a timer prints them, at most every
+  /// 5 s.
   virtual void checkJointLimits();
 
   void read(const ros::Time& time, const ros::Duration& period) override;
   void write(const ros::Time& time, const ros::Duration& period) override;
 
-  /// @throws std::logic_error with a sentence when there is no connection
+  /// @throws std::logic_error if there is no connection
   virtual franka::Robot& robot() const;
-  /// Held by the thread that talks to the robot: armConnection().mutex().
+  /// armConnection().mutex(), held by the thread that communicates with the robot.
   virtual std::mutex& robotMutex();
-  /// As of the last state.
+  /// The mode in the last state.
   franka::RobotMode robotMode() const override;
-  /// When the last state was measured, on the clock of ROS: the time that controllers are told.
-  /// Never goes back.
+  /// The time of measurement of the last state, on the clock of ROS. It is the time for the
+  /// controllers and never goes back.
   const ros::Time& stateTime() const noexcept { return clock_.time(); }
-  /// How fast the controllers answer the robot. Reports are for one thread.
+  /// How fast the controllers answer the robot. Only one thread may take reports.
   ResponseTimes& responseTimes() noexcept { return response_times_; }
 
-  /// Whether controllers need real-time priority to move this robot: realtime_config, which
-  /// franka_core::realtimeRule lifts for simulated robots. After init().
+  /// Whether controllers need real-time priority to move this robot: by realtime_config, except for
+  /// simulated robots (franka_core::realtimeRule). Valid after init().
   bool enforcesRealtime() const noexcept {
     return realtime_config_ == franka::RealtimeConfig::kEnforce;
   }
 
-  /// Whether a value of the command is not a number.
+  /// Whether a value of the command is NaN.
   static bool commandHasNaN(const franka::Torques& command);
   static bool commandHasNaN(const franka::JointPositions& command);
   static bool commandHasNaN(const franka::JointVelocities& command);
   static bool commandHasNaN(const franka::CartesianPose& command);
   static bool commandHasNaN(const franka::CartesianVelocities& command);
 
-  /// The list of numbers of that name, or the defaults, with an info line, if it is missing or has
-  /// another length.
+  /// The parameter of that name, a list of numbers. If it is missing or has another length: the
+  /// defaults, after an info line.
   static std::vector<double> getCollisionThresholds(const std::string& name,
                                                     const ros::NodeHandle& robot_hw_nh,
                                                     const std::vector<double>& defaults);
@@ -180,20 +185,21 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
  protected:
   using Callback = std::function<bool(const franka::RobotState&, franka::Duration)>;
 
-  /// Whether a value of the array is not a number.
+  /// Whether a value of the array is NaN.
   template <size_t size>
   static bool arrayHasNaN(const std::array<double, size>& array) {
     return std::any_of(array.begin(), array.end(), [](double e) { return std::isnan(e); });
   }
 
-  /// Ends a motion that still moves, by leaving the control loop: the robot then brakes by itself.
+  /// Leaves the control loop to end a motion while the robot moves; the robot then brakes by
+  /// itself.
   struct MotionInterrupted : public std::exception {
     const char* what() const noexcept override { return "the motion was interrupted by a switch"; }
   };
 
-  /// One millisecond of a motion. @param command which write() fills
+  /// One millisecond of a motion. @param command filled by write()
   /// @throws std::invalid_argument when a controller commands NaN
-  /// @throws MotionInterrupted when the motion has to end while the robot moves
+  /// @throws MotionInterrupted if the motion has to end while the robot moves
   template <typename T>
   T controlCallback(const T& command, Callback ros_callback, const franka::RobotState& robot_state,
                     franka::Duration time_step) {
@@ -222,10 +228,11 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
     }
     return franka::MotionFinished(command);
   }
-  /// Whether the robot would not accept the end of a motion, because it moves or is told to.
+  /// Whether the robot would refuse the end of a motion, because it moves or its desired motion
+  /// does.
   static bool isMoving(const franka::RobotState& robot_state) noexcept;
 
-  /// Soft limits of every joint whose URDF has a limit and a safety controller.
+  /// Registers soft limits for every joint whose URDF has a limit and a safety controller.
   template <typename T>
   void setupLimitInterface(joint_limits_interface::JointLimitsInterface<T>& limit_interface,
                            hardware_interface::JointCommandInterface& command_interface) {
@@ -238,7 +245,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
       limit_interface.registerHandle(
           T(command_interface.getHandle(joint_names_[i]), joint_limits, soft_limits));
     }
-    // Looking is no claim.
+    // getHandle() has claimed the joints, but only to read their limits.
     command_interface.clearClaims();
   }
 
@@ -263,27 +270,27 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
       franka::CartesianVelocities& velocity_cartesian_command);
   virtual void setupFrankaModelInterface(franka::RobotState& robot_state);
 
-  /// Chooses what control() will run. @returns false for modes that this robot cannot run
+  /// Selects what control() runs. @returns false for modes that this robot cannot run
   virtual bool setRunFunction(const ControlMode& requested_control_mode, bool limit_rate,
                               double cutoff_frequency, franka::ControllerMode internal_controller);
 
   /// Connects, loads the model and reads the first state.
   virtual void initRobot();
 
-  /// @name What armConnection() calls
+  /// @name Functions that armConnection() calls
   /// @{
-  /// Connects, sets the collision behavior, and warns of what will be refused.
+  /// Connects, sets the collision behavior, and warns about controllers that would be refused.
   std::unique_ptr<franka::Robot> openRobot() override;
-  /// While a controller commands the robot.
+  /// True while a controller commands the robot.
   bool lossIsError() const override { return controllerActive(); }
   void errorEnds() override {}
   /// @}
 
-  /// Ends the motion under way and waits for it. @returns false when it does not end in time
+  /// Ends the motion under way and waits for its end. @returns false if it does not end in time
   bool endMotion();
 
-  /// That control() is at work: held while a run function may be called, which a switch replaces.
-  /// To be taken before controllerActive() is asked.
+  /// Marks that control() runs. Held while a run function may be called, because a switch replaces
+  /// the run function. Create it before a call of controllerActive().
   class InControl {
    public:
     explicit InControl(FrankaHW& robot) : robot_(robot) { robot_.in_control_ = true; }
@@ -310,7 +317,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   joint_limits_interface::VelocityJointSoftLimitsInterface velocity_joint_limit_interface_{};
   joint_limits_interface::EffortJointSoftLimitsInterface effort_joint_limit_interface_{};
 
-  // What goes to and comes from libfranka ...
+  // The state from libfranka and the commands to libfranka.
   franka::RobotState robot_state_libfranka_{};
   franka::JointPositions position_joint_command_libfranka_;
   franka::JointVelocities velocity_joint_command_libfranka_;
@@ -318,7 +325,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   franka::CartesianPose pose_cartesian_command_libfranka_;
   franka::CartesianVelocities velocity_cartesian_command_libfranka_;
 
-  // ... and what the handles refer to.
+  // The state and the commands to which the handles refer.
   franka::RobotState robot_state_ros_{};
   franka::JointPositions position_joint_command_ros_;
   franka::JointVelocities velocity_joint_command_ros_;
@@ -326,7 +333,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   franka::CartesianPose pose_cartesian_command_ros_;
   franka::CartesianVelocities velocity_cartesian_command_ros_;
 
-  // For classes whose control loop and controllers run in two threads; this one uses none of them.
+  // For classes whose control loop and controllers run in two threads; not used in this class.
   std::mutex libfranka_state_mutex_;
   std::mutex ros_state_mutex_;
   std::mutex libfranka_cmd_mutex_;
@@ -355,11 +362,11 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   std::function<bool()> get_ignore_robot_mismatch_;
   std::function<void(franka::Robot&, Callback)> run_function_;
 
-  RobotClock clock_;  ///< what time the controllers are told
+  RobotClock clock_;  ///< the time for the controllers
   ResponseTimes response_times_;
 
  private:
-  /// How a motion is run; a change needs a new motion.
+  /// The settings of a motion; a change requires a new motion.
   struct RunSettings {
     ControlMode mode{ControlMode::None};
     bool limit_rate{true};
@@ -380,22 +387,23 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   void reportJointLimits(const ros::WallTimerEvent& event);
   RunSettings requestedSettings(ControlMode mode) const;
   bool takePreparationBack();
-  /// Whether these may command the robot. @returns false after a sentence
+  /// Whether these controllers may command the robot. @returns false, after logging the reason, if
+  /// not
   bool mayStart(const std::list<hardware_interface::ControllerInfo>& list) const;
-  /// Why controllers must not command the robot, as one sentence; empty where they may.
+  /// Why controllers must not command the robot, as one sentence; empty if they may.
   std::string refusalOfMotions() const;
-  /// How the robot contradicts its parameters (robot_mismatch.h); empty where it does not.
+  /// How the robot contradicts its parameters (robot_mismatch.h); empty if it does not.
   std::string mismatch() const;
-  /// Whether the parameter ignore_robot_mismatch, as it is now, says that this does not matter.
+  /// Whether the present value of the parameter ignore_robot_mismatch allows a mismatch.
   bool ignoresMismatch() const;
-  /// Why libfranka would not move the robot from this computer; empty where it would.
+  /// Why libfranka would not move the robot from this computer; empty if it would.
   std::string realtimeRefusal() const;
-  /// Warns, after a connection was made, of what will be refused.
+  /// Warns, after connecting, about controllers that would be refused.
   void warnOfRefusals() const;
-  /// Lets a motion that was ended for a switch go on.
+  /// Continues a motion that was ended for a switch.
   void goOnAsBefore(bool was_active);
 
-  /// What was prepared last, and from where.
+  /// The last preparation, and the settings before it.
   struct Preparation {
     std::vector<std::string> start, stop;  // controllers
     bool was_active{false};
@@ -403,11 +411,11 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   };
 
   RunSettings run_settings_;
-  Preparation preparation_;  // of whoever calls prepareSwitch
+  Preparation preparation_;  // used by the thread that calls prepareSwitch
   std::atomic_bool preparation_pending_{false};
   std::atomic_bool motion_goes_on_{false};
   std::atomic_bool in_control_{false};
-  std::atomic<unsigned> protocol_{0};  // that the robot speaks
+  std::atomic<unsigned> protocol_{0};  // the protocol version of the robot
   std::string mismatch_parameter_;     // resolved name of ignore_robot_mismatch
   double connect_timeout_{0.0};        // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};

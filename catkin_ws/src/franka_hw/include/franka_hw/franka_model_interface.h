@@ -14,9 +14,9 @@ namespace franka_hw {
 
 /// Kinematics and dynamics of one arm for controllers.
 ///
-/// Functions without q evaluate the model at the state the hardware last read; the others at what
-/// they are given. Layouts, frames and units are those of ModelBase. Real-time safe where the model
-/// is (ModelKDL and franka::Model are); to be used in the thread that calls the controllers.
+/// Functions without q evaluate the model at the state that the hardware last read; the others at
+/// their arguments. Layouts, frames and units: ModelBase. Called by the thread that calls the
+/// controllers. Real-time safe if the model is (ModelKDL and franka::Model are).
 class FrankaModelHandle {
  public:
   FrankaModelHandle() = delete;
@@ -45,7 +45,8 @@ class FrankaModelHandle {
     return model_->coriolis(q, dq, total_inertia, total_mass, F_x_Ctotal);
   }
 
-  /// Gravity torques [Nm]; the default is gravity of an upright robot, whatever its sensor says.
+  /// Gravity torques [Nm]; the default is gravity of an upright robot, without the acceleration
+  /// sensor.
   std::array<double, 7> getGravity(const std::array<double, 3>& gravity_earth = {
                                        {0., 0., -9.81}}) const {
     return model_->gravity(*robot_state_, gravity_earth);
@@ -93,7 +94,7 @@ class FrankaModelHandle {
   const franka::RobotState* robot_state_;
 };
 
-/// Hands out FrankaModelHandles by name; any number of controllers may use the model.
+/// Provides FrankaModelHandles by name; any number of controllers may use the model.
 class FrankaModelInterface : public hardware_interface::HardwareResourceManager<FrankaModelHandle> {
 };
 

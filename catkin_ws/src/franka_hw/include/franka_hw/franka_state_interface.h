@@ -12,20 +12,20 @@ namespace franka_hw {
 
 /// Read access to the complete state of one arm.
 ///
-/// The handle refers to the state its hardware owns, which read() refreshes once a cycle; it must
-/// not outlive it. Real-time safe; to be used in the thread that calls the controllers.
+/// The handle refers to the state of its hardware, which read() updates once a cycle, and must not
+/// outlive it. Called by the thread that calls the controllers. Real-time safe.
 class FrankaStateHandle {
  public:
   FrankaStateHandle() = delete;
 
   /// @param name resource name, `<arm_id>_robot`
-  /// @param robot_state the state the handle shows; referenced, not copied
+  /// @param robot_state the state of the handle; referenced, not copied
   FrankaStateHandle(const std::string& name, franka::RobotState& robot_state)
       : name_(name), robot_state_(&robot_state) {}
 
   const std::string& getName() const noexcept { return name_; }
 
-  /// The state itself, not a copy: it changes with every cycle.
+  /// A reference to the state, which changes with every cycle.
   const franka::RobotState& getRobotState() const noexcept { return *robot_state_; }
 
  private:
@@ -33,7 +33,7 @@ class FrankaStateHandle {
   const franka::RobotState* robot_state_;
 };
 
-/// Hands out FrankaStateHandles by name; any number of controllers may read at once.
+/// Provides FrankaStateHandles by name; any number of controllers may read at the same time.
 class FrankaStateInterface : public hardware_interface::HardwareResourceManager<FrankaStateHandle> {
 };
 

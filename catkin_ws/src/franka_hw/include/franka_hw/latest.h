@@ -8,22 +8,22 @@
 
 namespace franka_hw {
 
-/// Hands the newest value from one thread to another. Neither waits for the other, locks or
-/// allocates: three copies, of which each side holds one and the third changes hands. One writer,
-/// one reader; real-time safe if copying T is.
+/// Passes the newest value from one thread to another. There are three copies: each side holds one
+/// and the third one is exchanged, so that neither thread waits for the other. One writer, one
+/// reader. Real-time safe if copying T is.
 template <typename T>
 class Latest {
  public:
   explicit Latest(const T& value = T()) : slots_{{value, value, value}} {}
 
-  /// Puts a value in the place of the one before. One thread.
+  /// Replaces the previous value. Called by one thread.
   void write(const T& value) noexcept {
     slots_[back_] = value;
     back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) &
             kIndex;
   }
 
-  /// The value written last. One thread; the reference is valid until the next call.
+  /// The value written last. Called by one thread; the reference is valid until the next call.
   const T& read() noexcept {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) != 0) {
       front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;

@@ -10,14 +10,14 @@
 
 namespace franka_hw {
 
-/// The model that the robot itself brings along, behind the interface of all models. Layouts, units
-/// and frames: ModelBase. As real-time safe as franka::Model, which neither allocates nor locks.
+/// The model that the robot provides, with the interface of all models. Layouts, units and frames:
+/// ModelBase. As real-time safe as franka::Model, which neither allocates nor locks.
 class Model : public ModelBase {
  public:
   /// @param model as from franka::Robot::loadModel
   explicit Model(franka::Model&& model) : model_(std::move(model)) {}
 
-  // The forms that take a robot state stay visible beside the overrides.
+  // Keeps the overloads for a robot state visible beside the overrides.
   using ModelBase::bodyJacobian;
   using ModelBase::coriolis;
   using ModelBase::gravity;

@@ -9,18 +9,18 @@
 
 namespace franka_hw {
 
-/// Kinematics and dynamics of an arm, whoever computes them.
+/// Interface of kinematics and dynamics of an arm.
 ///
 /// Layouts: transforms 4x4, Jacobians 6x7 (linear rows first), the mass matrix 7x7 and inertias
 /// 3x3, all column-major. Units [m] [rad] [s] [kg] [Nm]. Poses and zero Jacobians are expressed in
-/// the base frame O, body Jacobians in the axes of the asked frame. F_x_Ctotal is the centre of
-/// mass of end effector and load together in the flange frame F, total_inertia their inertia about
-/// that point in the axes of F.
+/// the base frame O, body Jacobians in the axes of their frame. F_x_Ctotal is the centre of mass of
+/// end effector and load together in the flange frame F, total_inertia their inertia about that
+/// point in the axes of F.
 class ModelBase {
  public:
   virtual ~ModelBase() noexcept = default;
 
-  /// Pose of a frame in O. F_T_EE and EE_T_K matter to kEndEffector and kStiffness only.
+  /// Pose of a frame in O. F_T_EE and EE_T_K are used for kEndEffector and kStiffness only.
   virtual std::array<double, 16> pose(franka::Frame frame, const std::array<double, 7>& q,
                                       const std::array<double, 16>& F_T_EE,
                                       const std::array<double, 16>& EE_T_K) const = 0;
@@ -47,7 +47,7 @@ class ModelBase {
                                         const std::array<double, 3>& F_x_Ctotal,
                                         const std::array<double, 3>& gravity_earth) const = 0;
 
-  /// @name The same, with the arguments taken from a robot state
+  /// @name The same, with the arguments from a robot state
   /// @{
   std::array<double, 16> pose(franka::Frame frame, const franka::RobotState& robot_state) const;
   std::array<double, 42> bodyJacobian(franka::Frame frame,
@@ -56,7 +56,8 @@ class ModelBase {
                                       const franka::RobotState& robot_state) const;
   std::array<double, 49> mass(const franka::RobotState& robot_state) const;
   std::array<double, 7> coriolis(const franka::RobotState& robot_state) const;
-  /// Gravity as the base's acceleration sensor reports it (O_ddP_O), straight down without one.
+  /// Gravity from the base's acceleration sensor (O_ddP_O); without one, gravity points straight
+  /// down.
   std::array<double, 7> gravity(const franka::RobotState& robot_state) const;
   std::array<double, 7> gravity(const franka::RobotState& robot_state,
                                 const std::array<double, 3>& gravity_earth) const;

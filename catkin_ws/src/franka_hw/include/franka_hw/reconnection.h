@@ -10,21 +10,21 @@
 
 namespace franka_hw {
 
-/// Connects again, once a second, to a robot that was lost, if the parameter `reconnect` says so
-/// (bool, false unless given; searched for from the namespace of the robot upwards).
+/// Connects again, once a second, to a robot that was lost, if the parameter `reconnect` is true
+/// (bool, default false; searched for from the namespace of the robot upwards).
 ///
-/// For the thread that watches the robot; not real-time safe.
+/// Called by the thread that reads the robot. Not real-time safe.
 class Reconnection {
  public:
-  /// Reads the parameter. @returns false after a sentence when it is neither true nor false
+  /// Reads the parameter. @returns false, after logging the reason, if it is neither true nor false
   bool init(const ros::NodeHandle& nh);
 
-  /// Calls `connect` if it is wanted and time for it. Of what it throws a warning tells, twice a
-  /// minute at most.
+  /// Calls `connect` if the parameter is true and the next attempt is due. Exceptions are logged as
+  /// warnings, at most twice a minute.
   /// @param robot its name, for the warning
   void attempt(const std::string& robot, const std::function<void()>& connect);
 
-  /// That the robot is lost, why, and what comes next. @param what libfranka says of it
+  /// A message: the robot is lost, why, and what follows. @param what the text of libfranka
   std::string report(const std::string& what) const;
 
  private:

@@ -15,7 +15,7 @@ namespace franka_hw {
 
 /// @file
 /// The rules by which controllers may share an arm. Called when controllers are switched, outside
-/// the loop; every function is free of side effects except for log lines that name what is refused.
+/// the loop. The functions have no side effects except log lines that name what is refused.
 
 /// Resource name -> every claim on it, each as {controller name, controller type, interface type}.
 using ResourceWithClaimsMap = std::map<std::string, std::vector<std::vector<std::string>>>;
@@ -32,34 +32,34 @@ struct ResourceClaims {
 /// arm_id -> claims on that arm.
 using ArmClaimedMap = std::map<std::string, ResourceClaims>;
 
-/// Finds the arm a resource belongs to: what stands before the last `_joint`, else before the last
-/// `_robot`. @returns false, leaving *arm_id alone, when there is neither or nothing stands before
-/// it.
+/// Finds the arm of a resource: the text before the last `_joint`, otherwise before the last
+/// `_robot`. @returns false, without a change of *arm_id, if there is neither or the text before it
+/// is empty.
 bool findArmIdInResourceId(const std::string& resource_id, std::string* arm_id);
 
-/// Turns the controllers' claims round: who claims what becomes what is claimed by whom.
+/// Converts the claims per controller into controllers per claimed resource.
 ResourceWithClaimsMap getResourceMap(const std::list<hardware_interface::ControllerInfo>& info);
 
-/// Counts the claims on each arm. @returns false, after saying which, when a resource belongs to no
-/// arm or is claimed through an interface a Franka arm does not have.
+/// Counts the claims on each arm. @returns false, after logging which resource, if a resource
+/// belongs to no arm or is claimed through an interface that a Franka arm does not have.
 bool getArmClaimedMap(ResourceWithClaimsMap& resource_map, ArmClaimedMap& arm_claim_map);
 
-/// The control mode that the claims on one arm ask for; None for no claims and for combinations
-/// that no robot can run.
+/// The control mode for the claims on one arm; None for no claims and for combinations that no
+/// robot can run.
 ControlMode getControlMode(const std::string& arm_id, ArmClaimedMap& arm_claim_map);
 
-/// True when one resource has more than two claims, or two of which not exactly one is on torques.
+/// True if one resource has more than two claims, or two claims of which not exactly one is on
+/// torques.
 bool hasConflictingMultiClaim(const ResourceWithClaimsMap& resource_map);
 
-/// True when position or velocity is claimed both on the joints and on the Cartesian pose of one
-/// arm.
+/// True if position or velocity is claimed both on the joints and on the Cartesian pose of one arm.
 bool hasConflictingJointAndCartesianClaim(const ArmClaimedMap& arm_claim_map,
                                           const std::string& arm_id);
 
-/// True when a joint interface is claimed on some, but not all seven joints of one arm.
+/// True if a joint interface is claimed on some, but not all seven joints of one arm.
 bool partiallyClaimsArmJoints(const ArmClaimedMap& arm_claim_map, const std::string& arm_id);
 
-/// True when anything but torques is claimed on one arm.
+/// True if an interface other than torques is claimed on one arm.
 bool hasTrajectoryClaim(const ArmClaimedMap& arm_claim_map, const std::string& arm_id);
 
 }  // namespace franka_hw

@@ -11,39 +11,40 @@
 
 namespace franka_hw {
 
-/// How fast commands answer states during a motion, and how evenly states arrive.
+/// Measures how fast commands answer states during a motion, and how evenly states arrive.
 ///
-/// A command leaves when the loop has it, so the first is this host's share of the round trip. The
-/// network's share cannot be measured from here as a whole: the robot does not say when it sends.
-/// But it sends once a millisecond of its own time, so that a state's delay behind the promptest
-/// one shows: what the network, and the host that wakes up for it, add to its way at times.
-/// Whether commands reach the robot in time it says itself (control_command_success_rate).
+/// A command is sent when the loop has computed it, so the response time is this host's share of
+/// the round trip. The network's share cannot be measured here as a whole, because the robot does
+/// not report when it sends. But the robot sends once per millisecond of its own time: the delay of
+/// a state relative to the state with the least delay shows the variation caused by the network and
+/// by the wake-up of this host. The robot itself reports whether commands arrive in time
+/// (control_command_success_rate).
 ///
-/// One thread moves, another one takes reports. The moving one is real-time safe.
+/// One thread reports the cycles of motions (Real-time safe.); another one takes reports.
 class ResponseTimes {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Of the cycles since the last report; all zero when there were none.
+  /// Of the cycles since the last report; all zero if there were none.
   struct Report {
     std::uint64_t cycles{0};
     double mean{0.0};     ///< from a state to the command computed from it [s]
     double longest{0.0};  ///< of these [s]
-    double spread{0.0};   ///< the latest state behind the promptest one of its motion [s]
+    double spread{0.0};   ///< largest delay minus least delay of the states of a motion [s]
   };
 
-  /// The delays of states before are no measure for those that follow.
+  /// Delays before this call are not compared with delays after it.
   void motionBegins() noexcept;
-  /// A state has arrived. Does nothing when called again for the same state of a motion, as with
-  /// two callbacks in a cycle.
+  /// A state has arrived. Does nothing if called again for the same state of a motion, as with two
+  /// callbacks in a cycle.
   void stateArrived(franka::Duration robot_time, Clock::time_point now) noexcept;
-  /// When the latest state arrived.
+  /// The arrival time of the latest state.
   Clock::time_point lastArrival() const noexcept { return last_arrival_; }
-  /// A command is ready that was computed from a state which arrived at `since`. The last one of a
-  /// cycle counts.
+  /// A command is ready; it was computed from a state that arrived at `since`. If a cycle has
+  /// several calls, the last one counts.
   void commandReady(Clock::time_point since, Clock::time_point now) noexcept;
 
-  /// What there was since the last call. One thread.
+  /// The report of the cycles since the last call. Called by one thread.
   Report take() noexcept;
 
  private:
@@ -54,11 +55,11 @@ class ResponseTimes {
 
   void noteDelay(franka::Duration robot_time, Clock::time_point now) noexcept;
 
-  // Of the moving thread.
+  // Used by the moving thread only.
   bool begins_{true};
   franka::Duration last_time_;
   Clock::time_point last_arrival_{};
-  Clock::duration response_{-1};                       // of the cycle under way; negative: none yet
+  Clock::duration response_{-1};                       // of the present cycle; negative: none yet
   Clock::duration least_delay_{0}, largest_delay_{0};  // of this motion, since the last report
   Window window_;
 

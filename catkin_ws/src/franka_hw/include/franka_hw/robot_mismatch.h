@@ -9,15 +9,16 @@
 
 namespace franka_hw {
 
-/// In what the parameters of an arm contradict each other, its description or the robot that
-/// answers. Pure. Not real-time safe.
+/// Checks whether the parameters of an arm contradict each other, its description or the connected
+/// robot. No side effects. Not real-time safe.
 ///
-/// Checked are: joints that are not named after the arm (controllers would command another one),
-/// joints that the description does not hold, and a description that lets a joint move where the
-/// robot's cannot: a Panda's for an FR3, or the reverse. Narrower ranges are no contradiction.
-/// @param description what robot_description holds
-/// @param protocol the version that the robot speaks: up to 5 a Panda, from 6 on an FR3
-/// @returns one sentence, or several of one line, without "FrankaHW:"; empty where all agree
+/// The checks: joints that are not named after the arm (controllers would command another one),
+/// joints that are missing in the description, and a description that lets a joint move where the
+/// robot's cannot: a Panda's for an FR3, or the reverse. Narrower ranges are accepted.
+/// @param description the content of robot_description
+/// @param protocol the protocol version of the robot: up to 5 a Panda, from 6 on an FR3
+/// @returns one line of one or more sentences, without "FrankaHW:"; empty if there is no
+/// contradiction
 std::string robotMismatch(const urdf::Model& description, const std::string& arm_id,
                           const std::array<std::string, 7>& joint_names, unsigned protocol);
 

@@ -20,8 +20,8 @@
 
 namespace franka_hw {
 
-/// Offers a service whose response has `success` and `error`. Whatever the handler throws becomes
-/// success = false with the text of the exception; the call itself is always answered.
+/// Offers a service whose response has `success` and `error`. An exception of the handler becomes
+/// success = false with the text of the exception; every call gets a response.
 /// @tparam T the service's message type @param handler does the work, in a thread of the node
 /// handle
 template <typename T>
@@ -43,7 +43,7 @@ ros::ServiceServer advertiseService(
       });
 }
 
-/// Holds service servers for as long as it lives.
+/// Owns service servers.
 class ServiceContainer {
  public:
   /// As franka_hw::advertiseService<T>. @returns this container, so that calls can be chained
@@ -60,16 +60,16 @@ class ServiceContainer {
 /// Offers the seven services that configure the robot: set_joint_impedance,
 /// set_cartesian_impedance, set_EE_frame, set_K_frame, set_force_torque_collision_behavior,
 /// set_full_collision_behavior and set_load. While a motion holds the robot they are refused at
-/// once, with a sentence that says what to do, instead of waiting for its end.
+/// once, with instructions for the user, instead of waiting for its end.
 /// @param robot outlives the services @param robot_mutex is held by threads that use the robot
 void setupServices(franka::Robot& robot, RobotMutex& robot_mutex, ros::NodeHandle& node_handle,
                    ServiceContainer& services);
-/// The same for any mutex, which does not say why it is held: the services are refused after half a
-/// second.
+/// The same for any mutex. It does not show whether a motion holds it: the services are refused
+/// after half a second.
 void setupServices(franka::Robot& robot, std::mutex& robot_mutex, ros::NodeHandle& node_handle,
                    ServiceContainer& services);
 
-/// @name What the services do
+/// @name Implementation of the services
 /// @throws franka::Exception when the robot refuses or cannot be reached
 /// @{
 void setCartesianImpedance(franka::Robot& robot,

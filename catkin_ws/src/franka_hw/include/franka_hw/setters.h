@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// The services that configure an arm, be it reached over the network or simulated: their names,
-// their types, and how a request becomes a call of the robot. Not real-time safe.
+// The services that configure an arm, real or simulated: their names, their types, and how a
+// request becomes a call of the robot. Not real-time safe.
 
 #include <franka_msgs/SetCartesianImpedance.h>
 #include <franka_msgs/SetEEFrame.h>
@@ -19,7 +19,7 @@
 
 namespace franka_hw {
 
-/// The name and the type of one of the services.
+/// Name and type of one of the services.
 template <typename T>
 struct Setter {
   using Service = T;
@@ -39,7 +39,7 @@ void forEachSetter(const Visitor& visit) {
   visit(Setter<SetLoad>{"set_load"});
 }
 
-/// A message's fixed array as std::array.
+/// Converts a message's fixed array to std::array.
 template <std::size_t size, typename Source>
 std::array<double, size> arrayOf(const Source& source) {
   std::array<double, size> values;
@@ -47,8 +47,8 @@ std::array<double, size> arrayOf(const Source& source) {
   return values;
 }
 
-/// @name What the services do
-/// @tparam Robot has the setters of franka::Robot, which throw what the user should read
+/// @name Implementation of the services
+/// @tparam Robot has the setters of franka::Robot, whose exceptions have texts for the user
 /// @{
 template <typename Robot>
 void configure(Robot& robot, const franka_msgs::SetJointImpedance::Request& request) {

@@ -9,12 +9,12 @@
 
 namespace franka_hw {
 
-/// Says in the log what a controller threw; the same again only every few seconds, for it may
-/// throw in every cycle. One thread; not for real time.
+/// Logs the exceptions of a controller. The same text is logged only every few seconds, because a
+/// controller may throw in every cycle. Called by one thread. Not real-time safe.
 class ThrownReport {
  public:
-  /// @param where whose controller it is, a name of a node or a robot
-  /// @param advice what became of the robot, and what to do; a sentence
+  /// @param where the name of the node or robot that runs the controller
+  /// @param advice the consequence for the robot, and what the user can do; a sentence
   void report(const std::string& where, const std::string& what, const std::string& advice) {
     const ros::WallTime now = ros::WallTime::now();
     if (what == last_ && now - said_ < ros::WallDuration(kPeriod)) {

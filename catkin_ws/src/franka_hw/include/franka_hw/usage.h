@@ -7,8 +7,8 @@
 
 namespace franka_hw {
 
-/// For the first line of a node's main(): prints the usage if an argument is -h or --help. Needs
-/// no ROS master. @returns whether the usage was printed
+/// For the first line of a node's main(): prints the usage if an argument is -h or --help. Needs no
+/// ROS master. @returns whether the usage was printed
 inline bool printsUsage(int argc, char** argv, const char* usage) {
   for (int i = 1; i < argc; i++) {
     const std::string_view argument = argv[i];

@@ -6,8 +6,8 @@
 
 namespace franka_hw_test {
 
-/// A FrankaHW whose control cycle is called by hand, without a robot's pace: what is left is the
-/// work of a millisecond. A torque controller runs.
+/// A FrankaHW whose control cycle is called directly, without waiting for a robot: only the
+/// computation of a millisecond is left. A torque controller runs.
 class BareCycle : public franka_hw::FrankaHW {
  public:
   BareCycle() : manager_(initialised(), arm_.nh) {
@@ -17,7 +17,7 @@ class BareCycle : public franka_hw::FrankaHW {
     if (!manager_.loadController(name)) {
       throw std::runtime_error("no controller");
     }
-    // The switch is answered while the cycles go on.
+    // The switch finishes only while cycles run.
     std::atomic_bool done{false};
     std::thread asks([&] {
       manager_.switchController({name}, {}, 2, false, 10.0);

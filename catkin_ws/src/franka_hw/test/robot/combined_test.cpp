@@ -39,7 +39,7 @@ class Combined : public testing::Test {
     ASSERT_TRUE(robot_.init(nh_, nh_));
   }
 
-  /// One turn of the controllers' loop, in which each arm is commanded a torque of its own.
+  /// One cycle of the controllers' loop, which commands a different torque to each arm.
   void cycle() {
     const ros::Time now = ros::Time::now();
     robot_.read(now, ros::Duration(0.001));
@@ -76,13 +76,13 @@ class Combined : public testing::Test {
     return cycleUntil([&] { return torqueOf(left_) == 1.5 && torqueOf(right_) == -2.5; });
   }
 
-  /// One of the node's services: of an arm, or of all.
+  /// Calls one of the node's services: of an arm, or of all.
   std_srvs::Trigger::Response call(const std::string& service) {
     std_srvs::Trigger trigger;
     EXPECT_TRUE(ros::service::call(nh_.resolveName(service), trigger)) << service;
     return trigger.response;
   }
-  /// All arms recover: the action's goal, as its topic carries it.
+  /// Recovers all arms: publishes the action's goal on its topic.
   void recover() {
     ros::Publisher goal =
         nh_.advertise<franka_msgs::ErrorRecoveryActionGoal>("error_recovery/goal", 1);
@@ -202,7 +202,7 @@ class Losing : public Combined {
   }
   void TearDown() override { franka::setTimeouts(usual_); }
 
-  /// The left robot goes away in the middle of a motion of both.
+  /// Removes the left robot during a motion of both.
   void loseLeft(bool stays_away = true) {
     left_.robot.script([=](auto& script) {
       script.close_after = 50;
@@ -275,7 +275,7 @@ TEST_F(Losing, TheOtherGoesOnAloneWhenOneIsGivenUp) {
   ASSERT_TRUE(robot_.hasError());
   EXPECT_TRUE(call("left/disconnect").success);
   ASSERT_TRUE(cycleUntil([&] { return !robot_.hasError(); }));
-  recover();  // succeeds: who was given up has nothing to recover from
+  recover();  // succeeds: an arm that was given up has nothing to recover
 
   const LogCatcher log;
   EXPECT_FALSE(robot_.prepareSwitch({claiming("left")}, {}));
@@ -294,7 +294,7 @@ TEST_F(Losing, TheOtherGoesOnAloneWhenOneIsGivenUp) {
 class Reconnecting : public Losing {
  protected:
   void SetUp() override {
-    nh_.setParam("reconnect", true);  // of the node: for all of its arms
+    nh_.setParam("reconnect", true);  // a parameter of the node: for all of its arms
     Losing::SetUp();
   }
 };
@@ -316,7 +316,7 @@ TEST_F(Reconnecting, ALostArmComesBackByItselfButDoesNotMove) {
 
 TEST_F(Reconnecting, AnArmThatWasGivenUpStaysAway) {
   ASSERT_TRUE(call("left/disconnect").success);
-  // Longer than between two attempts.
+  // Longer than the time between two attempts.
   const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1500);
   while (std::chrono::steady_clock::now() < end) {
     cycle();

@@ -59,7 +59,7 @@ TEST_F(Connection, OfARobotThatGoesAwayEndsTheMotionWithASentence) {
   ASSERT_TRUE(loop.switchTo({"JT"}, {}));
   ASSERT_TRUE(waitUntil([&] { return !loop.errors().empty(); }));
   EXPECT_NE(std::string::npos, loop.errors()[0].find("libfranka")) << loop.errors()[0];
-  // As the node does: the connection is let go, and the controllers can still be stopped.
+  // As the node does: the connection is dropped, and the controllers can still be stopped.
   robot_.dropConnection();
   EXPECT_FALSE(robot_.connected());
   EXPECT_TRUE(loop.switchTo({}, {"JT"}));
@@ -86,7 +86,7 @@ TEST_F(Connection, OutlivesASilenceOfARestingRobot) {
   arm_.robot.script([](auto& script) { script.sends_states = false; });
   EXPECT_THROW(
       {
-        robot_.readPatiently();  // what was sent before
+        robot_.readPatiently();  // states that were sent before
         robot_.readPatiently();
       },
       franka::NetworkException);
@@ -116,8 +116,8 @@ TEST_F(Connection, RunsTheServicesOfARestingRobot) {
 TEST_F(Connection, ALoopThatOnlyReadsDoesNotKeepSwitchesOut) {
   franka_hw::ServiceContainer services;
   franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
-  // As loops of users do, and the original's: the robot is taken again microseconds after it is
-  // left.
+  // As in loops of users and of the original: the robot is locked again microseconds after its
+  // release.
   Loop loop(robot_, arm_, false);
   for (int i = 0; i < 10; i++) {
     ASSERT_TRUE(loop.switchTo({"JP"}, {})) << i;
@@ -125,7 +125,7 @@ TEST_F(Connection, ALoopThatOnlyReadsDoesNotKeepSwitchesOut) {
     ASSERT_TRUE(loop.switchTo({}, {"JP"})) << i;
     franka_msgs::SetLoad load;
     ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_load"), load));
-    // Such a loop may keep setters out, for a mutex is not fair; but they say so.
+    // Such a loop may block setters, because a mutex is not fair; but then they report an error.
     EXPECT_TRUE(load.response.success || !load.response.error.empty()) << i;
   }
 }
@@ -140,7 +140,8 @@ TEST_F(Connection, SettersOfAMovingRobotAnswerAtOnce) {
   impedance.request.joint_stiffness.fill(1000.0);
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_joint_impedance"), impedance));
-  // It takes no time; the rest is what a machine busy with other work may take.
+  // The call itself takes almost no time; the bound allows for a machine that is busy with other
+  // work.
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
   EXPECT_FALSE(impedance.response.success);
   EXPECT_NE(std::string::npos, impedance.response.error.find("Stop that controller"));

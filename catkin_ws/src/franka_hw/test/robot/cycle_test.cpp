@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// A millisecond of FrankaHW neither allocates nor locks.
+// One cycle of FrankaHW neither allocates nor locks.
 #include <gtest/gtest.h>
 #include <rt_guard/rt_guard.h>
 
@@ -35,7 +35,7 @@ TEST(Cycle, IsMeasuredFromTheStateToTheCommand) {
   const int first = updates;
   ASSERT_TRUE(waitUntil([&] { return updates >= first + 20; }));
   const franka_hw::ResponseTimes::Report report = robot.responseTimes().take();
-  // Once for the two callbacks of a cycle.
+  // Counted once for the two callbacks of a cycle.
   EXPECT_GE(report.cycles, 18u);
   EXPECT_LE(report.cycles, static_cast<std::uint64_t>(updates - earliest + 1));
   EXPECT_GE(report.mean, 2e-3);

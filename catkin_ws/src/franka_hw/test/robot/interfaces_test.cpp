@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What a FrankaHW shows of its robot, its soft limits and its warnings.
+// The interfaces of a FrankaHW, its soft limits and its warnings.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -22,7 +22,7 @@ class Interfaces : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { ASSERT_TRUE(robot_.init(arm_.nh, arm_.robot_nh)); }
 
-  /// A state in which every number is another.
+  /// A state in which all numbers are different.
   static franka::RobotState distinct() {
     franka::RobotState state;
     double next = 0.01;
@@ -75,7 +75,7 @@ TEST_P(Interfaces, ShowTheState) {
     EXPECT_EQ(state.q[i], joint.getPosition());
     EXPECT_EQ(state.dq[i], joint.getVelocity());
     EXPECT_EQ(state.tau_J[i], joint.getEffort());
-    // Torques act on what is measured, positions and velocities on what is desired.
+    // Torque handles show measured values; position and velocity handles show desired ones.
     const auto torque = robot_.get<EffortJointInterface>()->getHandle(name);
     EXPECT_EQ(state.q[i], torque.getPosition());
     EXPECT_EQ(state.dq[i], torque.getVelocity());
@@ -117,8 +117,8 @@ TEST_P(Interfaces, AnswerForTheModelWithTheStatesPose) {
   robot_.update(state);
   const auto model =
       robot_.get<franka_hw::FrankaModelInterface>()->getHandle(arm_.arm_id + "_model");
-  // The arm stretched up, from the distances in the data sheet: 0.333, 0.316, 0.384 up, 0.107 down;
-  // 0.088 ahead.
+  // The arm points straight up. Distances from the data sheet: 0.333, 0.316, 0.384 up, 0.107 down;
+  // 0.088 forward.
   const std::array<double, 16> pose = model.getPose(franka::Frame::kFlange);
   EXPECT_NEAR(0.088, pose[12], 1e-9);
   EXPECT_NEAR(0.0, pose[13], 1e-9);
@@ -144,7 +144,8 @@ TEST_P(Interfaces, CutCommandsToTheSoftLimits) {
   ASSERT_TRUE(urdf.initString(urdfOf(arm_.arm_id)));
   for (size_t i = 0; i < 7; i++) {
     const auto joint = urdf.getJoint(FakeArm::joints(arm_.arm_id)[i]);
-    // The speed that the spring of the safety controller allows at this place.
+    // The speed that the safety controller allows at this position, which is proportional to the
+    // distance.
     const double room = joint->safety->soft_upper_limit - state.q_d[i];
     const double speed =
         std::min(joint->limits->velocity, joint->safety->k_position * std::max(0.0, room));
@@ -172,7 +173,7 @@ TEST(Warnings, NameTheJointsNearTheirEnds) {
   const std::string joint = FakeArm::joints(arm.arm_id)[3];
   const LogCatcher log;
   franka::RobotState state;
-  // The fourth joint cannot stretch: it needs a place of its own to be far from its ends.
+  // The fourth joint cannot be at zero: it needs a position of its own, far from its ends.
   state.q = {0.0, -0.8, 0.0, -1.5, 0.0, 1.6, 0.8};
   robot.update(state);
   robot.checkJointLimits();
@@ -192,7 +193,7 @@ TEST(Warnings, NameTheJointsNearTheirEnds) {
 
 // --- NaN -----------------------------------------------------------------------------------------
 
-/// Whether a NaN in each place of a command is found, and none where there is none.
+/// Whether a NaN at each index of a command is found, and none if there is none.
 template <typename Command, size_t size>
 void expectEveryNanIsFound(Command command, std::array<double, size> Command::* values) {
   EXPECT_FALSE(FrankaHW::commandHasNaN(command));

@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "franka_hw_robot_test");
-  // A machine that is busy with other work is no robot that is lost.
+  // A robot must not count as lost because the machine is busy with other work.
   franka::Timeouts patient;
   patient.state = std::chrono::seconds(30);
   franka::setTimeouts(patient);

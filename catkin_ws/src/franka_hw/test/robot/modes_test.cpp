@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The nine control modes: what claims are accepted, and what then reaches the robot.
+// The nine control modes: which claims are accepted, and which commands then reach the robot.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ const std::vector<std::string> kKinds{"JT", "JP", "JV", "CP", "CV"};
 const std::set<std::string> kModes{"JT",    "JP",    "JV",    "CP",   "CV",
                                    "JT+JP", "JT+JV", "JT+CP", "JT+CV"};
 
-/// All sets of kinds but the empty one, as "JT+JP".
+/// All non-empty sets of kinds, as "JT+JP".
 std::vector<std::string> subsets() {
   std::vector<std::string> all;
   for (unsigned bits = 1; bits < 1u << kKinds.size(); bits++) {
@@ -41,7 +41,7 @@ class Modes : public testing::Test {
     loop_.emplace(robot_, arm_);
   }
 
-  /// Runs a controller until the robot has answered `count` commands of it, and stops it.
+  /// Runs a controller until the robot has received `count` of its commands, and stops it.
   std::vector<franka_test::FakeRobot::Exchange> run(const std::string& claims, size_t count = 20) {
     ToldController& controller = loop_->controller(claims);
     EXPECT_TRUE(loop_->switchTo({claims}, {})) << claims;
@@ -90,7 +90,7 @@ TEST_F(Modes, TwoControllersMayShareTheArmAsOneMay) {
     for (const std::string& other : kKinds) {
       const bool legal = one != other && (one == "JT" || other == "JT");
       const std::string second = other + ":2";
-      // The second is started beside the first, which must run on when that is refused.
+      // The second is started beside the first, which must continue if that is refused.
       ASSERT_TRUE(loop_->switchTo({one}, {}));
       EXPECT_EQ(legal, loop_->switchTo({second}, {})) << one << " and " << other;
       EXPECT_TRUE(loop_->controller(one).isRunning()) << one << " and " << other;
@@ -149,7 +149,7 @@ TEST_F(Modes, WhatTheControllerCommandsReachesTheRobot) {
   for (const std::string& claims : kModes) {
     ToldController& controller = loop_->controller(claims);
     controller.torque = 1.5;
-    controller.speed = 0.001;  // slow enough for a motion to be ended without an interruption
+    controller.speed = 0.001;  // slow enough to end a motion without an interruption
     const auto exchanges = run(claims);
     ASSERT_FALSE(exchanges.empty()) << claims;
     const auto& [state, command] = exchanges.back();
@@ -192,7 +192,7 @@ TEST_F(Modes, RateLimitingIsReadAnewAtASwitch) {
     arm_.robot_nh.setParam("rate_limiting", limited);
     loop_->controller("JT").torque = 5.0;
     double largest = 0.0;
-    // The parameter is cached: the node learns of a change a little later.
+    // The parameter is cached: the node receives a change a little later.
     ASSERT_TRUE(waitUntil([&] {
       largest = 0.0;
       for (const auto& exchange : run("JT")) {
@@ -200,7 +200,7 @@ TEST_F(Modes, RateLimitingIsReadAnewAtASwitch) {
       }
       return limited == (largest < 4.0);
     }));
-    // 1000 Nm/s over a millisecond, or the whole step at once.
+    // 1000 Nm/s over a millisecond, or the whole step in one cycle.
     EXPECT_NEAR(limited ? 1.0 : 5.0, largest, 1e-3);
   }
 }
@@ -216,7 +216,7 @@ TEST_F(Modes, TheFilterIsReadAnewAtASwitch) {
     return exchanges.size() > 1 && exchanges[1].command.tau_J_d[0] < 4.9;
   }));
   for (size_t i = 1; i < exchanges.size(); i++) {
-    // The client filters against the torque it was told, a float since version 10.
+    // The client's filter uses the torque in the state, a float since version 10.
     const double last = static_cast<float>(exchanges[i].state.tau_J_d[0]);
     EXPECT_NEAR(last + gain * (5.0 - last), exchanges[i].command.tau_J_d[0], 1e-9) << i;
   }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What FrankaHW says about parameters that are missing or wrong.
+// FrankaHW's messages about parameters that are missing or wrong.
 #include <gtest/gtest.h>
 
 #include "support.h"
@@ -13,7 +13,7 @@ using franka_hw::FrankaHW;
 struct Case {
   std::string name;
   std::function<void(FakeArm&)> spoil;
-  std::vector<std::string> words;  ///< of the sentence
+  std::vector<std::string> words;  ///< of the message
 };
 
 /// Deletes a parameter of the robot.
@@ -101,7 +101,7 @@ TEST(Parameters, CollisionThresholdsGoToTheRobot) {
   const std::vector<double> forces{11.0, 12.0, 13.0, 14.0, 15.0, 16.0};
   arm.robot_nh.setParam("collision_config/lower_torque_thresholds_nominal", torques);
   arm.robot_nh.setParam("collision_config/upper_force_thresholds_acceleration", forces);
-  // Of wrong length, and of wrong type: the defaults take their place, and a line says so.
+  // One has the wrong length, one the wrong type: the defaults are used, and a log line reports it.
   arm.robot_nh.setParam("collision_config/upper_torque_thresholds_nominal", forces);
   arm.robot_nh.setParam("collision_config/lower_force_thresholds_nominal", "much");
   FrankaHW robot;

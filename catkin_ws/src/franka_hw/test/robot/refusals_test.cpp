@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Controllers that must not, or could not, command the robot are not started.
+// Controllers that must not, or cannot, command the robot are not started.
 #include <franka/control_tools.h>
 #include <franka_hw/franka_combined_hw.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace franka_hw_test {
 namespace {
 
-/// The description of a Panda, its joints named after this arm.
+/// The description of a Panda whose joints are named after this arm.
 std::string pandaOf(const std::string& arm_id) {
   std::ifstream file(FRANKA_HW_TEST_DATA "/panda.urdf");
   std::stringstream text;
@@ -35,7 +35,7 @@ void expectWords(const std::string& text, const std::vector<std::string>& words)
 class Refusals : public testing::Test {
  protected:
   void SetUp() override {
-    // The robot of this test is on a loopback address, for which libfranka would ignore it.
+    // The robot of this test has a loopback address, for which libfranka would not enforce it.
     ASSERT_EQ(0, setenv("FRANKA_REALTIME", "enforce", 1));
   }
   void TearDown() override { unsetenv("FRANKA_REALTIME"); }
@@ -97,7 +97,7 @@ TEST_F(Refusals, OneArmOfSeveralIsRefusedByName) {
   for (FakeArm* arm : {&left, &right}) {
     arm->robot_nh.setParam("type", "franka_hw/FrankaCombinableHW");
   }
-  // One description for both, of a robot that only the left one is called after.
+  // One description for both; its joints are named after the left arm only.
   nh.setParam("robot_description", urdfOf("left"));
   nh.setParam("robot_hardware", std::vector<std::string>{"left", "right"});
   franka_hw::FrankaCombinedHW robots;

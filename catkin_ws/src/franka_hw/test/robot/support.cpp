@@ -63,7 +63,7 @@ std::string urdfOf(const std::string& arm_id) {
 
 namespace {
 
-/// A description that holds another arm, too, beside its own in the same world.
+/// Adds another arm in the same world to a description.
 std::string withArm(std::string urdf, const std::string& arm_id) {
   const std::string world = "<link name=\"world\" />", end = "</robot>";
   std::string more = urdfOf(arm_id);

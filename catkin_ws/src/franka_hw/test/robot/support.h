@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// A FrankaHW with everything around it: a robot on a socket, parameters in a namespace of their
-// own, controllers that do as they are told, and the loop that runs them.
+// A FrankaHW and its environment: a robot on a socket, parameters in a namespace of their own,
+// controllers that follow the tests' instructions, and the loop that runs them.
 
 #include <controller_interface/controller_base.h>
 #include <controller_manager/controller_loader_interface.h>
@@ -28,14 +28,14 @@ namespace franka_hw_test {
 
 using franka_core::fci::Command;
 
-/// What was logged while this lives.
+/// Collects the log lines during its lifetime.
 class LogCatcher : public ros::console::LogAppender {
  public:
   LogCatcher() { ros::console::register_appender(this); }
   ~LogCatcher() override { ros::console::deregister_appender(this); }
   void log(ros::console::Level level, const char* text, const char* file, const char* function,
            int line) override;
-  /// The lines logged so far of this level or above.
+  /// The lines logged so far, of this level or above.
   std::string text(ros::console::Level level = ros::console::levels::Debug) const;
 
  private:
@@ -49,10 +49,10 @@ bool waitUntil(const std::function<bool()>& condition, double limit = 10.0);
 /// The name under which Loop loads the controller with these claims.
 std::string nameOf(std::string claims);
 
-/// The URDF of an FR3 whose joints and links carry this arm_id.
+/// The URDF of an FR3 whose joints and links have this arm_id.
 std::string urdfOf(const std::string& arm_id);
 
-/// A robot that does at once what it is told, and the parameters to find it.
+/// A robot that follows its commands at once, and the parameters to find it.
 class FakeArm {
  public:
   /// @param nh where `robot_description` is written; the other parameters stand below `arm_id`
@@ -68,8 +68,9 @@ class FakeArm {
   franka_test::FakeRobot robot{10};
 };
 
-/// A controller that claims what its parameter `claims` says (a list of JP, JV, JT, CP, CV and
-/// looks, on the first `joints` joints) and holds still, but for what it is told to do.
+/// A controller that claims the interfaces in its parameter `claims` (a list of JP, JV, JT, CP, CV
+/// and looks, on the first `joints` joints). It holds still unless the test sets a command or a
+/// fault.
 class ToldController : public controller_interface::ControllerBase {
  public:
   enum class Fault { kNone, kThrow, kNan, kSleep };
@@ -106,26 +107,27 @@ class ToldController : public controller_interface::ControllerBase {
 /// A controller manager and the loop that runs it with a FrankaHW, as franka_control_node does.
 class Loop {
  public:
-  /// The robot must be initialised. Errors of motions are kept, and end no more than the motion.
-  /// @param considerate whether it leaves the robot to others for a while between two states
+  /// The robot must be initialised. Errors of motions are stored and end only the motion.
+  /// @param considerate whether the loop pauses between two states, so that others can lock the
+  /// robot
   Loop(franka_hw::FrankaHW& robot, const FakeArm& arm, bool considerate = true);
   ~Loop();
 
-  /// The controller that claims these ("JT", "JT+CP", ...), loaded when first asked for; "JT:2" is
-  /// another one with the same claims.
+  /// The controller with these claims ("JT", "JT+CP", ...), loaded at the first call; "JT:2" is
+  /// another controller with the same claims.
   ToldController& controller(const std::string& claims);
   bool switchTo(const std::vector<std::string>& start, const std::vector<std::string>& stop);
   controller_manager::ControllerManager& manager() { return manager_; }
-  /// What the robot is told of a loaded controller.
+  /// The information about a loaded controller for the robot.
   hardware_interface::ControllerInfo info(const std::string& claims) const;
 
-  /// Makes ToldController, the type test/Told.
+  /// Creates ToldController, the type test/Told.
   static controller_manager::ControllerLoaderInterfaceSharedPtr makeLoader();
   /// Writes the parameters of a controller with these claims. @returns its name
   static std::string describe(const ros::NodeHandle& nh, const std::string& arm_id,
                               const std::string& claims);
 
-  /// The texts of what ended motions, and how many of them there were.
+  /// The texts of the errors that ended motions, and their number.
   std::vector<std::string> errors() const;
   void forgetErrors();
 

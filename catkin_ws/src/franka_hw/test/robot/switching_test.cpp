@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Switches by the thousand, and controllers that misbehave.
+// Thousands of switches, and controllers with faults.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ class Switching : public testing::Test {
     loop_.emplace(robot_, arm_);
   }
 
-  /// Whether the robot does what this kind of controller asks for.
+  /// Whether the robot follows the commands of this kind of controller.
   bool moves(const std::string& kind) const {
     const auto state = arm_.robot.state();
     const std::map<std::string, MotionGeneratorMode> generators{
@@ -58,7 +58,7 @@ TEST_F(Switching, LosesNoControllerBetweenAllOrderedPairsOfKinds) {
   std::vector<std::string> all;
   for (const std::string kind : {"JT", "JP", "JV", "CP", "CV"}) {
     for (const std::string& name : {kind, kind + ":2"}) {
-      loop_->controller(name).speed = name == kind ? 0.0 : 0.05;  // half of them are in motion
+      loop_->controller(name).speed = name == kind ? 0.0 : 0.05;  // half of them move
       all.push_back(name);
     }
   }
@@ -129,7 +129,7 @@ TEST_F(Switching, AControllerThatStaysIsStartedAnewWithTheNewMotion) {
   ASSERT_TRUE(loop_->switchTo({"JT"}, {}));
   expectRuns("JT");
   const int starts = loop_->controller("JT").starts;
-  ASSERT_TRUE(loop_->switchTo({"JP"}, {}));  // beside the torques
+  ASSERT_TRUE(loop_->switchTo({"JP"}, {}));  // in addition to the torques
   ASSERT_TRUE(waitUntil([&] { return loop_->controller("JP").updates_since_start > 5; }));
   EXPECT_EQ(starts + 1, loop_->controller("JT").starts);
 }
@@ -201,7 +201,7 @@ TEST_F(Switching, NanReachesTheRobotInNoMode) {
   }
 }
 
-// The bottom row must be exact; other entries may be off by a rounding error.
+// The bottom row must be exact; other entries may have a rounding error.
 TEST_F(Switching, PoseWithARoundingErrorIsSentOrRefusedButEndsNothingElse) {
   ToldController& controller = loop_->controller("CP");
   ASSERT_TRUE(loop_->switchTo({"CP"}, {}));
@@ -212,7 +212,7 @@ TEST_F(Switching, PoseWithARoundingErrorIsSentOrRefusedButEndsNothingElse) {
       const int before = controller.updates;
       controller.dusty_entry = entry;
       controller.dust = dust;
-      // 1e-17 is lost in the sum with 1, the last entry.
+      // 1e-17 has no effect on the last entry, which is 1.
       const bool refused = entry % 4 == 3 && (entry < 15 || std::abs(dust) > 1e-16);
       ASSERT_TRUE(waitUntil([&] {
         return !loop_->errors().empty() || (!refused && controller.updates > before + 5);

@@ -6,14 +6,14 @@
 
 namespace franka_sim {
 
-/// The text of a file. @throws std::runtime_error with a sentence.
+/// The text of a file. @throws std::runtime_error if it cannot be read.
 std::string readFile(const std::string& name);
 
-/// A file of a package of this workspace, whether this program runs from the install space
-/// (../../share/<package>), the build, or elsewhere. Empty if there is none.
+/// A file of a package of this workspace. Found if this program runs from the install space
+/// (../../share/<package>), from the build, or from another folder. Empty if there is none.
 std::string packageFile(const std::string& package, const std::string& file);
 
-/// Turns `package://name/path` and `file://` into file names; empty when unknown.
+/// Converts `package://name/path` and `file://` to file names; empty if unknown.
 std::string resolveUri(const std::string& uri);
 
 }  // namespace franka_sim

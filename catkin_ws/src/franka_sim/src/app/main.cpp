@@ -30,7 +30,7 @@
 namespace franka_sim {
 namespace {
 
-std::atomic<bool> end_requested{false};  // by a signal
+std::atomic<bool> end_requested{false};  // set by a signal
 
 void requestEnd(int /*signal*/) { end_requested = true; }
 
@@ -47,8 +47,8 @@ std::string worldFile(const std::string& name) {
   return file;
 }
 
-// Against the wall clock the ticks go before other work, where the system allows it; where not,
-// they are as punctual as the machine's load lets them be.
+// Gives the ticks priority over other processes, if the system allows it; otherwise their
+// punctuality depends on the load of the machine.
 void preferThisThread() {
   constexpr int kPriority = 70;
   sched_param parameters{};
@@ -58,7 +58,7 @@ void preferThisThread() {
   }
 }
 
-// What is wrong with the world is told where the program was started, and stops its robots.
+// Prints faults of the world on the terminal, and stops its robots.
 class WorldWatch {
  public:
   WorldWatch(World& world, const std::vector<fci::SimRobot*>& robots)
@@ -97,7 +97,7 @@ void serve(const Options& options) {
   }
   std::mutex mutex;
   const bool viewed = options.viewer;
-  // Without a window the world belongs to this thread alone.
+  // Without a window only this thread uses the world.
   const auto lock = [&mutex, viewed] {
     return viewed ? std::unique_lock<std::mutex>(mutex) : std::unique_lock<std::mutex>();
   };

@@ -21,8 +21,8 @@ using fci::toNumber;
 using fci::toSwitch;
 using Words = LineServer::Words;
 
-constexpr double kLongest = 1e6;       // [ticks] of a push
-constexpr std::uint64_t kFall = 1000;  // [ticks] in lock-step, for what was let go to come to rest
+constexpr double kLongest = 1e6;       // [ticks] duration of a push
+constexpr std::uint64_t kFall = 1000;  // [ticks] in lock-step, until a released object rests
 
 std::uint64_t toTicks(const std::string& word) {
   const double ticks = toNumber(word);
@@ -43,7 +43,7 @@ void require(std::optional<Status> status, const std::string& sentence) {
 }
 
 void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
-  constexpr std::uint64_t kReaction = 500;  // [ticks] in lock-step, for the arm to react
+  constexpr std::uint64_t kReaction = 500;  // [ticks] in lock-step, until the arm has reacted
   lines.add("user_stop on|off", [&](const Words& words) {
     robot.unit().request(UserStop{toSwitch(words.at(0))});
     host.letRun(kReaction);
@@ -65,7 +65,7 @@ void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   });
   lines.add("fci on|off", [&](const Words& words) {
     robot.unit().request(FciActivation{toSwitch(words.at(0))});
-    robot.serve(true);  // the port opens or closes before the answer goes
+    robot.serve(true);  // the port opens or closes before the answer is sent
     return "";
   });
 }
@@ -177,7 +177,7 @@ void reset(const Scene& scene) {
   scene.world.reset();
   for (fci::SimRobot* robot : scene.robots) {
     robot->restart();
-    robot->observe();  // what was measured in this tick holds no longer
+    robot->observe();  // the measurement of this tick is not valid any more
   }
   scene.host.beginAnew();
 }

@@ -11,17 +11,17 @@
 
 namespace franka_sim {
 
-/// What the commands act on; all of it outlives the server.
+/// The objects that the commands change; all of them outlive the server.
 struct Scene {
-  fci::SimRobot& robot;                       ///< whose control interface it is
-  const std::vector<fci::SimRobot*>& robots;  ///< all, that one among them
+  fci::SimRobot& robot;                       ///< the robot of this control interface
+  const std::vector<fci::SimRobot*>& robots;  ///< all robots, including that one
   fci::Host& host;
   World& world;
   std::atomic<bool>& stop;
 };
 
-/// Enters the commands of the control interface (docs/franka_sim.md): buttons and switches of the
-/// robot, the quality of its link, and what hands do to the world.
+/// Adds the commands of the control interface (docs/franka_sim.md): buttons and switches of the
+/// robot, the quality of its link, and changes of the world.
 void addOperatorCommands(fci::LineServer& lines, const Scene& scene);
 
 }  // namespace franka_sim

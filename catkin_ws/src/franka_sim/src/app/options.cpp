@@ -24,7 +24,7 @@ bool isWithin(double least, double most, const std::string& text, double& number
   return words >> number && words.eof() && number >= least && number <= most;
 }
 
-// CLI::Range would take NaN for a number within it.
+// CLI::Range would accept NaN as a number in its range.
 CLI::Validator within(double least, double most, const std::string& advice) {
   return {[=](const std::string& text) {
             double number;
@@ -86,7 +86,7 @@ void readPace(const std::string& text, fci::Pace& pace) {
 }
 
 void readPatience(const std::string& text, fci::Pace& pace) {
-  double seconds = 3600.0 * 24 * 365 * 100;  // in nanoseconds it still is a number
+  double seconds = 3600.0 * 24 * 365 * 100;  // a finite limit, which nanoseconds can represent
   if (text != "forever" && !isWithin(0.01, 86400.0, text, seconds)) {
     throw CLI::ValidationError(
         "--patience", "give a number of seconds from 0.01 to 86400, or forever, not " + text + ".");
@@ -122,7 +122,7 @@ void nameArms(std::vector<ArmOptions>& arms) {
   }
 }
 
-// The foot of an arm is that wide: closer together they would stand within each other.
+// The width of an arm's foot: arms that are closer together would overlap.
 constexpr double kLeastDistance = 0.2;  // [m]
 
 void checkPlaces(const std::vector<ArmOptions>& arms) {
@@ -151,7 +151,7 @@ void checkTogether(std::vector<ArmOptions>& arms) {
   nameArms(arms);
 }
 
-// Options of one robot follow its --robot: each is entered when it is met.
+// Options of a robot follow its --robot: each one is stored when it is parsed.
 void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robot_named) {
   const auto add = [&](const char* name, const char* values, const char* description, auto read) {
     return app
@@ -244,16 +244,16 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
   app.add_flag("--viewer", options.viewer, "open a window")->disable_flag_override();
 }
 
-// The words in the order that CLI::App::parse takes, last one first.
+// The words in the order for CLI::App::parse, last one first.
 std::vector<std::string> wordsOf(int argc, const char* const* argv) {
   std::vector<std::string> words;
   for (int i = argc - 1; i > 0; i--) {
     std::string word = argv[i];
     if (word.rfind("__", 0) == 0) {
-      continue;  // roslaunch tells every program its name and log file
+      continue;  // roslaunch adds a name and a log file to each command line
     }
     if (word.rfind("--", 0) == 0 && word.back() == '=') {
-      words.emplace_back();  // CLI11 would take the next word for the value
+      words.emplace_back();  // otherwise CLI11 would use the next word as the value
       word.pop_back();
     }
     words.push_back(word);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFingersAtStart = 0.001;  // [m] each
 
-// The descriptions that come along name all links and joints after their robot.
+// In the descriptions of the program all links and joints have the name of their robot as prefix.
 std::string withPrefix(std::string urdf, const std::string& robot, const std::string& arm_id) {
   const std::string old_name = "\"" + robot + "_";
   const std::string new_name = "\"" + arm_id + "_";
@@ -85,7 +85,7 @@ ControlUnitParameters unitParameters(const ArmOptions& options, const std::strin
   return parameters;
 }
 
-// Puts the arm into the world and on the network.
+// Adds the arm to the world and to the network.
 fci::SimRobot makeRobot(const ArmOptions& options, World& world) {
   const std::string& id = options.arm_id;
   const std::string urdf = robotText(options);

@@ -11,12 +11,11 @@
 
 namespace franka_sim {
 
-/// One arm of franka_sim: put into the world, and on the network.
+/// One arm of franka_sim, in the world and on the network.
 class ServedArm {
  public:
   /// @param world outlives the arm.
-  /// @throws std::runtime_error with a sentence when a file, the robot's description or the network
-  /// does not allow it.
+  /// @throws std::runtime_error if a file, the robot's description or the network is not usable.
   ServedArm(const ArmOptions& options, World& world);
 
   fci::SimRobot& robot() noexcept { return robot_; }

@@ -11,12 +11,12 @@
 
 namespace franka_sim {
 
-/// A window on the world in a thread of its own. Closing it leaves the simulation running.
+/// A window with the world, in its own thread. If it is closed, the simulation continues.
 class Viewer {
  public:
   /// Returns when the window is open.
-  /// @param mutex is held by whoever steps the world, and by the viewer while it copies a moment.
-  /// @throws std::runtime_error with a sentence where there is no display
+  /// @param mutex is held while the world is stepped, and by the viewer while it copies the state.
+  /// @throws std::runtime_error if there is no display
   Viewer(World& world, std::mutex& mutex);
   ~Viewer();
   Viewer(const Viewer&) = delete;

@@ -55,7 +55,7 @@ void RobotServer::serve(bool stops_only) {
   datagrams_left_ = kDatagramsAtOnce;
   slot_.setOpen(handler_.active());
   if (!handler_.active() && version_ == 0) {
-    slot_.drop();  // nobody yet; a client hears how its motion ends first (publish)
+    slot_.drop();  // not connected yet; a client first gets the end of its motion (publish)
   }
   slot_.serve([this, stops_only](Connection& client) { return serveOne(client, stops_only); },
               [this] { forgetClient(); });
@@ -87,7 +87,7 @@ Served RobotServer::serveOne(Connection& client, bool stops_only) {
     return Served::kIncomplete;
   }
   if (framing != CodecError::kNone) {
-    return Served::kBroken;  // what follows cannot be told apart any more
+    return Served::kBroken;  // the start of the next request is unknown
   }
   // Connect is the same in every version.
   const std::uint16_t version = version_ == 0 ? parameters_.newest_version : version_;
@@ -186,7 +186,7 @@ bool RobotServer::replyToSetters() {
   return sent;
 }
 
-// A request that could be told from others but not understood.
+// Answers a request whose header is valid, but not its content.
 bool RobotServer::refuse(const codec::Header& header, CodecError error) {
   const std::optional<Command> command = codec::commandFromNumber(version_, header.command);
   if (version_ == 0 || !command || error == CodecError::kWrongSize) {
@@ -205,7 +205,7 @@ bool RobotServer::reply(const Pending& to, Status status) {
          slot_.client()->send(message.bytes());
 }
 
-// Of the connected version: a robot's limits are those that its client knows.
+// The description for the connected version: its limits are those that the client expects.
 const Blob* RobotServer::urdf() const noexcept {
   const auto next = urdfs_.upper_bound(version_);
   return next == urdfs_.begin() ? nullptr : &std::prev(next)->second;
@@ -268,7 +268,7 @@ void RobotServer::publish(std::uint64_t ticks, bool same_moment) {
   if (codec::encodeState(version_, shown_, state_bytes_) == CodecError::kNone) {
     datagrams_.send({state_bytes_.data(), codec::stateSize(version_)});
   }
-  // The client must find the reason of an end in the state before it hears of the end.
+  // The state must show the reason of an end before the client gets the reply.
   if (!replyToSetters()) {
     dropClient();
   }
@@ -286,8 +286,8 @@ void RobotServer::repeat() noexcept {
   }
 }
 
-// Each cycle has the command that answers its state, no other; where no answers are due, one that
-// does not stem from an earlier motion.
+// In a cycle only the command that answers its state is accepted; with the asynchronous generator,
+// any command that does not belong to an earlier motion.
 bool RobotServer::answersAState(std::uint64_t message_id) const noexcept {
   return message_id >= (asynchronous() ? first_of_motion_ : oldest_of_moment_) &&
          message_id <= message_id_;

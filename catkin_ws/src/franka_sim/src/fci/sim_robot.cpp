@@ -16,8 +16,8 @@ using franka_core::RobotError;
 
 namespace {
 
-/// A joint slower than this stands still: 100 ticks of it are below what the arm's sensors resolve
-/// (our choice).
+/// A joint slower than this stands still. Chosen here: the way of 100 ticks at this speed is below
+/// the resolution of the arm's sensors.
 constexpr double kRest = 1e-4;  // [rad/s]
 
 std::string addressOf(const RobotServerParameters& parameters) { return parameters.address; }
@@ -66,7 +66,7 @@ void SimRobot::observe() {
   }
   unit_.observe(arm_.measure());
   if (hand_) {
-    // Its state goes out also while time stands still.
+    // The hand's state is sent even while time stands still.
     hand_->unit.observe(hand_->plant.measure());
   }
   for (std::size_t i = 0; tell_ && i < before.size(); i++) {
@@ -79,7 +79,7 @@ void SimRobot::observe() {
 
 void SimRobot::actuate() {
   if (!server_.motionHasBegun()) {
-    link_.clear();  // of what belonged to another motion
+    link_.clear();  // removes commands of another motion
   }
   const franka_core::RobotCommand* command = link_.pass(server_.takeCommand());
   hashing_ = hashing_ || command != nullptr;
@@ -104,7 +104,7 @@ void SimRobot::updateHash() noexcept {
   if (franka_core::fci::encodeState(9, state, bytes) != franka_core::fci::CodecError::kNone) {
     return;
   }
-  // Eight bytes at a time; the last ones by themselves.
+  // Eight bytes at a time; the remaining bytes one by one.
   std::size_t i = 0;
   for (; i + sizeof(std::uint64_t) <= bytes.size(); i += sizeof(std::uint64_t)) {
     std::uint64_t word;
@@ -165,7 +165,7 @@ bool SimRobot::hasClients() const {
 bool SimRobot::settling() const {
   const franka_core::RobotState& state = unit_.state();
   if (state.robot_mode == franka_core::RobotMode::kGuiding) {
-    return false;  // nothing brakes an arm that the user leads: it may never come to rest
+    return false;  // nothing brakes an arm in Guiding: it may never come to rest
   }
   const bool abandoned =
       state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();

@@ -11,7 +11,7 @@ using codec::Status;
 
 namespace {
 
-/// The requests that a control unit takes; the server answers the others.
+/// The requests that a control unit handles; the server answers the others.
 template <typename Request>
 constexpr bool kIsUnitRequest = std::is_constructible_v<UnitRequest, const Request&>;
 
@@ -22,7 +22,7 @@ void UnitRequestHandler::connected(std::uint16_t version) noexcept {
   applyVersion();
 }
 
-// A motion keeps the limits it began with, also where its client has died and another one is here.
+// A motion keeps its limits, even if its client has disconnected and another one has connected.
 void UnitRequestHandler::applyVersion() noexcept {
   if (version_ != 0 &&
       unit_.request(SetProtocolVersion{version_}) != Status::kCommandNotPossibleRejected) {
@@ -43,7 +43,7 @@ std::optional<Status> UnitRequestHandler::handle(const codec::Request& request) 
         return Status::kCommandNotPossibleRejected;
       },
       request);
-  // Clients stop after every failed motion, whatever the mode, and wait for the answer.
+  // Clients send StopMove after every failed motion, in any mode, and wait for the answer.
   return std::holds_alternative<codec::StopMoveRequest>(request) && status ? Status::kSuccess
                                                                            : status;
 }

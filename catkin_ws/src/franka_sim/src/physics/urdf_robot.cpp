@@ -227,7 +227,7 @@ UrdfJoint readJoint(const XMLElement& element, const UrdfRobot& robot, const std
   return joint;
 }
 
-/// The first <mu> or <mu1> below an element, at any depth (SDF nests it, old files do not).
+/// The first <mu> or <mu1> below an element, at any depth: SDF nests them, old files do not.
 const XMLElement* findFriction(const XMLElement& element) {
   for (auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {

@@ -49,7 +49,7 @@ struct UrdfJoint {
   double damping{0}, friction{0};  ///< of <dynamics> [Nm s/rad|N s/m], [Nm|N]
 };
 
-/// What physics needs of a URDF: a checked tree of links and joints.
+/// The part of a URDF that physics needs: a checked tree of links and joints.
 struct UrdfRobot {
   std::string name;
   std::vector<UrdfLink> links;
@@ -57,15 +57,15 @@ struct UrdfRobot {
   int root{-1};
   bool self_collide{true};  ///< <self_collide> of the <gazebo> element without a reference
 
-  /// Index of a link or joint, -1 when unknown.
+  /// Index of a link or joint, -1 if unknown.
   int link(const std::string& link_name) const noexcept;
   int joint(const std::string& joint_name) const noexcept;
 };
 
 /// Reads a URDF text.
-/// @throws std::runtime_error with a sentence that names the robot, the element and what is wrong:
-/// XML errors, duplicate names, unknown links, two roots or parents, loops, unsupported joint
-/// types, numbers that are none, limits in the wrong order, inertias that are not positive.
+/// @throws std::runtime_error that names the robot, the element and the error: XML errors,
+/// duplicate names, unknown links, two roots or parents, loops, unsupported joint types, values
+/// that are not numbers, limits in the wrong order, inertias that are not positive.
 UrdfRobot readUrdf(const std::string& text, const std::string& robot_name);
 
 }  // namespace franka_sim::physics

@@ -15,7 +15,7 @@ const ControlUnitParameters& checked(const ControlUnitParameters& parameters) {
   return parameters;
 }
 
-/// Takes a value that is good.
+/// Assigns a value if it is valid.
 template <typename T>
 Status assign(bool good, T& target, const T& value) noexcept {
   if (!good) {

@@ -15,14 +15,15 @@ using franka_core::RobotMode;
 
 namespace {
 
-// Holds the axes and the elbow that a guided arm is not free along. Chosen here, as stiff as
-// Cartesian impedance control starts with: the hold of a real robot is not published.
+// Stiffness of the axes and the elbow that are not free in Guiding. Chosen here: equal to the
+// initial values of Cartesian impedance control, because the stiffness of a real robot is not
+// published.
 constexpr double kGuidingTranslation = 3000.0;  // [N/m]
 constexpr double kGuidingRotation = 300.0;      // [Nm/rad]
 constexpr double kGuidingNullspace = 200.0;     // [Nm/rad]
 constexpr double kNullspace = 10.0;             // [Nm/rad], chosen here (decision 11)
 
-/// Fills what does not depend on the task.
+/// Fills the fields that do not depend on the task.
 CartesianImpedanceInput measuredInput(const ControlUnitParameters& parameters,
                                       const franka_core::RobotState& state,
                                       const franka_core::ArmDynamics& dynamics) noexcept {
@@ -96,7 +97,7 @@ std::array<double, 7> ControlLaws::law(const ControlTask& task,
     return guide(measuredInput(parameters, state, dynamics), task.guiding);
   }
   if (task.mode != RobotMode::kMove) {
-    // Holds a pose that was latched when the mode began (decision 6).
+    // Holds a pose that was latched at the start of the mode (decision 6).
     return joint_impedance(parameters.joint_stiffness);
   }
   switch (task.controller) {
@@ -118,7 +119,7 @@ std::array<double, 7> ControlLaws::compensation(
   for (std::size_t i = 0; i < 7; i++) {
     sum[i] = dynamics.gravity[i] + sum[i];
   }
-  // What is configured may be heavier than what a motor can hold.
+  // The configured payload may be heavier than a motor can hold.
   return saturate(sum, parameters.max_torque);
 }
 

@@ -13,13 +13,13 @@ namespace codec = franka_core::fci;
 
 namespace {
 
-/// The setters that change frames or loads, from which the desired pose is computed.
+/// The setters that change frames or loads, on which the desired pose depends.
 template <typename Setter>
 constexpr bool kChangesFrames =
     std::is_same_v<Setter, codec::SetNEToEERequest> ||
     std::is_same_v<Setter, codec::SetEEToKRequest> || std::is_same_v<Setter, codec::SetLoadRequest>;
 
-/// The setters that Configuration takes.
+/// The setters that Configuration applies.
 template <typename Setter>
 constexpr bool kConfigures =
     kChangesFrames<Setter> || std::is_same_v<Setter, codec::SetCollisionBehaviorRequest> ||
@@ -28,7 +28,7 @@ constexpr bool kConfigures =
 
 }  // namespace
 
-// The parts refer to each other, so they stay where they are made.
+// The parts refer to each other, so they must not move in memory.
 struct ControlUnit::Parts {
   explicit Parts(const ControlUnitParameters& parameters)
       : configuration(parameters),
@@ -58,7 +58,7 @@ struct ControlUnit::Parts {
 
   template <typename Setter>
   Status configure(const Setter& setter) noexcept {
-    // A generator's motion is computed for the end effector that it began with.
+    // A generator computes its motion for the end effector at its start.
     const bool fixed = std::is_same_v<Setter, codec::SetNEToEERequest> && supervisor.isMoving() &&
                        supervisor.generates();
     if (fixed || !supervisor.acceptsSetters()) {

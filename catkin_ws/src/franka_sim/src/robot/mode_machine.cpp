@@ -26,7 +26,7 @@ constexpr Transition kTransitions[] = {
 
     {RobotMode::kIdle, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
     {RobotMode::kMove, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
-    // The user must be able to lead the arm out of what no recovery can leave.
+    // Guiding must be able to move the arm out of poses from which no recovery is possible.
     {RobotMode::kReflex, ModeEvent::kGuidingStarted, RobotMode::kGuiding},
     {RobotMode::kGuiding, ModeEvent::kGuidingEnded, RobotMode::kIdle},
 

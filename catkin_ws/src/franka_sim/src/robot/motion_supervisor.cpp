@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What the supervisor does in each tick; requests and transitions: motion_supervisor_requests.cpp.
+// The supervisor's work in each tick; requests and transitions: motion_supervisor_requests.cpp.
 #include <franka_core/finite.h>
 #include <franka_sim/robot/deviation.h>
 #include <franka_sim/robot/elbow.h>
@@ -20,9 +20,9 @@ using franka_core::RobotMode;
 
 namespace {
 
-constexpr double kStandstill = 0.01;  // [rad/s] of a recovery's end (decision 16)
-constexpr int kStillTicks = 20;       // so long below it
-// Chosen here: braking and yielding take less than 1 s, so a recovery that takes longer has failed.
+constexpr double kStandstill = 0.01;  // [rad/s] below this speed a recovery may end (decision 16)
+constexpr int kStillTicks = 20;       // for at least this time
+// Chosen here: braking and yielding take less than 1 s, so a longer recovery has failed.
 constexpr int kRecoveryTicks = 5000;
 
 }  // namespace
@@ -76,7 +76,7 @@ void MotionSupervisor::judge(const std::array<double, 7>& motor_torques) noexcep
   state_.control_command_success_rate = losses_.rate();
 }
 
-// What a mode remembers of the pose in which it began belongs to this pose now.
+// Sets the stored poses of the present mode to the present pose.
 void MotionSupervisor::beginHere() noexcept {
   holdHere();
   guideFromHere();
@@ -85,7 +85,7 @@ void MotionSupervisor::beginHere() noexcept {
   }
 }
 
-// While no generator shows them: at rest or braking.
+// For states in which no generator sets these fields: at rest or braking.
 void MotionSupervisor::updateDesired() noexcept {
   if (!desired_stale_) {
     return;
@@ -131,7 +131,7 @@ ControlTask MotionSupervisor::takeTask() noexcept {
   return task;
 }
 
-// The filtered command; nullptr where none arrived or, without reflexes, its torques are not
+// The filtered command; nullptr if none arrived or if, without reflexes, its torques are not
 // finite.
 const franka_core::RobotCommand* MotionSupervisor::receive(
     const franka_core::RobotCommand* command) noexcept {
@@ -204,9 +204,9 @@ void MotionSupervisor::advanceRest() noexcept {
 
 void MotionSupervisor::advanceRecovery() noexcept {
   recovery_ticks_++;
-  // An arm that yields after a reflex but no longer moves need not go on waiting: a client that
-  // does not read states meanwhile finds those of 50 ms at most in its socket, and these should be
-  // over.
+  // The recovery need not wait for the end of the yield time if the arm no longer moves: the socket
+  // of a client that does not read states meanwhile holds at most those of 50 ms, and the recovery
+  // should be complete within them.
   const bool still =
       !rest_.isBraking() && std::all_of(state_.dq.begin(), state_.dq.end(),
                                         [](double dq) { return std::abs(dq) < kStandstill; });

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What a supervisor is requested to do, and its transitions between modes.
+// The supervisor's requests, and its transitions between modes.
 #include <franka_sim/robot/deviation.h>
 #include <franka_sim/robot/measured_limits.h>
 #include <franka_sim/robot/motion_supervisor.h>
@@ -16,7 +16,8 @@ using franka_core::RobotMode;
 
 namespace {
 
-// A generator needs a controller that follows it, or one outside; no generator, one outside.
+// A generator needs an internal controller that follows it, or an external one; without a
+// generator, the controller must be external.
 bool goTogether(const codec::MoveRequest& request) noexcept {
   if (request.motion_generator_mode == MotionGeneratorMode::kIdle ||
       request.controller_mode == ControllerMode::kOther) {
@@ -56,7 +57,7 @@ MotionSupervisor::Answer MotionSupervisor::handle(const codec::MoveRequest& requ
         break;
     }
   }
-  atRest();  // torques may overtake the braking of a motion
+  atRest();  // a torque motion may start while the arm still brakes
   move_ = request;
   answers_.motionBegins();
   state_.reflex_reason.fill(false);
@@ -108,7 +109,7 @@ MotionSupervisor::Answer MotionSupervisor::recover() noexcept {
   return std::nullopt;
 }
 
-// The FCI refuses what ros_control may request at any time.
+// Refused by the FCI outside Idle; ros_control may request it at any time.
 MotionSupervisor::Answer MotionSupervisor::recoverWithoutReflex() noexcept {
   if (configuration_.parameters().rules != InterfaceRules::kFci) {
     clearErrors();
@@ -229,7 +230,7 @@ void MotionSupervisor::raise(franka_core::RobotError error) noexcept {
   state_.errors[franka_core::indexOf(error)] = true;
 }
 
-// Errors end what runs.
+// Errors end a running motion.
 void MotionSupervisor::react() noexcept {
   if (anyError(state_) && (isMoving() || mode() == RobotMode::kIdle)) {
     state_.reflex_reason = state_.errors;
@@ -237,8 +238,8 @@ void MotionSupervisor::react() noexcept {
   }
 }
 
-// Any event that ends a motion if one runs; the status is the motion's and that of what still waits
-// for rest: a stop, or a motion that the client has finished.
+// Handles any event that ends a motion if one runs. The status is for the motion and for requests
+// that still wait for rest: a stop, or a motion that the client has finished.
 void MotionSupervisor::endMotion(ModeEvent event, Status status, bool at_rest) noexcept {
   const RobotMode before = mode();
   if (!change(event)) {
@@ -321,10 +322,10 @@ void MotionSupervisor::enterMove() noexcept {
   filter_.begin(state_);
 }
 
-// Idle that cannot stay: the stop is still pressed, or an error has not been recovered from.
+// Leaves Idle again if the user stop is still pressed or an error remains.
 void MotionSupervisor::settle() noexcept {
   if (hasReflexes()) {
-    // The shock of closing brakes, or the hands of the user, are no collisions.
+    // The shock of closing brakes and the forces of guiding are not collisions.
     estimator_.clearContacts();
   }
   if (user_stop_) {
@@ -340,7 +341,7 @@ void MotionSupervisor::clearErrors() noexcept {
   estimator_.clearContacts();
 }
 
-// The desired motion comes to rest; without one, the measured motion does.
+// Brakes the desired motion; without one, the measured motion.
 void MotionSupervisor::brake() noexcept {
   const bool desired = state_.motion_generator_mode != MotionGeneratorMode::kIdle &&
                        state_.motion_generator_mode != MotionGeneratorMode::kNone &&

@@ -6,7 +6,7 @@ namespace franka_sim {
 
 namespace {
 
-constexpr int kYieldTicks = 200;   // after a reflex the arm yields so long (decision 16)
+constexpr int kYieldTicks = 200;   // duration of yielding after a reflex (decision 16)
 constexpr int kReflexTicks = 200;  // then braking restarts (decision 16)
 
 }  // namespace
@@ -31,7 +31,7 @@ RestSequence::Step RestSequence::step(bool reflex, const std::array<double, 7>& 
   }
   brake_.step();
   if (reflex && ticks_ == kReflexTicks && !brake_.atRest()) {
-    // From here on the arm does not press on what it has met (decision 16).
+    // From here on the arm does not press on an obstacle (decision 16).
     brake_.start(q, dq, ddq);
   }
   if (!brake_.atRest()) {

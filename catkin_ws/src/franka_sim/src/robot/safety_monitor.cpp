@@ -50,7 +50,7 @@ void SafetyMonitor::checkMotion(const franka_core::fci::MoveRequest& motion,
                                 const std::array<double, 7>& motor_torques) noexcept {
   const ControlUnitParameters& parameters = configuration_.parameters();
   const bool outside = motion.controller_mode == ControllerMode::kExternalController;
-  // An external controller may move the arm anywhere, also beside a motion generator's profile.
+  // An external controller may move the arm anywhere, even if a motion generator runs.
   const bool generated = !outside && motion.motion_generator_mode != MotionGeneratorMode::kNone;
   if (self_collision_.violated(parameters.model, generated ? state_.q_d : state_.q)) {
     raise(RobotError::kSelfCollisionAvoidanceViolation);
@@ -74,8 +74,8 @@ void SafetyMonitor::checkMotion(const franka_core::fci::MoveRequest& motion,
   }
 }
 
-// Chosen here, because no rule is published: the speed differs from the desired one by more than
-// the speed limit.
+// Chosen here, because no rule is published: the measured velocity differs from the desired one by
+// more than the limit of speed.
 bool SafetyMonitor::movesAgainstProfile(const franka_core::fci::MoveRequest& motion,
                                         const MotionLimits& limits) const noexcept {
   const bool cartesian = motion.motion_generator_mode == MotionGeneratorMode::kCartesianPosition ||

@@ -21,7 +21,7 @@ using franka_core::MotionGeneratorMode;
 using franka_core::RobotMode;
 using franka_test::TestClient;
 
-/// Answers with values that the test sets.
+/// Returns values that the test sets.
 class FakeRequestHandler final : public ArmRequestHandler {
  public:
   FakeRequestHandler() { shown.robot_mode = RobotMode::kIdle; }
@@ -105,7 +105,7 @@ class RobotServerTest : public ::testing::Test {
     }
     return true;
   }
-  /// Loopback delivers in the sender's call; a few calls let the server receive everything.
+  /// Loopback delivers within the sender's call; a few calls let the server receive everything.
   void serve(bool stops_only = false) {
     for (int i = 0; i < 3; i++) {
       server_.serve(stops_only);

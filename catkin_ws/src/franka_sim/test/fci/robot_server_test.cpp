@@ -38,7 +38,7 @@ TEST_F(RobotServerTest, AnswersItsVersionAndAcceptsAnImmediateReconnect) {
     EXPECT_EQ(answer->reply.server_version, 5);
     EXPECT_FALSE(server.hasClient());
     other.close();
-    // The server may see both events in one call.
+    // The server may receive both events in one call.
     TestClient again(server.port());
     again.connect(5);
     const auto second = answerOf(server, again, Command::kConnect);
@@ -108,7 +108,7 @@ TEST_F(RobotServerTest, RunsAMotionFromStartToEnd) {
     EXPECT_EQ(taken->q_c[2], 0.25);
     EXPECT_EQ(server_.takeCommand(), nullptr);
     EXPECT_TRUE(server_.motionHasBegun());
-    // The end shows first in the state, then in the reply.
+    // The state shows the end first, then the reply follows.
     handler_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
     serve();
     EXPECT_FALSE(client.answer(Command::kMove, 20));
@@ -147,7 +147,7 @@ TEST_F(RobotServerTest, AcceptsOnlyTheAnswerToTheLastState) {
   EXPECT_TRUE(isTaken(id));
   server_.publish();
   EXPECT_FALSE(isTaken(id));
-  // Time stands still: an answer to either state of the moment counts.
+  // Time does not advance: an answer to either state of this moment is accepted.
   server_.publish(1, true);
   EXPECT_TRUE(isTaken(id + 1));
 }
@@ -305,7 +305,7 @@ TEST_F(RobotServerTest, DropsInvalidDatagrams) {
     std::copy(bytes.begin(), bytes.end(), cut.begin());
     if (size != codec::commandSize(5)) {
       client.sendDatagram(cut.data(), size);
-      server_.serve();  // so that more of them fit
+      server_.serve();  // resets the limit of datagrams per call of serve
       EXPECT_FALSE(server_.receiveCommand()) << size;
     }
   }
@@ -413,7 +413,7 @@ TEST_F(RobotServerTest, RefusesInvalidRequests) {
   connect(client, 5);
   codec::RequestMessage message;
   codec::encodeRequest(5, 3, codec::MoveRequest{}, message);
-  message.data[12] = 9;  // no such controller
+  message.data[12] = 9;  // no valid controller
   client.sendBytes(message.data, message.size);
   serve();
   EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kInvalidArgumentRejected);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A robot with its unit, link and server, ticked by the test.
+// A robot with its unit, link and server. The test calls each tick.
 #include <franka_core/limits.h>
 #include <franka_sim/fci/served_models.h>
 #include <franka_sim/fci/serving.h>

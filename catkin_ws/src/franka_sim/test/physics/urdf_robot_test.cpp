@@ -149,7 +149,7 @@ TEST(RobotModelTest, FusesFixedLinks) {
   }
 }
 
-// An encoder never shows a target to the last bit, and clients divide by the way that is left.
+// An encoder never shows the exact target, and clients divide by the remaining distance.
 TEST(ComeToRest, IsAWayOfATenthOfAMilliradianFromTheTarget) {
   RobotDescription description = robot("panda");
   description.initial_positions.erase("panda_joint3");

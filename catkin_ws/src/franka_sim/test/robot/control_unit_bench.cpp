@@ -47,7 +47,7 @@ void tick(benchmark::State& state, bool motion) {
 void idleTick(benchmark::State& state) { tick(state, false); }
 void torqueControlTick(benchmark::State& state) { tick(state, true); }
 
-/// A complete tick as over the FCI, with every check; the arm follows its commands.
+/// A complete tick with the rules of the FCI and all checks; the arm follows its commands.
 void fciTick(benchmark::State& state, franka_core::MotionGeneratorMode generator,
              franka_core::ControllerMode controller) {
   ControlUnitParameters p = parameters();

@@ -73,7 +73,7 @@ TEST_F(ArmTest, ZeroTorqueAtRestDriftsLessThanATenthOfAMilliradianInTenSeconds) 
 }
 
 TEST_F(ArmTest, AMissingFingerMassInTheLoadLetsTheArmDrift) {
-  // Shows that the previous test can fail: the plant is not fixed in place.
+  // Shows that the previous test can fail: the plant can move.
   arm.payload.mass += 0.03;
   startTorqueControl();
   const franka_core::RobotCommand zero;

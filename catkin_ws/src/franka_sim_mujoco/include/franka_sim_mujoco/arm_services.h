@@ -15,14 +15,14 @@
 
 namespace franka_sim_mujoco {
 
-/// Teleports a joint of the robot, between ticks. @throws std::runtime_error with a sentence for an
-/// impossible position
+/// Teleports a joint of the robot, between ticks. @throws std::runtime_error for an impossible
+/// position
 using PlaceJoint = std::function<void(const std::string& joint, double position)>;
 
-/// The services and the recovery action of a simulated arm: under `franka_control` in its namespace
-/// those of the robot's own node and set_user_stop, in the namespace itself
-/// set_franka_model_configuration. They run in service and action threads and access the arm
-/// between ticks. Bad requests are answered with success = false and a sentence, and change
+/// The services and the recovery action of a simulated arm: those of the robot's own node and
+/// set_user_stop under `franka_control` in its namespace, set_franka_model_configuration in the
+/// namespace itself. They run in service and action threads and access the arm between ticks.
+/// Invalid requests return success = false and a message, and change nothing.
 /// nothing.
 class ArmServices {
  public:

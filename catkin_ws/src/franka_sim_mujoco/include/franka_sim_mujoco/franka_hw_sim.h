@@ -28,13 +28,13 @@ namespace franka_sim_mujoco {
 
 /// A simulated Panda or FR3 as ros_control hardware, with the eight interfaces of franka_hw: joint
 /// states, joint positions, velocities and efforts, franka state, franka model, Cartesian pose and
-/// Cartesian velocity. Joints are offered as the URDF's transmissions declare them; who has the
-/// franka state has the Cartesian interfaces too. Every command and every state goes through the
-/// arm's ControlUnit. The hand's fingers, when there are any, are two more effort joints.
-/// Other joints of the URDF, of a lift or a mobile base, are driven beside the arm (DeviceJoints).
+/// Cartesian velocity. The transmissions of the URDF declare the interfaces of the joints; the
+/// franka state includes the Cartesian interfaces. All commands and states pass through the arm's
+/// ControlUnit. The hand's fingers, if there are any, are two more effort joints. Other joints of
+/// the URDF, of a lift or a mobile base, are controlled separately from the arm (DeviceJoints).
 ///
-/// Position and velocity handles show what is wanted of the joints (q_d, dq_d), effort and state
-/// handles what is measured. Claims may be combined as on the robot (resource_helpers.h).
+/// Position and velocity handles show desired values (q_d, dq_d), effort and state handles measured
+/// ones. Claims may be combined as on the robot (resource_helpers.h).
 ///
 /// Threads and real-time safety: RobotHWSim. Parameters, services and topics: docs of the package.
 class FrankaHWSim : public RobotHWSim {
@@ -51,15 +51,15 @@ class FrankaHWSim : public RobotHWSim {
   void eStopActive(bool active) override;
   void worldWasReset() override;
 
-  /// The claim rules of franka_hw; the log says what is refused.
+  /// The claim rules of franka_hw; refusals are logged.
   bool checkForConflict(
       const std::list<hardware_interface::ControllerInfo>& controllers) const override;
-  /// Refuses controllers whose claims this hardware does not serve; the log says why.
+  /// Refuses controllers whose claims this hardware does not support; the reason is logged.
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                 const std::list<hardware_interface::ControllerInfo>& stop_list) override;
-  /// Ongoing while the arm comes to rest for the next motion; an error when it cannot start.
+  /// Ongoing while the arm comes to rest for the next motion; an error if it cannot start.
   SwitchState switchResult() const override;
   SwitchState switchResult(const hardware_interface::ControllerInfo& controller) const override;
 

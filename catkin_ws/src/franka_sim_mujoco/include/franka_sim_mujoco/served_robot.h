@@ -12,17 +12,17 @@ namespace franka_sim_mujoco {
 
 struct RobotPlan;
 
-/// A robot of the ROS world that is served over the FCI at its own address, like franka_sim,
-/// instead of being driven by controllers in the simulation's process. Services under `franka_sim`
-/// in its namespace replace the operator (docs/franka_sim.md): the commands of the program's
-/// control interface that concern one robot.
+/// A robot of the ROS world that is served over the FCI at its own address, as in franka_sim,
+/// instead of being commanded by controllers in the simulation's process. Services under
+/// `franka_sim` in its namespace replace the operator (docs/franka_sim.md): the commands of the
+/// program's control interface for one robot.
 ///
 /// Created by the stepping thread between ticks, which also runs `robot`; destroyed by any thread
 /// after the host has removed it.
 class ServedRobot {
  public:
   /// @param plan of a robot that is in the world
-  /// @throws std::runtime_error, std::invalid_argument with a sentence
+  /// @throws std::runtime_error, std::invalid_argument with a message for the user
   ServedRobot(const RobotPlan& plan, const RobotHandle& robot);
 
   franka_sim::fci::SimRobot& robot() noexcept { return robot_; }

@@ -17,24 +17,25 @@
 
 namespace franka_sim_mujoco {
 
-/// How an arm under ros_control behaves beside its control unit's own parameters.
+/// Options of an arm under ros_control besides its control unit's own parameters.
 struct SimArmOptions {
-  /// Weight of a new sample of external torque and wrench, 0 to 1 (1: no filter on top of the
+  /// Weight of a new sample of external torque and wrench, 0 to 1 (1: no filter in addition to the
   /// control unit's own).
   double filter_alpha{1.0};
   ShapingOptions shaping{};
-  /// The controller of the robot that follows motions without torques of the user's.
+  /// The internal controller that follows motions without torques of a user's controller.
   franka_core::ControllerMode internal_controller{franka_core::ControllerMode::kJointImpedance};
 };
 
-/// One arm under ros_control: the control unit between the plant and the controllers, the state
-/// they see, and whether their commands reach it.
+/// One arm under ros_control: connects its control unit with the plant and the controllers,
+/// provides the state for the controllers, and decides whether their commands reach the control
+/// unit.
 ///
-/// The stepping thread owns it; read, write and the control* functions are real-time safe (no
-/// allocation, lock, log or throw). What is marked so may be asked by any thread.
+/// Called by the stepping thread, except for the functions that are thread-safe. read, write and
+/// the control* functions: Real-time safe.
 class SimArm {
  public:
-  /// How far a switch of the controllers is.
+  /// The progress of a switch of controllers.
   enum class Switch {
     kDone,     ///< the motion runs; or none can, and the controllers are disconnected
     kOngoing,  ///< the arm must come to rest before its next motion
@@ -43,70 +44,70 @@ class SimArm {
   /// Why the last motion did not start.
   enum class Refusal { kNone, kSingular, kNotAtRest };
 
-  /// What ended a motion.
+  /// The cause of the end of a motion.
   struct Abort {
-    std::uint64_t count{0};  ///< of motions that errors have ended so far
+    std::uint64_t count{0};  ///< number of motions that errors have ended so far
     std::array<bool, franka_core::kErrorCount> errors{};
     franka_sim::Collision joint_collision, cartesian_collision;
-    std::array<double, 16> pose{};  ///< that was commanded last
+    std::array<double, 16> pose{};  ///< the last commanded pose
   };
 
   SimArm(const franka_sim::ControlUnitParameters& parameters, franka_sim::ArmPlant& plant,
          const SimArmOptions& options);
 
-  /// First half of a tick: refreshes `state`, and starts a motion that was waiting for rest.
+  /// First half of a tick: updates `state`, and starts a motion that waits for rest.
   void read(const ros::Time& time) noexcept;
-  /// Second half: what the connected controllers command reaches the unit. Torques that are not
-  /// finite are ignored as a whole, the last ones are held; other commands that are not finite end
-  /// the motion with an error.
+  /// Second half: passes the commands of the connected controllers to the unit. If a torque is not
+  /// finite, all torques are ignored and the last ones are held; other commands that are not finite
+  /// end the motion with an error.
   void write() noexcept;
 
   /// The controllers of the arm change. Torques alone connect at once; motions when the arm rests.
-  /// Commands are reset to where the arm is wanted. Nothing is connected while the user stop is
-  /// pressed, after an error or without connection, see needsRecovery().
-  /// @param mode what will be claimed @param without what is claimed if the new controllers cannot
-  /// start after all
+  /// Commands are reset to the desired position and the commanded pose. No controllers are
+  /// connected while the user stop is pressed, after an error or without connection, see
+  /// needsRecovery().
+  /// @param mode of the new claims @param without mode of the claims that remain if the new
+  /// controllers cannot start
   void control(franka_hw::ControlMode mode, franka_hw::ControlMode without) noexcept;
   /// Running controllers were restarted: connects them again after a recovery.
   void controlRestarts() noexcept;
   Switch switchResult() const noexcept { return switch_; }
-  /// What is claimed, connected or not.
+  /// The mode of the claims, connected or not.
   franka_hw::ControlMode mode() const noexcept { return mode_; }
 
-  /// The external activation device. Pressed: brakes; commands stay without effect until a
-  /// recovery.
+  /// The external activation device. Pressed: brakes; commands have no effect until a recovery.
   void setUserStop(bool pressed) noexcept;
   /// Begins a recovery. @returns false while the user stop is pressed, the brakes are closed, or
   /// the arm stands beyond a limit after an error
   bool recover() noexcept;
   /// Whether a recovery still waits for standstill.
   bool recovering() const noexcept;
-  /// Takes or gives back the connection that controllers command through.
-  /// @returns false when controllers command the arm
+  /// Begins or ends the connection that controllers use for their commands.
+  /// @returns false if controllers command the arm
   bool setConnected(bool connected) noexcept;
 
-  /// The world was reset: what runs starts anew from where the arm stands in the next tick.
+  /// The world was reset: a running motion starts again, in the next tick, at the arm's position.
   void worldWasReset() noexcept;
-  /// The joints were put elsewhere: the arm holds there, and its controllers, which would lead it
-  /// back, are disconnected until they are restarted.
+  /// The joints were moved to other positions: the arm holds there. Its controllers, which would
+  /// move it back, are disconnected until they are restarted.
   void jointsWerePlaced() noexcept;
 
   franka_sim::ControlUnit& unit() noexcept { return unit_; }
   franka::RobotState& state() noexcept { return state_; }
   ArmCommands& commands() noexcept { return commands_; }
 
-  /// Any thread.
+  /// Thread-safe.
   bool userStopped() const noexcept { return user_stopped_.load(std::memory_order_relaxed); }
   bool connected() const noexcept { return connected_.load(std::memory_order_relaxed); }
-  /// Whether the arm waits for franka_control/error_recovery. Any thread.
+  /// Whether the arm waits for franka_control/error_recovery. Thread-safe.
   bool needsRecovery() const noexcept { return faulty_.load(std::memory_order_relaxed); }
-  /// How many commands were not finite so far. Any thread.
+  /// Number of commands so far that were not finite. Thread-safe.
   std::uint64_t refusedCommands() const noexcept {
     return refused_commands_.load(std::memory_order_relaxed);
   }
-  /// How the last motion was ended by errors, for the log. One thread.
+  /// How errors ended the last motion, for the log. One thread.
   const Abort& lastAbort() noexcept { return abort_.read(); }
-  /// Why the last switch was refused. Any thread.
+  /// The reason of the last refusal. Thread-safe.
   Refusal refusal() const noexcept { return refusal_.load(std::memory_order_relaxed); }
 
  private:
@@ -120,7 +121,7 @@ class SimArm {
   void watch() noexcept;
   const franka_core::RobotCommand* command() noexcept;
   void filter() noexcept;
-  /// Brings what controllers see up to date.
+  /// Updates the state that controllers read.
   void show() noexcept;
   void showContacts() noexcept;
 

@@ -10,8 +10,9 @@ namespace franka_core {
 class FnvHash {
  public:
   void addByte(std::uint8_t byte) noexcept { value_ = (value_ ^ byte) * kPrime; }
-  /// Eight bytes at once: fast enough for every tick. FNV-1a alone would leave the lower bits of
-  /// the value without what the upper ones of the word say; they are shifted down by `mix` bits.
+  /// Adds eight bytes at once: fast enough for every tick. In FNV-1a alone the upper bits of the
+  /// word would not change the lower bits of the value; therefore the value is shifted down by
+  /// `mix` bits and combined.
   void addWord(std::uint64_t word, unsigned mix) noexcept {
     value_ = (value_ ^ word) * kPrime;
     value_ ^= value_ >> mix;

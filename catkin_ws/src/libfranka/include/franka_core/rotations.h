@@ -6,12 +6,12 @@
 #include <Eigen/Geometry>
 
 /// @file
-/// Rotations, and their vectors: the axis of a rotation, as long as its angle [rad]. Real-time
+/// Rotations and rotation vectors: the direction is the axis, the length the angle [rad]. Real-time
 /// safe.
 
 namespace franka_core {
 
-/// The rotation about a vector by its length.
+/// The rotation about a vector by the vector's length.
 inline Eigen::Matrix3d rotationFrom(const Eigen::Vector3d& vector) noexcept {
   const double angle = vector.norm();
   if (!(angle > 0.0)) {
@@ -20,7 +20,7 @@ inline Eigen::Matrix3d rotationFrom(const Eigen::Vector3d& vector) noexcept {
   return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
 }
 
-/// The vector of a rotation.
+/// The rotation vector of a rotation.
 inline Eigen::Vector3d vectorOf(const Eigen::AngleAxisd& turn) noexcept {
   return turn.angle() * turn.axis();
 }
@@ -28,8 +28,8 @@ inline Eigen::Vector3d vectorOf(const Eigen::Matrix3d& rotation) noexcept {
   return vectorOf(Eigen::AngleAxisd(rotation));
 }
 
-/// The twist that leads from one pose (4x4) to another within a period [s]: linear, then angular,
-/// axes of the frame that both poses are given in.
+/// The constant twist from one pose (4x4) to another in a period [s]: linear, then angular, in the
+/// axes of the frame of both poses.
 inline Eigen::Matrix<double, 6, 1> twistBetween(const Eigen::Matrix4d& from,
                                                 const Eigen::Matrix4d& to, double period) noexcept {
   const Eigen::Matrix3d turn = to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose();
@@ -39,8 +39,8 @@ inline Eigen::Matrix<double, 6, 1> twistBetween(const Eigen::Matrix4d& from,
   return twist;
 }
 
-/// The rotation by roll, pitch and yaw about fixed axes, as URDF and SDF have them:
-/// Rz(yaw) Ry(pitch) Rx(roll).
+/// The rotation by roll, pitch and yaw about fixed axes, as in URDF and SDF: Rz(yaw) Ry(pitch)
+/// Rx(roll).
 inline Eigen::Matrix3d rotationFromRpy(const Eigen::Vector3d& rpy) noexcept {
   return (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
           Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
@@ -48,9 +48,9 @@ inline Eigen::Matrix3d rotationFromRpy(const Eigen::Vector3d& rpy) noexcept {
       .toRotationMatrix();
 }
 
-/// The rotation nearest to a matrix that nearly is one. Newton's iteration for the polar factor:
-/// unlike a detour over quaternions it is smooth, so that rounded matrices cause no jerk. Errors of
-/// 1e-5 vanish in three steps (1e-10, 1e-20).
+/// The rotation nearest to a matrix that is almost a rotation. Newton's iteration for the polar
+/// factor: unlike a conversion over quaternions it is smooth, so that rounded matrices cause no
+/// jerk. Errors of 1e-5 vanish in three steps (1e-10, 1e-20).
 inline Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& matrix) noexcept {
   Eigen::Matrix3d rotation = matrix;
   for (int i = 0; i < 3; i++) {

@@ -20,32 +20,33 @@
 namespace franka_sim::fci {
 
 struct RobotServerParameters {
-  std::string address{"127.0.0.1"};                  ///< of this robot alone
+  std::string address{"127.0.0.1"};                  ///< used by this robot only
   std::uint16_t port{franka_core::fci::kRobotPort};  ///< 0: the system chooses
-  std::uint16_t oldest_version{3};                   ///< of the range that is answered
-  std::uint16_t newest_version{5};                   ///< told to clients outside the range
-  std::vector<std::uint8_t> model_library;           ///< for versions up to 9; empty: there is none
-  /// For versions from 8 on; each from its version up to the next one's. Empty: there is none.
+  std::uint16_t oldest_version{3};                   ///< the oldest version that is accepted
+  std::uint16_t newest_version{5};          ///< the newest; sent to clients outside the range
+  std::vector<std::uint8_t> model_library;  ///< for versions up to 9; empty: there is none
+  /// For versions from 8 on; each is used from its version up to the next key. Empty: there is
+  /// none.
   std::map<std::uint16_t, std::string> urdfs;
 };
 
-/// The network face of one robot: the TCP channel of requests and the UDP exchange of states and
-/// commands. Speaks for an ArmRequestHandler; knows nothing of time: the owner says when a state
-/// goes out and how long it waits for the answer.
+/// The network interface of one robot: the TCP channel of requests and the UDP exchange of states
+/// and commands. Passes requests to an ArmRequestHandler. Has no clock: the owner decides when a
+/// state is sent and how long to wait for the answer.
 ///
-/// One client at a time; a second one is turned away (its connection is reset, so that it fails at
-/// once instead of waiting), and none can take more than a little of a millisecond (ClientSlot). A
-/// Connect within a motion, or while another answer is due, is refused: a client keeps the version
-/// that it has begun with. A client that vanishes leaves its motion without commands; the control
-/// unit then does what it does when commands stay away. With the interface switched off (see
-/// ArmRequestHandler::active) the client is dropped, after what it is due, and nobody can connect.
+/// One client at a time: the connection of a second client is reset, so that it fails at once
+/// instead of waiting. No client can use more than a small part of a millisecond (ClientSlot). A
+/// Connect within a motion, or while another answer is due, is refused: a client keeps its first
+/// version. If a client vanishes, its motion gets no more commands; the control unit handles this
+/// as lost commands. When the interface is switched off (see ArmRequestHandler::active), the client
+/// is dropped after its pending answers, and no client can connect.
 ///
-/// One thread. publish, receiveCommand and takeCommand are real-time safe where the client takes
-/// its answers; serve allocates only when connections come and go, or are slower than their
-/// answers.
+/// Called by one thread. publish, receiveCommand and takeCommand are real-time safe if the client
+/// reads its answers; serve allocates only when connections begin or end, or when a client reads
+/// more slowly than its answers arrive.
 class RobotServer {
  public:
-  /// @throws std::runtime_error with a sentence when the port cannot be opened.
+  /// @throws std::runtime_error if the port cannot be opened.
   RobotServer(RobotServerParameters parameters, ArmRequestHandler& handler);
   ~RobotServer();
 
@@ -53,43 +54,44 @@ class RobotServer {
   bool hasClient() const noexcept { return version_ != 0; }
   /// See ClientSlot::onRefusal.
   void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
-  /// What the client has not taken yet [bytes]; models are not copied for it.
+  /// The bytes that the client has not read yet; models are not copied for this purpose.
   std::size_t unsentBytes() noexcept {
     return slot_.client() == nullptr ? 0 : slot_.client()->unsentBytes();
   }
-  /// Of the connected client; 0 without one.
+  /// The version of the connected client; 0 without one.
   std::uint16_t version() const noexcept { return version_; }
 
-  /// Accepts, reads and answers what has arrived.
+  /// Accepts, reads and answers the requests that have arrived.
   /// @param stops_only leaves every request but Connect and StopMove for a later call.
   void serve(bool stops_only = false);
 
-  /// Sends the handler's state, `ticks` after the last one, then the replies that were waiting for
-  /// the client to see it.
-  /// @param same_moment time stands still since the last one: an answer to any state of this moment
-  /// counts.
+  /// Sends the handler's state, `ticks` after the last one, then the replies that had to wait until
+  /// this state was sent.
+  /// @param same_moment time has not advanced since the last state: an answer to any state of this
+  /// moment is accepted.
   void publish(std::uint64_t ticks = 1, bool same_moment = false);
-  /// Sends the last state once more, byte for byte. Clients drop what is no newer than what they
-  /// have, but see that the robot is there.
+  /// Sends the last state once more, byte for byte. Clients drop it, because it is not newer than
+  /// their last state, but detect that the robot is connected.
   void repeat() noexcept;
-  /// A reply waits until the next state is out.
+  /// Whether a reply waits until the next state is sent.
   bool hasNews() const noexcept {
     return motion_end_ || stop_end_ || recovery_end_ || answered_setter_count_ > 0;
   }
 
-  /// Reads datagrams; keeps the command that answers the last state. @returns whether it is there.
+  /// Reads datagrams and keeps the command that answers the last state. @returns whether it has
+  /// arrived.
   bool receiveCommand() noexcept;
-  /// The answer to the last state, once; nothing if there is none.
+  /// The answer to the last state, returned once; nothing if there is none.
   const franka_core::RobotCommand* takeCommand() noexcept;
-  /// A motion runs for this client, which commands it.
+  /// Whether a motion runs that this client commands.
   bool expectsCommands() const noexcept;
-  /// That motion is one of the asynchronous generator: the client sends a target when it has one,
-  /// and any state of the motion may be the last it has read. Otherwise a command is due each tick.
+  /// Whether that motion uses the asynchronous generator: the client may send a target at any time,
+  /// and its last state may be any state of the motion. Otherwise a command is due each tick.
   bool asynchronous() const noexcept { return asynchronous_ && expectsCommands(); }
-  /// The motion has had its first command.
+  /// Whether the motion has had its first command.
   bool motionHasBegun() const noexcept { return begun_; }
 
-  /// The TCP sockets to poll, and the UDP socket where there is a client.
+  /// The TCP sockets to poll, and the UDP socket if there is a client.
   void addDescriptors(std::vector<pollfd>& fds) const;
   void addCommandDescriptor(std::vector<pollfd>& fds) const;
 
@@ -98,12 +100,12 @@ class RobotServer {
     franka_core::fci::Command command;
     std::uint32_t id;
   };
-  // A setter's answer; it follows the first state that shows what was set.
+  // A setter's answer; it follows the first state that contains the new setting.
   struct Answered {
     Pending request;
     franka_core::fci::Status status;
   };
-  static constexpr std::size_t kMostAnswered = 8;  // genuine clients have one at a time
+  static constexpr std::size_t kMostAnswered = 8;  // genuine clients have one pending
   static constexpr int kDatagramsAtOnce = 64;      // that are no answer, between calls of serve
 
   void forgetClient() noexcept;

@@ -22,9 +22,8 @@
 
 namespace franka_sim::fci {
 
-/// One robot on the network: control unit, hand and vacuum gripper on their plants, and their
-/// servers.
-/// One thread.
+/// One robot on the network: control unit, hand and vacuum gripper with their plants and servers.
+/// Called by one thread.
 class SimRobot final : public HostedRobot {
  public:
   struct Hand {
@@ -37,9 +36,9 @@ class SimRobot final : public HostedRobot {
     std::uint16_t port{franka_core::fci::kVacuumGripperPort};  ///< 0: the system chooses
   };
 
-  /// @param arm outlives the robot, as does the hand's plant.
-  /// @throws std::runtime_error with a sentence when a port cannot be opened,
-  /// std::invalid_argument when a parameter makes no sense.
+  /// @param arm outlives the robot, as the hand's plant does.
+  /// @throws std::runtime_error if a port cannot be opened, std::invalid_argument if a parameter is
+  /// invalid.
   SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
            const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {});
 
@@ -48,7 +47,7 @@ class SimRobot final : public HostedRobot {
   const RobotServer& server() const noexcept { return server_; }
   std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->server.port() : 0; }
   std::uint16_t vacuumPort() const noexcept { return vacuum_ ? vacuum_->server.port() : 0; }
-  /// Null where the robot has none.
+  /// Null if the robot has none.
   VacuumGripperUnit* vacuum() noexcept { return vacuum_ ? &vacuum_->unit : nullptr; }
 
   /// Sets the function that reports a self-collision or a contact reflex, once each time the error
@@ -56,18 +55,18 @@ class SimRobot final : public HostedRobot {
   /// `observe`.
   void onCollision(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
 
-  /// Who is told why connections were ended (ClientSlot::onRefusal): what follows the robot's name
-  /// and a colon. Called within `serve`.
+  /// Sets the function that reports why connections were ended (ClientSlot::onRefusal). Its
+  /// argument is the text after the robot's name and a colon. It is called within `serve`.
   void onRefusal(const ClientSlot::Tell& tell);
 
-  /// Hash of all states from the first answered one on, without their ids: equal hash, equal run
-  /// (decision 21).
+  /// Hash of all states from the first answered one on, without their ids: equal hashes mean equal
+  /// runs (decision 21).
   std::uint64_t hash() const noexcept { return hash_.value(); }
-  /// After the world was reset: as after the start; the hash begins anew. To be followed by
-  /// `observe`, once: the one of the next tick, or within a tick one more.
+  /// Call after a reset of the world: restores the condition after the start; the hash restarts.
+  /// Then call `observe` once: in the next tick, or once more within a tick.
   void restart() noexcept;
-  /// The world has stopped for good: what runs is aborted, and closed brakes say that nothing can
-  /// be done until `restart`, which opens them.
+  /// The world has stopped for good: running motions and requests are aborted, and closed brakes
+  /// show that no motion is possible until `restart`, which opens them.
   void halt() noexcept;
 
   void observe() override;
@@ -82,7 +81,7 @@ class SimRobot final : public HostedRobot {
   bool motionHasBegun() const override { return server_.motionHasBegun(); }
   bool settling() const override;
   bool handBusy() const override;
-  /// Somebody is connected, to the arm or to the hand.
+  /// Whether a client is connected to the arm or to the hand.
   bool hasClients() const;
   void addDescriptors(std::vector<pollfd>& fds) const override;
   void addCommandDescriptor(std::vector<pollfd>& fds) const override {

@@ -10,7 +10,7 @@
 
 namespace franka_sim::fci {
 
-/// Translates requests of the protocol for a control unit, and the unit's results back.
+/// Translates requests of the protocol for a control unit, and translates the unit's results back.
 class UnitRequestHandler final : public ArmRequestHandler {
  public:
   /// @param unit outlives the handler.
@@ -28,7 +28,7 @@ class UnitRequestHandler final : public ArmRequestHandler {
   void applyVersion() noexcept;
 
   ControlUnit& unit_;
-  std::uint16_t version_{0};  // of a client that came while the motion of another one ran; else 0
+  std::uint16_t version_{0};  // of a client that connected during another one's motion; otherwise 0
 };
 
 }  // namespace franka_sim::fci

@@ -10,25 +10,25 @@
 
 namespace franka_sim {
 
-/// The configuration of a control unit: the parameters it started with, as requests have changed
-/// them since. One thread. But for the constructor: Real-time safe.
+/// The configuration of a control unit: its initial parameters with the changes by requests. Called
+/// by one thread. Except for the constructor: Real-time safe.
 class Configuration {
  public:
-  /// @throws std::invalid_argument with a sentence that names the parameter which makes no sense.
+  /// @throws std::invalid_argument that names the invalid parameter.
   explicit Configuration(const ControlUnitParameters& parameters);
 
   const ControlUnitParameters& parameters() const noexcept { return parameters_; }
-  /// End effector and load together.
+  /// Payload of end effector and load together.
   const franka_core::Payload& payload() const noexcept { return payload_; }
-  /// Of joint impedance control [Nm/rad].
+  /// Stiffness of joint impedance control [Nm/rad].
   const std::array<double, 7>& jointStiffness() const noexcept { return joint_stiffness_; }
   bool hasReflexes() const noexcept { return franka_sim::hasReflexes(parameters_.rules); }
 
-  /// Each takes a request, or refuses it (kInvalidArgumentRejected) and changes nothing: frames
-  /// that are not rigid or beyond 10 m, loads that no arm can hold (payloadFault), thresholds that
-  /// are not finite or negative, stiffnesses out of range (parameter_checks.h), other versions than
-  /// 3 to 10. A lower threshold may lie above the upper one: with reflexes there are then no
-  /// contacts.
+  /// Each function applies a request, or refuses it (kInvalidArgumentRejected) and changes nothing:
+  /// frames that are not rigid or beyond 10 m, loads that no arm can hold (payloadFault),
+  /// thresholds that are not finite or negative, stiffnesses out of range (parameter_checks.h),
+  /// versions other than 3 to 10. A lower threshold may lie above the upper one: with reflexes
+  /// there are then no contacts.
   Status apply(const franka_core::fci::SetNEToEERequest& request) noexcept;
   Status apply(const franka_core::fci::SetEEToKRequest& request) noexcept;
   Status apply(const franka_core::fci::SetLoadRequest& request) noexcept;

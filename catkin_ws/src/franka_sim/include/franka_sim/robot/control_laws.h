@@ -11,26 +11,26 @@
 
 namespace franka_sim {
 
-/// How the torque of one tick continues that of the tick before.
+/// How the torque of one tick continues the torque of the previous tick.
 enum class LawSwitch {
   kNone,
-  kBlend,     ///< the law changes, the torque without a step
-  kFromZero,  ///< the next law begins with nothing: what it gives acts at once
+  kBlend,     ///< the law changes, but the torque has no step
+  kFromZero,  ///< the next law starts at zero: its torque acts at once
 };
 
 /// What holds a guided arm along the axes that are not free.
 struct GuidingTask {
   std::array<bool, 6> free{{true, true, true, true, true, true}};  ///< x, y, z, R, P, Y of K
   bool elbow_free{true};
-  std::array<double, 16> O_T_EE{};  ///< where guiding began
+  std::array<double, 16> O_T_EE{};  ///< the pose in which guiding began
   std::array<double, 7> q{};
 };
 
-/// What the control laws have to do in a tick.
+/// The task of the control laws in a tick.
 struct ControlTask {
   franka_core::RobotMode mode{franka_core::RobotMode::kIdle};
   franka_core::ControllerMode controller{franka_core::ControllerMode::kOther};  ///< in Move
-  std::array<double, 7> tau{};  ///< of an external controller [Nm]
+  std::array<double, 7> tau{};  ///< torques of an external controller [Nm]
   GuidingTask guiding;
   LawSwitch law_switch{LawSwitch::kNone};
 };
@@ -40,22 +40,22 @@ struct ControlTask {
 ///
 ///     tau_motor = blend(saturate(law)) + saturate(gravity + friction)
 ///
-/// Gravity is that of the configured load too. One thread. Real-time safe.
+/// Gravity includes the configured load. Called by one thread. Real-time safe.
 class ControlLaws {
  public:
   /// @param configuration outlives the laws.
   explicit ControlLaws(const Configuration& configuration) noexcept
       : configuration_(configuration) {}
 
-  /// The motor torques of the coming tick [Nm]. @param dynamics at the measured state, frame EE
+  /// The motor torques of the next tick [Nm]. @param dynamics at the measured state, frame EE
   const std::array<double, 7>& torques(const ControlTask& task,
                                        const franka_core::RobotState& state,
                                        const franka_core::ArmDynamics& dynamics) noexcept;
-  /// No torque acts: the brakes are closed, or nothing has been measured yet.
+  /// Zero torques: the brakes are closed, or there has been no measurement yet.
   const std::array<double, 7>& rest() noexcept;
   void restart() noexcept { blend_.restart(); }
 
-  /// Of the last tick [Nm]: what the law gave, saturated, without gravity; and the motor torques.
+  /// Torques of the last tick [Nm]: of the law, saturated, without gravity; and of the motors.
   const std::array<double, 7>& law() const noexcept { return law_; }
   const std::array<double, 7>& motorTorques() const noexcept { return motor_torques_; }
 

@@ -16,79 +16,79 @@
 
 namespace franka_sim {
 
-/// What Franka's control cabinet does, once a millisecond.
+/// The functions of Franka's control cabinet, once per millisecond.
 ///
-/// A tick has two halves: `observe` turns a measurement into state k; `actuate` takes the command
-/// that answers state k (or none) and gives the torques that act until k+1. Requests are made
-/// between these calls. A request shows in `state()` at once where it sets a mode or a
-/// configuration; what is computed from them follows with the next `observe`.
+/// A tick has two halves: `observe` computes state k from a measurement; `actuate` takes the
+/// command that answers state k (or none) and computes the torques that act until k+1. Requests are
+/// made between these calls. `state()` shows modes and settings of a request at once; values
+/// computed from them follow with the next `observe`.
 ///
-/// Its parts: StateEstimator, MotionSupervisor, ControlLaws. One thread owns a unit. But for the
-/// constructor: Real-time safe. Nothing in it asks a clock, so the same inputs give the same states
-/// bit for bit. Frames and units: franka_core::RobotState.
+/// Its parts: StateEstimator, MotionSupervisor, ControlLaws. Called by one thread. Except for the
+/// constructor: Real-time safe. Uses no clock, so the same inputs give bitwise identical states.
+/// Frames and units: franka_core::RobotState.
 class ControlUnit {
  public:
   /// Starts in Idle and holds the pose of the first measurement.
-  /// @throws std::invalid_argument with a sentence that names the parameter which makes no sense.
+  /// @throws std::invalid_argument that names the invalid parameter.
   explicit ControlUnit(const ControlUnitParameters& parameters);
   ~ControlUnit();
   ControlUnit(ControlUnit&& other) noexcept;
   ControlUnit& operator=(ControlUnit&& other) noexcept;
 
   /// First half of a tick. The reference stays valid for the unit's life. The first sample after
-  /// the start or a restart shows gravity as tau_J and no external torque; a sample that is not
-  /// finite is replaced by the last good pose at rest.
+  /// the start or a restart gives gravity as tau_J and no external torque; a sample that is not
+  /// finite is replaced by the last finite pose at rest.
   const franka_core::RobotState& observe(const ArmMeasurement& measurement) noexcept;
 
-  /// Second half: the motor torques for the coming tick [Nm]: the present control law, saturated,
+  /// Second half: the motor torques for the next tick [Nm]: the present control law, saturated,
   /// plus gravity of the configured load and friction compensation.
-  /// @param command nullptr when none arrived: motion generators then go on with the same
-  /// acceleration, the last torque is held. With reflexes, a command that is not finite or not
-  /// within the limits ends the motion, as do 20 lost in a row, but for the asynchronous generator,
-  /// whose targets come at any time; without reflexes, a torque that is not finite counts as none.
+  /// @param command nullptr if none arrived: motion generators then continue with the same
+  /// acceleration, and the last torque is held. With reflexes, a motion ends after a command that
+  /// is not finite or not within the limits, and after 20 lost commands in a row, except with the
+  /// asynchronous generator, whose targets come at any time; without reflexes, a torque that is not
+  /// finite counts as a lost command.
   const std::array<double, 7>& actuate(const franka_core::RobotCommand* command) noexcept;
 
   const franka_core::RobotState& state() const noexcept;
 
-  /// Makes a request. @returns how it is answered, or nothing where takeAnswer() tells it later.
+  /// Makes a request. @returns its answer, or nothing if takeAnswer() returns it later.
   ///
   /// Every request that the present mode does not allow: kCommandNotPossibleRejected. Setters are
-  /// refused in Move over the FCI, not under ros_control; bad values (Configuration::apply,
-  /// CommandFilter, VirtualWalls): kInvalidArgumentRejected.
+  /// refused in Move with the rules of the FCI, but not with those of ros_control; invalid values
+  /// (Configuration::apply, CommandFilter, VirtualWalls): kInvalidArgumentRejected.
   ///
-  /// * Move: kMotionStarted, after which takeAnswer(kMotion) tells the end (for a Cartesian motion
-  ///   at a singular pose: kStartAtSingularPoseRejected, at once). Not possible outside Idle, while
-  ///   the arm still brakes, or with the FCI inactive. kInvalidArgumentRejected for deviations or
-  ///   velocities that are not positive, or a controller and a generator that do not go together.
+  /// * Move: kMotionStarted, then takeAnswer(kMotion) returns the end (for a Cartesian motion at a
+  ///   singular pose: kStartAtSingularPoseRejected, at once). Not possible outside Idle, while the
+  ///   arm still brakes, or with the FCI inactive. kInvalidArgumentRejected for deviations or
+  ///   velocities that are not positive, or if controller and generator cannot be combined.
   ///   The end: kSuccess, kPreempted (both once the arm rests), kStartAtSingularPoseRejected,
   ///   kReflexAborted, kEmergencyAborted (user stop), kAborted (guiding, brakes, FCI inactive).
-  /// * StopMove: ends the motion (Preempted) and brakes; nothing at once. takeAnswer(kStop):
+  /// * StopMove: ends the motion (kPreempted) and brakes; no answer at once. takeAnswer(kStop):
   ///   kSuccess once the arm rests, or kReflexAborted, kEmergencyAborted, kAborted before.
   /// * AutomaticErrorRecovery: in Reflex clears errors and latched collisions once the arm stands
-  ///   still, nothing at once; takeAnswer(kRecovery): kSuccess, kEmergencyAborted, or kAborted
+  ///   still; no answer at once. takeAnswer(kRecovery): kSuccess, kEmergencyAborted, or kAborted
   ///   (guiding, brakes, no standstill within 5 s). In Idle: kSuccess. While the user stop is
-  ///   pressed or a joint stands beyond its limits: kManualErrorRecoveryRequiredRejected. Not
-  ///   possible in Move and Guiding (FCI only; ros_control clears what contacts it has) and with
-  ///   closed brakes.
-  /// * SetGuidingMode: the axes of K along which the user may lead the arm, and whether the elbow
-  /// is
-  ///   free. At first all are.
+  ///   pressed or a joint is beyond its limits: kManualErrorRecoveryRequiredRejected. Not possible
+  ///   in Move and Guiding (FCI only; with ros_control it clears latched contacts) and with closed
+  ///   brakes.
+  /// * SetGuidingMode: the axes of K along which the user may move the arm, and whether the elbow
+  ///   is free. Initially all are free.
   std::optional<Status> request(const UnitRequest& request) noexcept;
-  /// The answer to an earlier request, once.
+  /// The answer to an earlier request, returned once.
   std::optional<Status> takeAnswer(PendingAnswer which) noexcept;
 
-  /// After the arm was put elsewhere (reset, teleport): forgets velocities, filters, commands and
-  /// collisions, and holds the new pose. A motion of a generator, whose way does not lead from
-  /// there, ends (kAborted); what waits for the arm to come to rest is answered as at rest. Else
-  /// the mode and the configuration stay.
+  /// Call after the arm was moved to another pose (reset, teleport): clears velocities, filters,
+  /// commands and collisions, and holds the new pose. A motion of a generator ends (kAborted),
+  /// because its path does not start there; answers that wait for the arm to come to rest are given
+  /// as at rest. Otherwise the mode and the configuration stay.
   void restart() noexcept;
 
   UnitStatus status() const noexcept;
-  /// As requests have changed it.
+  /// The parameters with the changes by requests.
   const ControlUnitParameters& configuration() const noexcept;
-  /// What motions are held to.
+  /// The limits of motions.
   const MotionLimits& limits() const noexcept;
-  /// The virtual wall of that number; nullptr if there is no such number. See VirtualWalls.
+  /// The virtual wall with that number; nullptr if there is no such number. See VirtualWalls.
   const franka_core::fci::CartesianLimit* virtualWall(std::int32_t id) const noexcept;
 
  private:

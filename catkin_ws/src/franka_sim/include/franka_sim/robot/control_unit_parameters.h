@@ -16,13 +16,13 @@ struct CollisionThresholds {
   std::array<double, 6> lower_force, upper_force;
 };
 
-/// The rules of the interface through which a robot is commanded (protocol 5.1) (decision 15).
+/// The rules of the interface that commands a robot (protocol 5.1) (decision 15).
 enum class InterfaceRules {
   /// A robot: collisions, violated limits and lost commands end a motion; setters are refused in
   /// Move; the Cartesian thresholds are for O_F_ext_hat_K.
   kFci,
   /// The ROS simulation: contacts and collisions are only shown; setters are accepted in Move; the
-  /// Cartesian thresholds are for K_F_ext_hat_K, as its manual says.
+  /// Cartesian thresholds are for K_F_ext_hat_K, as in the manual of the ROS simulation.
   kRosControl,
   /// The ROS simulation with the reflexes of a robot.
   kRosControlWithReflexes,
@@ -39,15 +39,15 @@ constexpr bool judgesWrenchInBase(InterfaceRules rules) noexcept {
   return rules == InterfaceRules::kFci;
 }
 
-/// Flange to the hand's nominal end effector: turned by -45 deg about z, 0.1034 m along it
+/// From the flange to the hand's nominal end effector: turned by -45 deg about z, 0.1034 m along z
 /// (protocol 8.3).
 constexpr std::array<double, 16> kHandF_T_NE{
     M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1};
 
-/// Of the idle hold, and of joint impedance control until it is set [Nm/rad] (decision 11).
+/// Stiffness of the idle hold, and initial value of joint impedance control [Nm/rad] (decision 11).
 constexpr std::array<double, 7> kJointStiffness{3000, 3000, 3000, 2500, 2500, 2000, 2000};
 
-/// The configuration a control unit starts with. Thresholds are the defaults of the original
+/// The initial configuration of a control unit. Default thresholds are those of the original
 /// franka_gazebo; the source of each other default stands beside it.
 struct ControlUnitParameters {
   franka_core::ArmModel model;
@@ -70,7 +70,7 @@ struct ControlUnitParameters {
                               {{20, 20, 20, 25, 25, 25}}};
   CollisionThresholds acceleration{nominal};
   std::array<double, 7> joint_stiffness{kJointStiffness};
-  /// Of Cartesian impedance control until it is set [N/m, Nm/rad] (decision 11).
+  /// Initial value of Cartesian impedance control [N/m, Nm/rad] (decision 11).
   std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
   bool has_hand{true};           ///< for the avoidance of self-collisions
   unsigned protocol_version{5};  ///< selects the limits (decisions 8, 25)

@@ -6,7 +6,7 @@
 
 namespace franka_sim {
 
-/// What can change the robot's mode.
+/// The events that can change the robot's mode.
 enum class ModeEvent {
   kMotionStarted,
   kMotionEnded,
@@ -24,7 +24,7 @@ enum class ModeEvent {
 constexpr int kModeEventCount = 12;
 
 /// The robot's mode and the table of its transitions (protocol 5.1). An event without a transition
-/// from the present mode changes nothing. Real-time safe; one thread.
+/// from the present mode changes nothing. Called by one thread. Real-time safe.
 class ModeMachine {
  public:
   franka_core::RobotMode mode() const noexcept { return mode_; }

@@ -23,10 +23,10 @@
 
 namespace franka_sim {
 
-/// Decides what the arm does: modes, motions and their commands, stops, reflexes and recovery.
-/// Writes the modes, errors and desired fields of the robot's state.
+/// Controls modes, motions and their commands, stops, reflexes and recovery. Writes the modes,
+/// errors and desired fields of the robot's state.
 ///
-/// One thread. Real-time safe.
+/// Called by one thread. Real-time safe.
 class MotionSupervisor {
  public:
   using Answer = std::optional<Status>;  ///< nothing: answered later
@@ -37,14 +37,14 @@ class MotionSupervisor {
 
   // --- a tick ---
 
-  /// @returns the collision thresholds that hold in this tick.
+  /// @returns the collision thresholds of this tick.
   const CollisionThresholds& beginTick() noexcept;
-  /// First half: judges the state that the estimator has just updated.
+  /// First half: checks the state that the estimator has just updated.
   /// @param motor_torques of the tick that led to it [Nm]
   void judge(const std::array<double, 7>& motor_torques) noexcept;
-  /// Second half: takes the command that answers the state, or nullptr where none arrived.
+  /// Second half: takes the command that answers the state, or nullptr if none arrived.
   void advance(const franka_core::RobotCommand* command) noexcept;
-  /// What the control laws have to do; the switch of the law is told once.
+  /// The task of the control laws; a switch of the law is returned once.
   ControlTask takeTask() noexcept;
 
   // --- requests, see ControlUnit::request ---
@@ -62,11 +62,11 @@ class MotionSupervisor {
   Answer handle(const ClientLost& request) noexcept;
   Answer take(PendingAnswer which) noexcept { return answers_.take(which); }
 
-  /// The arm was put elsewhere, see ControlUnit::restart.
+  /// The arm was moved to another pose, see ControlUnit::restart.
   void restart() noexcept;
-  /// Frames or loads have changed: the desired pose is computed anew.
+  /// Frames or loads have changed: the desired pose is computed again.
   void framesChange() noexcept { desired_stale_ = true; }
-  /// The limits of the configured protocol version hold from the next motion on.
+  /// The limits of the configured protocol version apply from the next motion on.
   void limitsChange() noexcept;
 
   bool isMoving() const noexcept { return mode() == franka_core::RobotMode::kMove; }
@@ -135,7 +135,7 @@ class MotionSupervisor {
   LossMonitor losses_;
   bool accelerating_{false};
   ThresholdPhase phase_;
-  bool in_acceleration_{false};  // the thresholds of acceleration hold
+  bool in_acceleration_{false};  // the thresholds of acceleration apply
 
   RestSequence rest_;
   int recovery_ticks_{0}, still_ticks_{0};

@@ -8,8 +8,8 @@
 
 namespace franka_sim {
 
-/// The answers of a control unit that are due later than their requests: how a motion, a stop or a
-/// recovery ended. Each answer is taken once. Real-time safe; one thread.
+/// The answers of a control unit that are due later than their requests: the results of a motion, a
+/// stop or a recovery. Each answer is taken once. Called by one thread. Real-time safe.
 class PendingAnswers {
  public:
   std::optional<Status> take(PendingAnswer which) noexcept;
@@ -23,18 +23,18 @@ class PendingAnswers {
   /// The motion has ended; the answer is due when the arm rests.
   void motionEndsAtRest(Status status) noexcept { motion_at_rest_ = status; }
   void recoveryEnds(Status status) noexcept { recovery_ = status; }
-  /// Something came before the arm rested: the answer to a motion that waits for rest is due now.
-  /// A motion that had ended well ends with this status, another one with its own.
+  /// An event came before the arm rested: the answer to a motion that waits for rest is due now. A
+  /// motion that had succeeded gets this status; any other motion keeps its own.
   void interruptMotion(Status status) noexcept;
-  /// The same for a stop, which ends with this status.
+  /// The same for a stop, which gets this status.
   void interruptStop(Status status) noexcept;
-  /// The arm rests: what waits for that is due.
+  /// The arm rests: the answers that wait for rest are due.
   void atRest() noexcept;
 
   bool waitForRest() const noexcept { return motion_at_rest_.has_value() || stopping_; }
 
  private:
-  std::optional<Status> motion_, stop_, recovery_;  // due
+  std::optional<Status> motion_, stop_, recovery_;  // due now
   std::optional<Status> motion_at_rest_;
   bool stopping_{false};  // the answer to a stop waits for rest
 };

@@ -8,15 +8,16 @@
 
 namespace franka_sim {
 
-/// How an arm comes to rest: its desired motion brakes; after a reflex the arm then yields for a
-/// while, so that it does not press on what it has met (decision 16). Real-time safe; one thread.
+/// Brings an arm to rest: its desired motion brakes; after a reflex the arm then yields for a
+/// limited time, so that it does not press on an obstacle (decision 16). Called by one thread.
+/// Real-time safe.
 class RestSequence {
  public:
-  /// What the desired pose does in a tick.
+  /// The behaviour of the desired pose in a tick.
   enum class Step {
     kNone,    ///< nothing: the arm rests
     kBrakes,  ///< follows braking()
-    kStops,   ///< the same, and comes to rest with it
+    kStops,   ///< the same, and comes to rest in this tick
     kYields,  ///< follows the measured pose
   };
 
@@ -26,7 +27,7 @@ class RestSequence {
   /// The arm is held where it is.
   void finish() noexcept { phase_ = Phase::kReached; }
 
-  /// One tick. @param reflex whether an error is what the arm brakes for @param q, dq measured
+  /// One tick. @param reflex whether the arm brakes because of an error @param q, dq measured
   Step step(bool reflex, const std::array<double, 7>& q, const std::array<double, 7>& dq,
             const std::array<double, 7>& ddq) noexcept;
 

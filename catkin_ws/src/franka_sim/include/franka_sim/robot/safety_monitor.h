@@ -15,8 +15,8 @@
 
 namespace franka_sim {
 
-/// Judges each measured state: limits, collisions, self-collision, virtual walls, deviation from
-/// the desired pose. Raises error flags in the state. One thread. Real-time safe.
+/// Checks each measured state: limits, collisions, self-collision, virtual walls, deviation from
+/// the desired pose. Raises error flags in the state. Called by one thread. Real-time safe.
 class SafetyMonitor {
  public:
   /// @param configuration, estimator, state outlive the monitor.
@@ -27,14 +27,14 @@ class SafetyMonitor {
         state_(state),
         self_collision_(configuration.parameters().has_hand) {}
 
-  /// A motion begins at the measured pose: it may leave a self-collision or a wall it is in.
+  /// A motion begins at the measured pose: it may leave a present self-collision or virtual wall.
   void motionBegins() noexcept;
   /// Another control law acts from now on.
   void lawChanges() noexcept { force_watch_.restart(); }
 
-  /// What is judged in every mode: measured limits and collisions.
+  /// The checks in every mode: measured limits and collisions.
   void check(const MotionLimits& limits, const CollisionThresholds& thresholds) noexcept;
-  /// What is judged in a motion. @param motor_torques of the tick that led to this state [Nm]
+  /// The checks in a motion. @param motor_torques of the tick that led to this state [Nm]
   void checkMotion(const franka_core::fci::MoveRequest& motion, const MotionLimits& limits,
                    const std::array<double, 7>& motor_torques) noexcept;
 

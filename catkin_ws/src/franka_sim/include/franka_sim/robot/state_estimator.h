@@ -15,10 +15,10 @@
 
 namespace franka_sim {
 
-/// What is estimated from the measurements and not part of the state.
+/// Estimates from the measurements that are not part of the state.
 struct Estimate {
-  bool first{true};      ///< of the first sample since the start or a restart
-  bool measured{false};  ///< the sample continues a good one: rates and torques are valid
+  bool first{true};      ///< the first sample since the start or a restart
+  bool measured{false};  ///< this sample continues a finite one: rates and torques are valid
   franka_core::ArmDynamics dynamics{};  ///< of frame EE
   std::array<double, 7> tau_ext{};      ///< unfiltered [Nm]
   std::array<double, 6> wrench{};       ///< unfiltered, in the axes of the thresholds [N, Nm]
@@ -28,7 +28,7 @@ struct Estimate {
 /// From measurement to state: poses, torques, external torques and wrenches, contacts,
 /// accelerations. Writes the measured fields of the robot's state.
 ///
-/// One thread. But for the constructor: Real-time safe.
+/// Called by one thread. Except for the constructor: Real-time safe.
 class StateEstimator {
  public:
   /// @param configuration, state outlive the estimator.
@@ -37,19 +37,19 @@ class StateEstimator {
         state_(state),
         external_torque_(configuration.parameters().substeps) {}
 
-  /// One tick. The first sample after the start or a restart has no tick of motor torques behind
-  /// it: tau_J then shows gravity, as the sensor of a resting arm does, and the external torque is
-  /// 0. A sample that is not finite is replaced by the last good pose at rest.
-  /// @param thresholds that hold in this tick
+  /// One tick. The first sample after the start or a restart has no motor torques of a previous
+  /// tick: tau_J is then gravity, as the sensor of a resting arm measures, and the external torque
+  /// is 0. A sample that is not finite is replaced by the last finite pose at rest.
+  /// @param thresholds of this tick
   void update(const ArmMeasurement& measurement, const CollisionThresholds& thresholds) noexcept;
 
   const Estimate& estimate() const noexcept { return estimate_; }
   /// Whether there was a measurement since the start or a restart.
   bool started() const noexcept { return started_; }
 
-  /// Forgets latched collisions.
+  /// Clears latched collisions.
   void clearContacts() noexcept;
-  /// The arm was put elsewhere: forgets velocities, filters and collisions.
+  /// The arm was moved to another pose: clears velocities, filters and collisions.
   void restart() noexcept;
 
  private:
@@ -61,7 +61,7 @@ class StateEstimator {
   franka_core::RobotState& state_;
   Estimate estimate_;
   bool started_{false};
-  bool continuous_{false};  // the last sample was good and of the same motion
+  bool continuous_{false};  // the last sample was finite and of the same motion
   ExternalTorque external_torque_;
   ExternalWrench external_wrench_;
   LowPass<7> tau_ext_filter_, dtau_J_filter_;

@@ -9,19 +9,19 @@
 #include <variant>
 
 /// @file
-/// What can be requested of a control unit: the requests of the FCI, and those that the operator or
-/// the server makes. ControlUnit::request says how each one is answered.
+/// The requests of a control unit: those of the FCI, and those of the operator or the server. Their
+/// answers: ControlUnit::request.
 
 namespace franka_sim {
 
 using Status = franka_core::fci::Status;
 
-/// The external activation device: pressed stops any motion and closes the brakes, released gives
-/// Idle, or Reflex if there were errors.
+/// The external activation device: pressed stops any motion and closes the brakes; released leads
+/// to Idle, or to Reflex if there were errors.
 struct UserStop {
   bool pressed;
 };
-/// The user takes the arm by its guiding buttons, or lets go.
+/// The user starts or ends guiding of the arm with its guiding buttons.
 struct Guiding {
   bool active;
 };
@@ -37,11 +37,11 @@ struct SetVirtualWall {
   std::int32_t id;
   franka_core::fci::CartesianLimit wall;
 };
-/// The version, 3 to 10, whose limits hold from the next motion on.
+/// The version, 3 to 10, whose limits apply from the next motion on.
 struct SetProtocolVersion {
   unsigned version;
 };
-/// The motion that runs gets no more commands. A motion of the asynchronous generator, in which a
+/// The running motion gets no more commands. A motion of the asynchronous generator, in which a
 /// client may be silent for any time, then ends as others do: after 20 lost commands in a row.
 struct ClientLost {};
 
@@ -56,9 +56,9 @@ using UnitRequest = std::variant<
 
 /// The requests that are answered later than they are made.
 enum class PendingAnswer {
-  kMotion,    ///< how a motion ended
-  kStop,      ///< that the arm rests after StopMove
-  kRecovery,  ///< how an error recovery ended
+  kMotion,    ///< the result of a motion
+  kStop,      ///< the arm rests after StopMove
+  kRecovery,  ///< the result of an error recovery
 };
 
 inline franka_core::fci::SetLoadRequest loadRequest(const franka_core::Payload& load) noexcept {
@@ -72,7 +72,7 @@ inline franka_core::fci::SetCollisionBehaviorRequest collisionRequest(
           nominal.lower_force,       nominal.upper_force};
 }
 
-/// A Move request for torques from outside without a motion generator.
+/// A Move request for torques of an external controller without a motion generator.
 inline franka_core::fci::MoveRequest torqueControl() noexcept {
   franka_core::fci::MoveRequest request;
   request.controller_mode = franka_core::ControllerMode::kExternalController;

@@ -8,20 +8,20 @@
 
 namespace franka_sim {
 
-/// What a control unit knows beside franka_core::RobotState.
+/// Status of a control unit that is not part of franka_core::RobotState.
 struct UnitStatus {
   bool brakes_closed{false};  ///< the joints are locked (UserStopped, Other)
   bool user_stop_pressed{false};
   bool fci_active{true};
-  /// Time must go on though no client answers: the arm brakes or recovers.
+  /// Time must advance even if no client answers: the arm brakes or recovers.
   bool settling{false};
-  /// The end of a motion or of a stop is answered only once the arm has come to rest.
+  /// The end of a motion or of a stop is answered only after the arm has come to rest.
   bool answers_at_rest{false};
-  /// The thresholds of contact and collision that hold in this tick.
+  /// The thresholds of contact and collision in this tick.
   CollisionThresholds thresholds;
-  /// What raised joint_reflex and cartesian_reflex, until they are recovered from.
+  /// The causes of joint_reflex and cartesian_reflex, until their recovery.
   Collision joint_collision, cartesian_collision;
-  /// The links that came too close, after self_collision_avoidance_violation.
+  /// The links that came too close; valid after self_collision_avoidance_violation.
   SelfCollision::Pair self_collision;
 };
 
