@@ -28,6 +28,9 @@ endfunction()
 if(NOT catkin_FOUND)
   enable_testing()
   find_package(GTest REQUIRED)
+  if(NOT TARGET GTest::gmock)
+    message(FATAL_ERROR "The tests of franka_sim need GoogleMock: install libgmock-dev.")
+  endif()
 endif()
 
 # One program each: rt_guard.h works in one translation unit of a program.
