@@ -93,7 +93,7 @@ class ArmConnection {
   bool needsRecovery() const noexcept;
   /// Clears the robot's error and ends the own one. A robot that is Idle has no error. If there is
   /// nothing to recover, only a warning is logged. Thread-safe. Not real-time safe.
-  /// @throws franka::Exception when the robot refuses or is not connected
+  /// @throws franka::Exception if the robot refuses or is not connected
   void recover();
   /// Sets what error_recovery does before it recovers. Call it before the first recovery.
   void beforeRecovery(std::function<void()> task) { before_recovery_ = std::move(task); }

@@ -48,11 +48,11 @@ namespace franka_hw {
 /// be claimed together: resource_helpers.h.
 ///
 /// Threads: one thread alternates between control(), while a controller commands the arm, and
-/// update() with readOnce() otherwise; it calls the controller manager in both. All virtual
-/// functions of the control cycle (read, write, update, enforceLimits, checkJointLimits, reset, the
-/// callbacks) are called by that thread and neither allocate, lock nor log. prepareSwitch, connect,
-/// disconnect and the services are called by other threads. A thread that communicates with the
-/// robot holds robotMutex(); control() holds it during a motion.
+/// update() with readOnce() otherwise; it calls the controller manager in both. That thread calls
+/// all virtual functions of the control cycle (read, write, update, enforceLimits,
+/// checkJointLimits, reset, the callbacks), which neither allocate, lock nor log: Real-time safe.
+/// Other threads call prepareSwitch, connect, disconnect and the services. A thread that
+/// communicates with the robot holds robotMutex(); control() holds it during a motion.
 class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owner {
  public:
   /// Thresholds of contact and collision, [Nm] and [N, Nm].
@@ -86,7 +86,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   virtual void setupParameterCallbacks(ros::NodeHandle& robot_hw_nh);
 
   /// Connects to the robot and sets its collision behavior; does nothing when connected.
-  /// @throws franka::Exception when the robot cannot be reached or refuses
+  /// @throws franka::Exception if the robot cannot be reached or refuses
   void connect() override;
   /// Ends the connection. @returns false, after logging the reason, while a controller commands the
   /// robot
@@ -198,7 +198,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   };
 
   /// One millisecond of a motion. @param command filled by write()
-  /// @throws std::invalid_argument when a controller commands NaN
+  /// @throws std::invalid_argument if a controller commands NaN
   /// @throws MotionInterrupted if the motion has to end while the robot moves
   template <typename T>
   T controlCallback(const T& command, Callback ros_callback, const franka::RobotState& robot_state,

@@ -11,7 +11,7 @@
 namespace franka_hw {
 
 /// The model that the robot provides, with the interface of all models. Layouts, units and frames:
-/// ModelBase. As real-time safe as franka::Model, which neither allocates nor locks.
+/// ModelBase. Real-time safe. (franka::Model neither allocates nor locks.)
 class Model : public ModelBase {
  public:
   /// @param model as from franka::Robot::loadModel

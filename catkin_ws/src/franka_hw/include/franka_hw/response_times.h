@@ -20,7 +20,7 @@ namespace franka_hw {
 /// by the wake-up of this host. The robot itself reports whether commands arrive in time
 /// (control_command_success_rate).
 ///
-/// One thread reports the cycles of motions (Real-time safe.); another one takes reports.
+/// One thread calls the functions of a motion, another one take(). Real-time safe.
 class ResponseTimes {
  public:
   using Clock = std::chrono::steady_clock;

@@ -70,7 +70,7 @@ void setupServices(franka::Robot& robot, std::mutex& robot_mutex, ros::NodeHandl
                    ServiceContainer& services);
 
 /// @name Implementation of the services
-/// @throws franka::Exception when the robot refuses or cannot be reached
+/// @throws franka::Exception if the robot refuses or cannot be reached
 /// @{
 void setCartesianImpedance(franka::Robot& robot,
                            const franka_msgs::SetCartesianImpedance::Request& req,

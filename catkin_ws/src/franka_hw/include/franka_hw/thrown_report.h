@@ -14,7 +14,7 @@ namespace franka_hw {
 class ThrownReport {
  public:
   /// @param where the name of the node or robot that runs the controller
-  /// @param advice the consequence for the robot, and what the user can do; a sentence
+  /// @param advice the consequence for the robot, and the next step for the user; a sentence
   void report(const std::string& where, const std::string& what, const std::string& advice) {
     const ros::WallTime now = ros::WallTime::now();
     if (what == last_ && now - said_ < ros::WallDuration(kPeriod)) {

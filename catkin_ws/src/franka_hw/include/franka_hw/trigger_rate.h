@@ -8,25 +8,25 @@
 
 namespace franka_hw {
 
-/// Says when a periodic thing is due, on ROS time.
+/// A trigger with a fixed rate on ROS time.
 ///
-/// Fires when at least one period has passed and advances its stamp by whole periods: 1000 Hz in a
-/// 1 kHz loop stay 1000 Hz, without a loss of phase (decision 24). Time that jumps back starts a
-/// new period there. Not thread-safe. With an explicit time real-time safe; without one as
-/// real-time safe as ros::Time::now(), which takes a lock under simulated time.
+/// Fires if at least one period has passed, and advances its stamp by whole periods: 1000 Hz in a
+/// 1 kHz loop stay 1000 Hz, without a loss of phase (decision 24). If time jumps back, a new period
+/// starts there. Called by one thread.
 class TriggerRate {
  public:
   /// @param rate [Hz], above zero. @throws std::invalid_argument otherwise.
   /// Reads ros::Time::now(), so ROS time must be initialised.
   explicit TriggerRate(double rate = 30.0);
 
-  /// @param start where the first period begins; ROS time need not be initialised.
+  /// @param start of the first period; ROS time need not be initialised.
   TriggerRate(double rate, const ros::Time& start);
 
-  /// True when a period has passed since the last time it was true; looks at ros::Time::now().
+  /// True if a period has passed since the last time it was true. Calls ros::Time::now(), which
+  /// takes a lock under simulated time; real-time safe only without simulated time.
   bool operator()();
 
-  /// The same with the loop's own time.
+  /// The same with the time of the loop. Real-time safe.
   bool operator()(const ros::Time& now) noexcept;
 
  private:

@@ -55,7 +55,8 @@ std::string urdfOf(const std::string& arm_id);
 /// A robot that follows its commands at once, and the parameters to find it.
 class FakeArm {
  public:
-  /// @param nh where `robot_description` is written; the other parameters stand below `arm_id`
+  /// @param nh where `robot_description` is written; the other parameters are written below
+  /// `arm_id`
   explicit FakeArm(const std::string& arm_id = "fr3", const ros::NodeHandle& nh = freshNamespace());
 
   static ros::NodeHandle freshNamespace();

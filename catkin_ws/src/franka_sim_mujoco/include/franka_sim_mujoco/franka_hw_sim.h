@@ -28,10 +28,11 @@ namespace franka_sim_mujoco {
 
 /// A simulated Panda or FR3 as ros_control hardware, with the eight interfaces of franka_hw: joint
 /// states, joint positions, velocities and efforts, franka state, franka model, Cartesian pose and
-/// Cartesian velocity. The transmissions of the URDF declare the interfaces of the joints; the
-/// franka state includes the Cartesian interfaces. All commands and states pass through the arm's
-/// ControlUnit. The hand's fingers, if there are any, are two more effort joints. Other joints of
-/// the URDF, of a lift or a mobile base, are controlled separately from the arm (DeviceJoints).
+/// Cartesian velocity. The transmissions of the URDF declare the interfaces of the joints; a robot
+/// with the franka state interface also has the Cartesian interfaces. All commands and states pass
+/// through the arm's ControlUnit. The hand's fingers, if there are any, are two more effort joints.
+/// Other joints of the URDF, of a lift or a mobile base, are controlled separately from the arm
+/// (DeviceJoints).
 ///
 /// Position and velocity handles show desired values (q_d, dq_d), effort and state handles measured
 /// ones. Claims may be combined as on the robot (resource_helpers.h).

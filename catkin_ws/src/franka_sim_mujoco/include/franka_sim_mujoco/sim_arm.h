@@ -105,7 +105,7 @@ class SimArm {
   std::uint64_t refusedCommands() const noexcept {
     return refused_commands_.load(std::memory_order_relaxed);
   }
-  /// How errors ended the last motion, for the log. One thread.
+  /// How errors ended the last motion, for the log. Called by one thread.
   const Abort& lastAbort() noexcept { return abort_.read(); }
   /// The reason of the last refusal. Thread-safe.
   Refusal refusal() const noexcept { return refusal_.load(std::memory_order_relaxed); }
