@@ -41,6 +41,8 @@ class Session:
         self.log = Path(log)
         self.environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{self.port}")
         self.environment.setdefault("ROS_HOSTNAME", "localhost")
+        # Debian 13's rospy does not flush: what a Python node prints would come when the node ends.
+        self.environment.setdefault("PYTHONUNBUFFERED", "1")
         self._command = ["roslaunch", "-p", str(self.port), *launch]
         self._process: subprocess.Popen | None = None
 
