@@ -52,7 +52,9 @@ struct ControlUnit::Parts {
       return Status::kCommandNotPossibleRejected;
     }
     const Status status = configuration.apply(request);
-    supervisor.limitsChange();
+    if (status == Status::kSuccess) {
+      supervisor.limitsChange();
+    }
     return status;
   }
 

@@ -140,7 +140,7 @@ const franka_core::RobotCommand* MotionSupervisor::receive(
   }
   const bool due = !move_.use_async_motion_generator;
   if ((due || command != nullptr) && losses_.record(command != nullptr) && hasReflexes()) {
-    raise(RobotError::kCommunicationConstraintsViolation);
+    safety_.raise(RobotError::kCommunicationConstraintsViolation);
   }
   return command == nullptr ? nullptr : &filter_.apply(*command);
 }
@@ -149,7 +149,7 @@ void MotionSupervisor::advanceMotion(const franka_core::RobotCommand* command) n
   const bool finished = generates() ? advanceGenerator(command)
                                     : command != nullptr && command->torque_command_finished;
   if (controlledOutside() && command != nullptr && !takeTorque(*command)) {
-    raise(RobotError::kControllerTorqueDiscontinuity);
+    safety_.raise(RobotError::kControllerTorqueDiscontinuity);
   }
   react();
   if (finished && isMoving()) {
@@ -160,7 +160,7 @@ void MotionSupervisor::advanceMotion(const franka_core::RobotCommand* command) n
 bool MotionSupervisor::advanceGenerator(const franka_core::RobotCommand* command) noexcept {
   const MotionStep step = generator_.step(command, configuration_.parameters().model);
   if (step.fault) {
-    raise(*step.fault);
+    safety_.raise(*step.fault);
     return false;
   }
   showDesired(generator_.desired());
@@ -177,7 +177,7 @@ bool MotionSupervisor::takeTorque(const franka_core::RobotCommand& command) noex
 void MotionSupervisor::finishMotion() noexcept {
   if (hasReflexes() && generates() && !controlledOutside() &&
       deviates(state_, move_.max_goal_deviation)) {
-    raise(RobotError::kMaxGoalPoseDeviationViolation);
+    safety_.raise(RobotError::kMaxGoalPoseDeviationViolation);
     react();
     return;
   }

@@ -226,10 +226,6 @@ void MotionSupervisor::restart() noexcept {
 
 // --- transitions ---------------------------------------------------------------------------------
 
-void MotionSupervisor::raise(franka_core::RobotError error) noexcept {
-  state_.errors[franka_core::indexOf(error)] = true;
-}
-
 // Errors end a running motion.
 void MotionSupervisor::react() noexcept {
   if (anyError(state_) && (isMoving() || mode() == RobotMode::kIdle)) {

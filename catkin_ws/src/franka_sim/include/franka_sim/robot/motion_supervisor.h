@@ -99,7 +99,6 @@ class MotionSupervisor {
   MotionStartResult startGenerator(const franka_core::fci::MoveRequest& request) noexcept;
   Answer recover() noexcept;
   Answer recoverWithoutReflex() noexcept;
-  void raise(franka_core::RobotError error) noexcept;
   void react() noexcept;
   void endMotion(ModeEvent event, Status status, bool at_rest) noexcept;
   void atRest() noexcept;

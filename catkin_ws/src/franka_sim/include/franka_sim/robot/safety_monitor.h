@@ -38,6 +38,10 @@ class SafetyMonitor {
   void checkMotion(const franka_core::fci::MoveRequest& motion, const MotionLimits& limits,
                    const std::array<double, 7>& motor_torques) noexcept;
 
+  /// Raises an error flag in the state.
+  void raise(franka_core::RobotError error) noexcept {
+    state_.errors[franka_core::indexOf(error)] = true;
+  }
   void clearCollisions() noexcept { joint_collision_ = cartesian_collision_ = Collision(); }
   const Collision& jointCollision() const noexcept { return joint_collision_; }
   const Collision& cartesianCollision() const noexcept { return cartesian_collision_; }
@@ -46,9 +50,6 @@ class SafetyMonitor {
   const VirtualWalls& walls() const noexcept { return walls_; }
 
  private:
-  void raise(franka_core::RobotError error) noexcept {
-    state_.errors[franka_core::indexOf(error)] = true;
-  }
   bool movesAgainstProfile(const franka_core::fci::MoveRequest& motion,
                            const MotionLimits& limits) const noexcept;
 
