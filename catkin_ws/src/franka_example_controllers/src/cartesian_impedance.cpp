@@ -1,6 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/rotations.h>
 #include <franka_example_controllers/cartesian_impedance.h>
 #include <franka_example_controllers/pseudo_inversion.h>
 
@@ -76,7 +75,8 @@ Eigen::Matrix<double, 6, 1> CartesianImpedance::poseError(
   const Eigen::Quaterniond left_to_turn = orientation.conjugate() * orientation_d_;
   Eigen::Vector3d turn = left_to_turn.vec();
   if (rotation_error_ == RotationError::kAxisAngle) {
-    turn = franka_core::vectorOf(Eigen::AngleAxisd(left_to_turn));
+    const Eigen::AngleAxisd angle_axis(left_to_turn);
+    turn = angle_axis.axis() * angle_axis.angle();
   }
   Wrench error;
   error << pose.topRightCorner<3, 1>() - position_d_, -(rotation * turn);

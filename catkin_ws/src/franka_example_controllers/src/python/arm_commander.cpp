@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arm_commander.h"
 
-#include <franka_core/rotations.h>
 #include <franka_example_controllers/command_claims.h>
 #include <franka_example_controllers/robot_handles.h>
 #include <franka_example_controllers/torque_rate.h>
@@ -33,8 +32,13 @@ constexpr double kLongestRest = 2.0;  // [s]
 std::array<double, 6> twistBetween(const std::array<double, 16>& from,
                                    const std::array<double, 16>& to, double period) {
   std::array<double, 6> twist;
-  Eigen::Map<Eigen::Matrix<double, 6, 1>>(twist.data()) =
-      franka_core::twistBetween(Matrix4::Map(from.data()), Matrix4::Map(to.data()), period);
+  const Eigen::Map<const Matrix4> a(from.data());
+  const Eigen::Map<const Matrix4> b(to.data());
+  const Eigen::Matrix3d rotation = b.topLeftCorner<3, 3>() * a.topLeftCorner<3, 3>().transpose();
+  const Eigen::AngleAxisd turn(rotation);
+  Eigen::Map<Eigen::Vector3d>(twist.data()) =
+      (b.topRightCorner<3, 1>() - a.topRightCorner<3, 1>()) / period;
+  Eigen::Map<Eigen::Vector3d>(twist.data() + 3) = turn.angle() * turn.axis() / period;
   return twist;
 }
 
@@ -42,9 +46,11 @@ void advance(std::array<double, 16>& pose, const std::array<double, 6>& twist, d
   Eigen::Map<Matrix4> matrix(pose.data());
   matrix.topRightCorner<3, 1>() += period * Eigen::Map<const Eigen::Vector3d>(twist.data());
   const Eigen::Vector3d turn = period * Eigen::Map<const Eigen::Vector3d>(twist.data() + 3);
-  if (turn.norm() > 0.0) {
-    const Eigen::Matrix3d rotation = franka_core::rotationFrom(turn) * matrix.topLeftCorner<3, 3>();
-    matrix.topLeftCorner<3, 3>() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  const double angle = turn.norm();
+  if (angle > 0.0) {
+    const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+    Eigen::Quaterniond orientation(Eigen::AngleAxisd(angle, turn / angle) * rotation);
+    matrix.topLeftCorner<3, 3>() = orientation.normalized().toRotationMatrix();
   }
 }
 
