@@ -143,11 +143,11 @@ def fidelity():
         ("# times the motors'", constant(ROBOT + "measured_limits.cpp", "kTorqueMargin = #;")),
         ("# times the joints' jerk", constant(ROBOT + "motion/joint_motion.cpp", "kSolvedJerkFactor = #;")),
         (
-            "with # times, the acceleration's error",
+            "with # times, it would never",
             constant(TESTS + "robot/error_flags_test.cpp", "2 * limits->ddq[i], # * limits->dddq[i] * 1e-3"),
         ),
         (
-            "limit to limit is # times",
+            "limit to limit of the acceleration is # times",
             [2 * a / (j * tick) for robot in (panda, fr3) for a, j in zip(robot["ddq"], robot["dddq"])],
         ),
         # Commands

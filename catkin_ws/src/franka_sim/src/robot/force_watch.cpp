@@ -17,22 +17,19 @@ constexpr int kPatience = 100;       // [ticks]
 
 }  // namespace
 
-std::optional<RobotError> ForceWatch::update(const std::array<double, 7>& tau_ext,
-                                             const std::array<double, 7>& achieved,
-                                             const std::array<double, 7>& desired,
-                                             const std::array<double, 7>& range) noexcept {
+ErrorSet ForceWatch::update(const std::array<double, 7>& tau_ext,
+                            const std::array<double, 7>& achieved,
+                            const std::array<double, 7>& desired,
+                            const std::array<double, 7>& range) noexcept {
+  ErrorSet errors;
   bool misses = false;
   for (std::size_t i = 0; i < 7; i++) {
-    if (std::abs(tau_ext[i]) > range[i]) {
-      return RobotError::kForceControlSafetyViolation;
-    }
+    errors.addIf(std::abs(tau_ext[i]) > range[i], RobotError::kForceControlSafetyViolation);
     misses = misses || std::abs(achieved[i] - desired[i]) > kTolerance;
   }
   missed_ = misses ? missed_ + 1 : 0;
-  if (missed_ >= kPatience) {
-    return RobotError::kForceControllerDesiredForceToleranceViolation;
-  }
-  return std::nullopt;
+  errors.addIf(missed_ >= kPatience, RobotError::kForceControllerDesiredForceToleranceViolation);
+  return errors;
 }
 
 }  // namespace franka_sim

@@ -28,31 +28,24 @@ bool beyondJointLimits(const franka_core::ArmLimits& limits,
   return false;
 }
 
-std::optional<RobotError> measuredViolation(const franka_core::ArmLimits& limits,
-                                            const franka_core::RobotState& state,
-                                            const std::array<double, 6>& O_dP_EE) noexcept {
-  for (std::size_t i = 0; i < 7; i++) {
-    if (std::abs(state.tau_J[i]) > kTorqueMargin * limits.tau[i]) {
-      return RobotError::kTauJRangeViolation;
-    }
-  }
-  if (beyondJointLimits(limits, state.q)) {
-    return RobotError::kJointPositionLimitsViolation;
-  }
+ErrorSet measuredViolations(const franka_core::ArmLimits& limits,
+                            const franka_core::RobotState& state,
+                            const std::array<double, 6>& O_dP_EE) noexcept {
+  ErrorSet errors;
   double power = 0.0;
   for (std::size_t i = 0; i < 7; i++) {
-    if (std::abs(state.dq[i]) > kSpeedMargin * limits.dq[i]) {
-      return RobotError::kJointVelocityViolation;
-    }
+    errors.addIf(std::abs(state.tau_J[i]) > kTorqueMargin * limits.tau[i],
+                 RobotError::kTauJRangeViolation);
+    errors.addIf(std::abs(state.dq[i]) > kSpeedMargin * limits.dq[i],
+                 RobotError::kJointVelocityViolation);
     power += std::abs(state.tau_J[i] * state.dq[i]);
   }
-  if (std::hypot(O_dP_EE[0], O_dP_EE[1], O_dP_EE[2]) > kSpeedMargin * limits.translation.velocity) {
-    return RobotError::kCartesianVelocityViolation;
-  }
-  if (power > kPowerLimit) {
-    return RobotError::kPowerLimitViolation;
-  }
-  return std::nullopt;
+  const double speed = std::hypot(O_dP_EE[0], O_dP_EE[1], O_dP_EE[2]);
+  errors.addIf(beyondJointLimits(limits, state.q), RobotError::kJointPositionLimitsViolation);
+  errors.addIf(speed > kSpeedMargin * limits.translation.velocity,
+               RobotError::kCartesianVelocityViolation);
+  errors.addIf(power > kPowerLimit, RobotError::kPowerLimitViolation);
+  return errors;
 }
 
 }  // namespace franka_sim

@@ -159,8 +159,8 @@ void MotionSupervisor::advanceMotion(const franka_core::RobotCommand* command) n
 
 bool MotionSupervisor::advanceGenerator(const franka_core::RobotCommand* command) noexcept {
   const MotionStep step = generator_.step(command, configuration_.parameters().model);
-  if (step.fault) {
-    safety_.raise(*step.fault);
+  if (step.errors) {
+    safety_.raise(step.errors);
     return false;
   }
   showDesired(generator_.desired());

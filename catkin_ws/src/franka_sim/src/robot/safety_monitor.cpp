@@ -30,11 +30,7 @@ void SafetyMonitor::motionBegins() noexcept {
 void SafetyMonitor::check(const MotionLimits& limits,
                           const CollisionThresholds& thresholds) noexcept {
   const Estimate& estimate = estimator_.estimate();
-  const std::optional<RobotError> violation =
-      measuredViolation(limits.arm, state_, estimate.O_dP_EE);
-  if (violation) {
-    raise(*violation);
-  }
+  raise(measuredViolations(limits.arm, state_, estimate.O_dP_EE));
   if (any(state_.joint_collision)) {
     joint_collision_ = worstOf(estimate.tau_ext, thresholds.upper_torque);
     raise(RobotError::kJointReflex);
@@ -59,11 +55,8 @@ void SafetyMonitor::checkMotion(const franka_core::fci::MoveRequest& motion,
     raise(RobotError::kCartesianPositionLimitsViolation);
   }
   if (outside) {
-    const std::optional<RobotError> fault = force_watch_.update(
-        estimator_.estimate().tau_ext, state_.tau_J, motor_torques, parameters.max_torque);
-    if (fault) {
-      raise(*fault);
-    }
+    raise(force_watch_.update(estimator_.estimate().tau_ext, state_.tau_J, motor_torques,
+                              parameters.max_torque));
     return;
   }
   if (deviates(state_, motion.max_path_deviation)) {

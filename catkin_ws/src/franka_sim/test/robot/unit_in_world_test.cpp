@@ -213,7 +213,8 @@ TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsWeightAndInertiaAtFullSpeed) {
                     id() == "fr3" ? kFr3Speed : kPandaSpeed);
   const Eigen::Vector3d in_hand = handCenter();
   constexpr double kSmoothing = 1e-3 / (1e-3 + 1.0 / (2 * 3.14159265358979324 * 100));
-  std::array<Eigen::Vector3d, 3> places{};
+  std::array<Eigen::Vector3d, 3> places;
+  places.fill(Eigen::Vector3d::Zero());
   Eigen::Vector3d expected(0, 0, 9.81);
   double worst = 0.0;
   double strongest = 0.0;

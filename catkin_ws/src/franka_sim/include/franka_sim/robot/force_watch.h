@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_core/robot_error.h>
+#include <franka_sim/robot/error_set.h>
 
 #include <array>
-#include <optional>
 
 namespace franka_sim {
 
@@ -22,10 +21,9 @@ class ForceWatch {
 
   /// One tick. All [Nm]. @param tau_ext external torque @param achieved link-side torque without
   /// gravity @param desired the one commanded for that tick @param range of the motors
-  std::optional<franka_core::RobotError> update(const std::array<double, 7>& tau_ext,
-                                                const std::array<double, 7>& achieved,
-                                                const std::array<double, 7>& desired,
-                                                const std::array<double, 7>& range) noexcept;
+  ErrorSet update(const std::array<double, 7>& tau_ext, const std::array<double, 7>& achieved,
+                  const std::array<double, 7>& desired,
+                  const std::array<double, 7>& range) noexcept;
 
  private:
   int missed_{0};  // [ticks]

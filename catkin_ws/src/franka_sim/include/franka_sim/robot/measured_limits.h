@@ -3,11 +3,10 @@
 #pragma once
 
 #include <franka_core/limits.h>
-#include <franka_core/robot_error.h>
 #include <franka_core/robot_state.h>
+#include <franka_sim/robot/error_set.h>
 
 #include <array>
-#include <optional>
 
 namespace franka_sim {
 
@@ -15,13 +14,13 @@ namespace franka_sim {
 /// generators check the commands; these limits are at least 5 % wider, so that an arm which follows
 /// its commands well is not stopped.
 /// @param O_dP_EE measured twist of EE in O [m/s, rad/s]
-/// @returns the first error of: tau_J_range_violation (|tau_J| above 1.2 times the motors' range),
+/// @returns the errors out of: tau_J_range_violation (|tau_J| above 1.2 times the motors' range),
 /// joint_position_limits_violation (0.005 rad beyond), joint_velocity_violation (1.05 times),
 /// cartesian velocity (1.05 times that of the translation), power_limit_violation (kPowerLimit).
 /// Real-time safe.
-std::optional<franka_core::RobotError> measuredViolation(
-    const franka_core::ArmLimits& limits, const franka_core::RobotState& state,
-    const std::array<double, 6>& O_dP_EE) noexcept;
+ErrorSet measuredViolations(const franka_core::ArmLimits& limits,
+                            const franka_core::RobotState& state,
+                            const std::array<double, 6>& O_dP_EE) noexcept;
 
 /// Sum of |tau_J dq| over the joints [W]. Chosen here: the data sheet gives a peak electrical power
 /// of about 350 W, and the mechanical power cannot exceed it.

@@ -5,6 +5,7 @@
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/collision.h>
 #include <franka_sim/robot/configuration.h>
+#include <franka_sim/robot/error_set.h>
 #include <franka_sim/robot/force_watch.h>
 #include <franka_sim/robot/motion/motion_limits.h>
 #include <franka_sim/robot/self_collision.h>
@@ -38,10 +39,8 @@ class SafetyMonitor {
   void checkMotion(const franka_core::fci::MoveRequest& motion, const MotionLimits& limits,
                    const std::array<double, 7>& motor_torques) noexcept;
 
-  /// Raises an error flag in the state.
-  void raise(franka_core::RobotError error) noexcept {
-    state_.errors[franka_core::indexOf(error)] = true;
-  }
+  /// Raises the errors' flags in the state.
+  void raise(const ErrorSet& errors) noexcept { errors.addTo(state_.errors); }
   void clearCollisions() noexcept { joint_collision_ = cartesian_collision_ = Collision(); }
   const Collision& jointCollision() const noexcept { return joint_collision_; }
   const Collision& cartesianCollision() const noexcept { return cartesian_collision_; }

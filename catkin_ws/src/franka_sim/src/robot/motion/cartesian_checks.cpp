@@ -107,6 +107,13 @@ bool elbowJerks(const ElbowSample& step, const ElbowSample& last,
          !elbowBrakes(step, last, limits.arm.elbow);
 }
 
+bool elbowFails(const ElbowSample& step, const ElbowSample& last,
+                const MotionLimits& limits) noexcept {
+  const franka_core::DerivativeLimits elbow = limits.elbow();
+  return positionFails(step, last, limits) || !(std::abs(step.dq3) <= elbow.velocity) ||
+         !(std::abs(step.ddq3) <= elbow.acceleration) || elbowJerks(step, last, limits);
+}
+
 void moveElbow(const ElbowSample& last, double q3, ElbowSample& step) noexcept {
   step.q3 = q3;
   step.dq3 = (q3 - last.q3) / kTick;
@@ -135,33 +142,20 @@ Transform moved(const Transform& pose, const Derivative& twist) noexcept {
 
 }  // namespace
 
-MotionFault judge(const CartesianSample& step, const CartesianSample& last,
-                  const MotionLimits& limits) noexcept {
+ErrorSet judge(const CartesianSample& step, const CartesianSample& last,
+               const MotionLimits& limits) noexcept {
   using Bounds = franka_core::DerivativeLimits;
-  const Bounds elbow = limits.elbow();
-  if (positionFails(step.elbow, last.elbow, limits)) {
-    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
-  }
-  if (anyFails(step.twist, limits, [](const Bounds& b) { return b.velocity; })) {
-    return RobotError::kCartesianMotionGeneratorVelocityLimitsViolation;
-  }
-  if (!(std::abs(step.elbow.dq3) <= elbow.velocity)) {
-    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
-  }
-  if (anyFails(step.acceleration, limits, [](const Bounds& b) { return b.acceleration; })) {
-    return RobotError::kCartesianMotionGeneratorVelocityDiscontinuity;
-  }
-  if (!(std::abs(step.elbow.ddq3) <= elbow.acceleration)) {
-    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
-  }
-  if (jerkFails(step, last, 0, limits.arm.translation) ||
-      jerkFails(step, last, 3, limits.arm.rotation)) {
-    return RobotError::kCartesianMotionGeneratorAccelerationDiscontinuity;
-  }
-  if (elbowJerks(step.elbow, last.elbow, limits)) {
-    return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
-  }
-  return {};
+  ErrorSet errors;
+  errors.addIf(elbowFails(step.elbow, last.elbow, limits),
+               RobotError::kCartesianMotionGeneratorElbowLimitViolation);
+  errors.addIf(anyFails(step.twist, limits, [](const Bounds& b) { return b.velocity; }),
+               RobotError::kCartesianMotionGeneratorVelocityLimitsViolation);
+  errors.addIf(anyFails(step.acceleration, limits, [](const Bounds& b) { return b.acceleration; }),
+               RobotError::kCartesianMotionGeneratorVelocityDiscontinuity);
+  errors.addIf(jerkFails(step, last, 0, limits.arm.translation) ||
+                   jerkFails(step, last, 3, limits.arm.rotation),
+               RobotError::kCartesianMotionGeneratorAccelerationDiscontinuity);
+  return errors;
 }
 
 CartesianSample stepToPose(const CartesianSample& last, const Transform& pose, double q3) noexcept {

@@ -9,10 +9,10 @@
 
 namespace franka_sim {
 
-/// The first stage, position to jerk, that a step fails; all failures of the elbow have one flag.
+/// Every rule, position to jerk, that a step violates; all those of the elbow have one flag.
 /// @param last the sample before it.
-MotionFault judge(const CartesianSample& step, const CartesianSample& last,
-                  const MotionLimits& limits) noexcept;
+ErrorSet judge(const CartesianSample& step, const CartesianSample& last,
+               const MotionLimits& limits) noexcept;
 
 /// The step from last to a pose, or by a twist in O, with the elbow at q3 [rad].
 CartesianSample stepToPose(const CartesianSample& last, const Transform& pose, double q3) noexcept;

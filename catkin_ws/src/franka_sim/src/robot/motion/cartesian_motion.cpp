@@ -49,90 +49,91 @@ void CartesianMotion::start(const Transform& pose, const std::array<double, 2>& 
   started_ = false;
 }
 
-MotionFault CartesianMotion::checkElbow(const ElbowCommand& command, double sign) const noexcept {
+ErrorSet CartesianMotion::checkElbow(const ElbowCommand& command, double sign) const noexcept {
+  ErrorSet errors;
   if (!command.valid) {
-    return {};
+    return errors;
   }
   if (!std::isfinite(command.elbow[0])) {
     return RobotError::kCartesianMotionGeneratorElbowLimitViolation;
   }
-  if (command.elbow[1] != sign) {
-    return RobotError::kCartesianMotionGeneratorElbowSignInconsistent;
-  }
-  if (!started_ && std::abs(command.elbow[0] - last_.elbow.q3) > kElbowTolerance) {
-    return RobotError::kCartesianMotionGeneratorStartElbowInvalid;
-  }
-  return {};
+  errors.addIf(command.elbow[1] != sign,
+               RobotError::kCartesianMotionGeneratorElbowSignInconsistent);
+  errors.addIf(!started_ && std::abs(command.elbow[0] - last_.elbow.q3) > kElbowTolerance,
+               RobotError::kCartesianMotionGeneratorStartElbowInvalid);
+  return errors;
 }
 
-MotionFault CartesianMotion::takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
-                                      const MotionLimits& limits) noexcept {
+ErrorSet CartesianMotion::takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
+                                   const MotionLimits& limits) noexcept {
+  has_refused_ = false;
   if (!isTransform(pose)) {
     return RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag;
   }
   const double q3 = elbow.valid ? elbow.elbow[0] : last_.elbow.q3;
   CartesianSample step = stepToPose(last_, tidied(pose), q3);
-  if (!started_ && !isNear(step)) {
-    return RobotError::kCartesianPositionMotionGeneratorStartPoseInvalid;
-  }
-  if (const MotionFault fault = checkElbow(elbow, sign)) {
-    return fault;
+  ErrorSet errors = checkElbow(elbow, sign);
+  errors.addIf(!started_ && !isNear(step),
+               RobotError::kCartesianPositionMotionGeneratorStartPoseInvalid);
+  if (errors) {
+    return errors;
   }
   if (!started_) {
     step = atRest(step.pose, q3);
   }
-  MotionFault fault = judge(step, last_, limits);
+  errors = judge(step, last_, limits);
   // Against the history as read by the client, the exact command counts, as in the client.
-  if (fault && limits.echoes_floats && started_) {
+  if (errors && limits.echoes_floats && started_) {
     const CartesianSample seen = asEchoed(last_);
-    fault = judge(stepToPose(seen, pose, q3), seen, limits) ? fault : MotionFault{};
+    errors = judge(stepToPose(seen, pose, q3), seen, limits) ? errors : ErrorSet{};
   }
-  if (!fault) {
-    last_ = step;
-    started_ = true;
-  }
-  return fault;
+  return take(step, errors);
 }
 
-MotionFault CartesianMotion::takeTwist(const std::array<double, 6>& twist,
-                                       const ElbowCommand& elbow, double sign,
-                                       const MotionLimits& limits) noexcept {
+ErrorSet CartesianMotion::takeTwist(const std::array<double, 6>& twist, const ElbowCommand& elbow,
+                                    double sign, const MotionLimits& limits) noexcept {
+  has_refused_ = false;
   if (!franka_core::allFinite(twist)) {
     return RobotError::kCartesianMotionGeneratorVelocityLimitsViolation;
   }
-  if (const MotionFault fault = checkElbow(elbow, sign)) {
-    return fault;
+  if (const ErrorSet errors = checkElbow(elbow, sign)) {
+    return errors;
   }
   const double q3 = elbow.valid ? elbow.elbow[0] : last_.elbow.q3;
   if (!started_) {
     last_.elbow.q3 = q3;  // within the tolerance; the elbow's history starts here
   }
   const CartesianSample step = stepByTwist(last_, twist, q3);
-  MotionFault fault = judge(step, last_, limits);
-  if (fault && limits.echoes_floats) {
+  ErrorSet errors = judge(step, last_, limits);
+  if (errors && limits.echoes_floats) {
     const CartesianSample seen = asEchoed(last_);
-    fault = judge(stepByTwist(seen, twist, q3), seen, limits) ? fault : MotionFault{};
+    errors = judge(stepByTwist(seen, twist, q3), seen, limits) ? errors : ErrorSet{};
   }
-  if (!fault) {
-    last_ = step;
-    started_ = true;
-  }
-  return fault;
+  return take(step, errors);
 }
 
-MotionFault CartesianMotion::extrapolate(const MotionLimits& limits) noexcept {
+ErrorSet CartesianMotion::extrapolate(const MotionLimits& limits) noexcept {
+  has_refused_ = false;
   if (!started_) {
     return {};
   }
   const CartesianSample step = stepByAcceleration(last_);
-  const MotionFault fault = judge(step, last_, limits);
-  if (!fault) {
-    last_ = step;
-  }
-  return fault;
+  return take(step, judge(step, last_, limits));
 }
 
-MotionFault CartesianMotion::checkStop(const MotionLimits& limits) const noexcept {
+// The end of each of these steps.
+ErrorSet CartesianMotion::take(const CartesianSample& step, const ErrorSet& errors) noexcept {
+  if (errors) {
+    refused_ = step;
+    has_refused_ = true;
+  } else {
+    last_ = step;
+    started_ = true;
+  }
+  return errors;
+}
+
+ErrorSet CartesianMotion::checkStop(const MotionLimits& limits) const noexcept {
   return judge(stepByTwist(last_, {}, last_.elbow.q3), last_, limits);
 }
 

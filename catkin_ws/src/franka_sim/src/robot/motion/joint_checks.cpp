@@ -121,21 +121,20 @@ void differentiate(const JointSample& last, JointSample& step) noexcept {
 
 }  // namespace
 
-MotionFault judge(const JointSample& step, const JointSample& last, const JointFlags& flags,
-                  const MotionLimits& limits) noexcept {
-  if (positionsFail(step, last, limits)) {
-    return flags.position;
-  }
-  if (velocitiesFail(step, last, limits)) {
-    return flags.velocity;
-  }
-  if (accelerationsFail(step, last, limits)) {
-    return flags.acceleration;
-  }
-  if (jerksFail(step, last, flags.jerk_factor, limits)) {
-    return flags.jerk;
-  }
-  return {};
+ErrorSet judge(const JointSample& step, const JointSample& last, const JointFlags& flags,
+               const MotionLimits& limits) noexcept {
+  ErrorSet errors = judgeJerk(step, last, flags, limits);
+  errors.addIf(positionsFail(step, last, limits), flags.position);
+  errors.addIf(velocitiesFail(step, last, limits), flags.velocity);
+  errors.addIf(accelerationsFail(step, last, limits), flags.acceleration);
+  return errors;
+}
+
+ErrorSet judgeJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
+                   const MotionLimits& limits) noexcept {
+  ErrorSet errors;
+  errors.addIf(jerksFail(step, last, flags.jerk_factor, limits), flags.jerk);
+  return errors;
 }
 
 JointSample stepToPositions(const JointSample& last, const std::array<double, 7>& q) noexcept {

@@ -9,16 +9,20 @@
 
 namespace franka_sim {
 
-/// The flag of each stage, and the factor on the jerk limit.
+/// The flag of each rule, and the factor on the jerk limit.
 struct JointFlags {
   franka_core::RobotError position, velocity, acceleration, jerk;
   double jerk_factor;
 };
 
-/// The first stage, position to jerk, that a step fails.
+/// Every rule, position to jerk, that a step violates.
 /// @param last the sample before it.
-MotionFault judge(const JointSample& step, const JointSample& last, const JointFlags& flags,
-                  const MotionLimits& limits) noexcept;
+ErrorSet judge(const JointSample& step, const JointSample& last, const JointFlags& flags,
+               const MotionLimits& limits) noexcept;
+
+/// The same for the rule of the jerk alone.
+ErrorSet judgeJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
+                   const MotionLimits& limits) noexcept;
 
 /// The step from last to positions [rad], or by velocities [rad/s].
 JointSample stepToPositions(const JointSample& last, const std::array<double, 7>& q) noexcept;

@@ -36,16 +36,16 @@ JointFlags solved(const MotionLimits& limits) noexcept {
 
 using Step = JointSample (*)(const JointSample&, const std::array<double, 7>&);
 
-// Fails only if both histories fail; the exact one determines the flag.
-MotionFault judgeBoth(Step make, const std::array<double, 7>& command, const JointSample& last,
-                      const MotionLimits& limits) noexcept {
+// Fails only if both histories fail; the exact one determines the flags.
+ErrorSet judgeBoth(Step make, const std::array<double, 7>& command, const JointSample& last,
+                   const MotionLimits& limits) noexcept {
   const JointFlags flags = commanded(limits);
-  const MotionFault fault = judge(make(last, command), last, flags, limits);
-  if (!fault || !limits.echoes_floats) {
-    return fault;
+  const ErrorSet errors = judge(make(last, command), last, flags, limits);
+  if (!errors || !limits.echoes_floats) {
+    return errors;
   }
   const JointSample seen = asEchoed(last);
-  return judge(make(seen, command), seen, flags, limits) ? fault : MotionFault{};
+  return judge(make(seen, command), seen, flags, limits) ? errors : ErrorSet{};
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ void JointMotion::start(const std::array<double, 7>& q) noexcept {
   started_ = false;
 }
 
-MotionFault JointMotion::takePositions(const std::array<double, 7>& q_c,
-                                       const MotionLimits& limits) noexcept {
+ErrorSet JointMotion::takePositions(const std::array<double, 7>& q_c,
+                                    const MotionLimits& limits) noexcept {
   if (!franka_core::allFinite(q_c)) {
     return RobotError::kJointMotionGeneratorVelocityLimitsViolation;  // no velocity leads there
   }
@@ -71,56 +71,61 @@ MotionFault JointMotion::takePositions(const std::array<double, 7>& q_c,
     step = JointSample{};
     step.q = q_c;
   }
-  const MotionFault fault = started_ ? judgeBoth(stepToPositions, q_c, last_, limits)
-                                     : judge(step, last_, commanded(limits), limits);
-  if (!fault) {
+  const ErrorSet errors = started_ ? judgeBoth(stepToPositions, q_c, last_, limits)
+                                   : judge(step, last_, commanded(limits), limits);
+  if (!errors) {
     last_ = step;
     started_ = true;
   }
-  return fault;
+  return errors;
 }
 
-MotionFault JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
-                                        const MotionLimits& limits) noexcept {
+ErrorSet JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
+                                     const MotionLimits& limits) noexcept {
   if (!franka_core::allFinite(dq_c)) {
     return RobotError::kJointMotionGeneratorVelocityLimitsViolation;
   }
-  const MotionFault fault = judgeBoth(stepByVelocities, dq_c, last_, limits);
-  if (!fault) {
+  const ErrorSet errors = judgeBoth(stepByVelocities, dq_c, last_, limits);
+  if (!errors) {
     last_ = stepByVelocities(last_, dq_c);
     started_ = true;
   }
-  return fault;
+  return errors;
 }
 
-MotionFault JointMotion::takeSolved(const std::array<double, 7>& q, bool first,
-                                    const MotionLimits& limits) noexcept {
+ErrorSet JointMotion::takeSolved(const std::array<double, 7>& q, bool first,
+                                 const MotionLimits& limits) noexcept {
   JointSample step = stepToPositions(last_, q);
   if (first) {
     step = JointSample{};
     step.q = q;
   }
-  const MotionFault fault = judge(step, last_, solved(limits), limits);
-  if (!fault) {
+  const ErrorSet errors = judge(step, last_, solved(limits), limits);
+  if (!errors) {
     last_ = step;
     started_ = true;
   }
-  return fault;
+  return errors;
 }
 
-MotionFault JointMotion::extrapolate(const MotionLimits& limits) noexcept {
+ErrorSet JointMotion::judgeJump(const std::array<double, 7>& q,
+                                const MotionLimits& limits) const noexcept {
+  return judgeJerk(stepToPositions(last_, q), last_, solved(limits), limits);
+}
+
+ErrorSet JointMotion::extrapolate(const MotionLimits& limits) noexcept {
   if (!started_) {
     return {};
   }
   const JointSample step = stepByAcceleration(last_);
-  const MotionFault fault = judge(step, last_, commanded(limits), limits);
-  if (!fault) {
+  const ErrorSet errors = judge(step, last_, commanded(limits), limits);
+  if (!errors) {
     last_ = step;
   }
-  return fault;
+  return errors;
 }
 
-MotionFault JointMotion::checkStop(const MotionLimits& limits) const noexcept {
+ErrorSet JointMotion::checkStop(const MotionLimits& limits) const noexcept {
   return judge(stepByVelocities(last_, {}), last_, commanded(limits), limits);
 }
 

@@ -89,22 +89,22 @@ MotionStep MotionGenerator::step(const franka_core::RobotCommand* command,
       finishing_ = true;
     }
     // The finishing command is no target: genuine clients leave its numbers zero.
-    result.fault = advanceAsync(finishing_ ? nullptr : command);
+    result.errors = advanceAsync(finishing_ ? nullptr : command);
     result.finished = finishing_ && async_.atRest();
   } else {
-    result.fault = isCartesian() ? advanceCartesian(command, model) : advanceJoints(command);
+    result.errors = isCartesian() ? advanceCartesian(command, model) : advanceJoints(command);
     result.finished = finish;
-    if (finish && !result.fault) {
-      result.fault = isCartesian() ? cartesian_.checkStop(limits_) : joints_.checkStop(limits_);
+    if (finish && !result.errors) {
+      result.errors = isCartesian() ? cartesian_.checkStop(limits_) : joints_.checkStop(limits_);
     }
   }
-  if (!result.fault && !isCartesian()) {
+  if (!result.errors && !isCartesian()) {
     showJoints(model);
   }
   return result;
 }
 
-MotionFault MotionGenerator::advanceAsync(const franka_core::RobotCommand* command) noexcept {
+ErrorSet MotionGenerator::advanceAsync(const franka_core::RobotCommand* command) noexcept {
   if (command != nullptr) {
     if (!franka_core::allFinite(command->q_c)) {
       return RobotError::kJointMotionGeneratorVelocityLimitsViolation;  // no velocity leads there
@@ -128,7 +128,7 @@ MotionFault MotionGenerator::advanceAsync(const franka_core::RobotCommand* comma
   return {};
 }
 
-MotionFault MotionGenerator::advanceJoints(const franka_core::RobotCommand* command) noexcept {
+ErrorSet MotionGenerator::advanceJoints(const franka_core::RobotCommand* command) noexcept {
   if (command == nullptr) {
     return joints_.extrapolate(limits_);
   }
@@ -137,31 +137,40 @@ MotionFault MotionGenerator::advanceJoints(const franka_core::RobotCommand* comm
              : joints_.takeVelocities(command->dq_c, limits_);
 }
 
-MotionFault MotionGenerator::advanceCartesian(const franka_core::RobotCommand* command,
-                                              const ArmModel& model) noexcept {
-  MotionFault fault;
+ErrorSet MotionGenerator::advanceCartesian(const franka_core::RobotCommand* command,
+                                           const ArmModel& model) noexcept {
+  ErrorSet errors;
   if (command == nullptr) {
-    fault = cartesian_.extrapolate(limits_);
+    errors = cartesian_.extrapolate(limits_);
   } else {
     const ElbowCommand elbow{command->valid_elbow, command->elbow_c};
     const double sign = elbowSign(desired_.q_d);
-    fault = start_.mode == MotionGeneratorMode::kCartesianPosition
-                ? cartesian_.takePose(command->O_T_EE_c, elbow, sign, limits_)
-                : cartesian_.takeTwist(command->O_dP_EE_c, elbow, sign, limits_);
+    errors = start_.mode == MotionGeneratorMode::kCartesianPosition
+                 ? cartesian_.takePose(command->O_T_EE_c, elbow, sign, limits_)
+                 : cartesian_.takeTwist(command->O_dP_EE_c, elbow, sign, limits_);
   }
-  const bool waiting = command == nullptr && !solved_;
-  if (fault || waiting) {
-    return fault;
+  if (errors) {
+    if (const CartesianSample* refused = cartesian_.refused()) {
+      errors.add(joints_.judgeJump(solve(*refused, model).q, limits_));
+    }
+    return errors;
   }
-  const CartesianSample& commanded = cartesian_.last();
-  const InverseKinematics::Solution solution = InverseKinematics::solve(
-      desired_.q_d, commanded.pose, commanded.elbow.q3, start_.F_T_EE, model);
-  fault = joints_.takeSolved(solution.q, !solved_, limits_);
-  if (!fault) {
+  if (command == nullptr && !solved_) {
+    return errors;  // waits for the first command
+  }
+  const InverseKinematics::Solution solution = solve(cartesian_.last(), model);
+  errors = joints_.takeSolved(solution.q, !solved_, limits_);
+  if (!errors) {
     solved_ = true;
     showCartesian(solution);
   }
-  return fault;
+  return errors;
+}
+
+InverseKinematics::Solution MotionGenerator::solve(const CartesianSample& commanded,
+                                                   const ArmModel& model) const noexcept {
+  return InverseKinematics::solve(desired_.q_d, commanded.pose, commanded.elbow.q3, start_.F_T_EE,
+                                  model);
 }
 
 void MotionGenerator::showJoints(const ArmModel& model) noexcept {

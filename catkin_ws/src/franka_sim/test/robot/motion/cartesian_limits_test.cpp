@@ -85,7 +85,7 @@ class CartesianDrive {
                                        : limits_.elbow();
   }
   double velocity() const { return v_; }
-  MotionFault fault() const { return fault_; }
+  ErrorSet fault() const { return fault_; }
 
  private:
   static Eigen::Vector3d direction() { return Eigen::Vector3d(2, -3, 6) / 7.0; }
@@ -128,7 +128,7 @@ class CartesianDrive {
   CartesianMotion motion_;
   Transform command_{};
   double q3_{0.0}, v_{0.0}, a_{0.0};
-  MotionFault fault_;
+  ErrorSet fault_;
 };
 
 void reachJerk(CartesianDrive& drive, double share) {
@@ -177,13 +177,14 @@ void passesInsideAndFailsOutside(CartesianClient client, unsigned protocol) {
                                         << static_cast<int>(part) << ", flag " << stage.flag);
       CartesianDrive inside(protocol, client, part);
       stage.reach(inside, 0.99);
-      EXPECT_FALSE(inside.fault()) << indexOf(*inside.fault());
+      EXPECT_FALSE(inside.fault()) << inside.fault();
       CartesianDrive beyond(protocol, client, part);
       stage.reach(beyond, 1.01);
       ASSERT_TRUE(beyond.fault());
-      EXPECT_EQ(part == Part::kElbow ? RobotError::kCartesianMotionGeneratorElbowLimitViolation
-                                     : stage.flag,
-                *beyond.fault());
+      EXPECT_EQ(part == Part::kElbow
+                    ? ErrorSet(RobotError::kCartesianMotionGeneratorElbowLimitViolation)
+                    : ErrorSet(stage.flag),
+                beyond.fault());
     }
   }
 }

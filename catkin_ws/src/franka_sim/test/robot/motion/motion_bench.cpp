@@ -51,7 +51,7 @@ void tick(benchmark::State& state, MotionGeneratorMode mode, bool asynchronous) 
   std::size_t i = 0;
   for (auto _ : state) {
     const auto step = generator.step(&commands[i++ % kPeriod], model);
-    if (step.fault) {
+    if (step.errors) {
       state.SkipWithError("the motion was refused");
       break;
     }

@@ -9,7 +9,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <ostream>
+#include <string>
 
 #include "../panda_arm.h"
 
@@ -20,6 +22,28 @@ inline std::ostream& operator<<(std::ostream& out, RobotError error) {
 }
 
 }  // namespace franka_core
+
+namespace franka_sim {
+
+/// The flags' numbers.
+inline std::ostream& operator<<(std::ostream& out, const ErrorSet& errors) {
+  std::array<bool, franka_core::kErrorCount> flags{};
+  errors.addTo(flags);
+  for (std::size_t i = 0; i < flags.size(); i++) {
+    out << (flags[i] ? " " + std::to_string(i) : "");
+  }
+  return out;
+}
+
+inline ErrorSet setOf(std::initializer_list<franka_core::RobotError> errors) {
+  ErrorSet set;
+  for (const franka_core::RobotError error : errors) {
+    set.add(error);
+  }
+  return set;
+}
+
+}  // namespace franka_sim
 
 namespace franka_sim::test {
 

@@ -96,7 +96,7 @@ TEST_P(EachGenerator, ShowsConsistentStatesAlongASmoothMotion) {
     EXPECT_EQ(forward(kReady), before.O_T_EE_c);
     for (int tick = 0; tick <= 1000; tick++) {
       const MotionStep step = motion.step(commandAt(GetParam(), tick * kTick));
-      ASSERT_FALSE(step.fault) << *step.fault << " in tick " << tick;
+      ASSERT_FALSE(step.errors) << step.errors << " in tick " << tick;
       const DesiredMotion& now = motion.desired();
       expectNear(forward(now.q_d), now.O_T_EE_d, 1e-15, "pose of q_d");
       expectNear(now.O_T_EE_c, now.O_T_EE_d, 1e-12, "O_T_EE_c and O_T_EE_d");
@@ -138,12 +138,12 @@ TEST_P(EachGenerator, KeepsTheAccelerationWhileCommandsAreLost) {
   for (int lost = 1; lost <= 19; lost++) {
     Motion motion(5, GetParam());
     for (int tick = 0; tick < 250; tick++) {
-      ASSERT_FALSE(motion.step(commandAt(GetParam(), tick * kTick)).fault);
+      ASSERT_FALSE(motion.step(commandAt(GetParam(), tick * kTick)).errors);
     }
     const DesiredMotion at = motion.desired();
     for (int i = 0; i < lost; i++) {
       const MotionStep step = motion.lose();
-      ASSERT_FALSE(step.fault) << *step.fault << " after " << i;
+      ASSERT_FALSE(step.errors) << step.errors << " after " << i;
       EXPECT_FALSE(step.finished);
     }
     // Closed form of backward Euler with a constant acceleration.
@@ -170,7 +170,7 @@ TEST_P(EachGenerator, KeepsTheAccelerationWhileCommandsAreLost) {
     // A client that follows the clock finds the arm where it expects it.
     if (lost <= 10) {
       const MotionStep step = motion.step(commandAt(GetParam(), (250 + lost) * kTick));
-      EXPECT_FALSE(lost <= 2 && step.fault) << "after " << lost;
+      EXPECT_FALSE(lost <= 2 && step.errors) << "after " << lost;
     }
   }
 }
@@ -178,15 +178,18 @@ TEST_P(EachGenerator, KeepsTheAccelerationWhileCommandsAreLost) {
 TEST_P(EachGenerator, NothingMovesBeforeTheFirstCommand) {
   Motion motion(5, GetParam());
   for (int i = 0; i < 19; i++) {
-    EXPECT_FALSE(motion.lose().fault);
+    EXPECT_FALSE(motion.lose().errors);
   }
   EXPECT_EQ(kReady, motion.desired().q_d);
-  EXPECT_FALSE(motion.step(commandAt(GetParam(), 0.0)).fault);
+  EXPECT_FALSE(motion.step(commandAt(GetParam(), 0.0)).errors);
 }
 
 TEST_P(EachGenerator, RefusesAFinishAtSpeed) {
-  const RobotError flag = cartesian() ? RobotError::kCartesianMotionGeneratorVelocityDiscontinuity
-                                      : RobotError::kJointMotionGeneratorVelocityDiscontinuity;
+  const ErrorSet flags =
+      cartesian() ? setOf({RobotError::kCartesianMotionGeneratorVelocityDiscontinuity,
+                           RobotError::kCartesianMotionGeneratorAccelerationDiscontinuity})
+                  : setOf({RobotError::kJointMotionGeneratorVelocityDiscontinuity,
+                           RobotError::kJointMotionGeneratorAccelerationDiscontinuity});
   Motion motion(5, GetParam());
   for (int tick = 0; tick < 500; tick++) {
     const RobotCommand command = commandAt(GetParam(), tick * kTick);
@@ -194,22 +197,22 @@ TEST_P(EachGenerator, RefusesAFinishAtSpeed) {
   }
   const MotionStep step = motion.step(finished(commandAt(GetParam(), 0.5)));
   EXPECT_TRUE(step.finished);
-  EXPECT_EQ(flag, step.fault);
+  EXPECT_EQ(flags, step.errors);
 }
 
 TEST_P(EachGenerator, NeitherAllocatesNorLocks) {
   Motion motion(10, GetParam());
-  MotionFault fault;
+  ErrorSet fault;
   {
     rt_guard::Scope scope;
     for (int tick = 0; tick < 300 && !fault; tick++) {
       const RobotCommand command = commandAt(GetParam(), tick * kTick);
-      fault = tick % 50 == 49 ? motion.lose().fault : motion.step(command).fault;
+      fault = tick % 50 == 49 ? motion.lose().errors : motion.step(command).errors;
     }
     EXPECT_EQ(0U, scope.allocations());
     EXPECT_EQ(0U, scope.locks());
   }
-  EXPECT_FALSE(fault) << *fault;
+  EXPECT_FALSE(fault) << fault;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EachGenerator,

@@ -150,8 +150,8 @@ TEST_P(RateLimitedClient, IsNeverAbortedWithJointPositions) {
       }
       const JointSample& last = motion.last();
       const Joints q = limitPositions(bounds, target, wire(last.q), wire(last.dq), wire(last.ddq));
-      const MotionFault fault = motion.takePositions(q, bounds.limits);
-      ASSERT_FALSE(fault) << *fault << " in tick " << tick << " of seed " << seed;
+      const ErrorSet fault = motion.takePositions(q, bounds.limits);
+      ASSERT_FALSE(fault) << fault << " in tick " << tick << " of seed " << seed;
     }
   }
 }
@@ -170,8 +170,8 @@ TEST_P(RateLimitedClient, IsNeverAbortedWithJointVelocities) {
       }
       const Joints dq =
           limitVelocities(bounds, wire(last.q), target, wire(last.dq), wire(last.ddq));
-      const MotionFault fault = motion.takeVelocities(dq, bounds.limits);
-      ASSERT_FALSE(fault) << *fault << " in tick " << tick << " of seed " << seed;
+      const ErrorSet fault = motion.takeVelocities(dq, bounds.limits);
+      ASSERT_FALSE(fault) << fault << " in tick " << tick << " of seed " << seed;
     }
   }
 }
@@ -208,8 +208,8 @@ TEST_P(RateLimitedClient, IsNeverAbortedWithCartesianPoses) {
           franka::limitRate(v.velocity, v.acceleration, v.jerk, w.velocity, w.acceleration, w.jerk,
                             target, wire(last.pose), wire(last.twist), wire(last.acceleration));
       const ElbowCommand command{true, {{elbow(bounds, q3, last.elbow, wire), -1.0}}};
-      const MotionFault fault = motion.takePose(pose, command, -1.0, bounds.limits);
-      ASSERT_FALSE(fault) << *fault << " in tick " << tick << " of seed " << seed;
+      const ErrorSet fault = motion.takePose(pose, command, -1.0, bounds.limits);
+      ASSERT_FALSE(fault) << fault << " in tick " << tick << " of seed " << seed;
     }
   }
 }
@@ -232,8 +232,8 @@ TEST_P(RateLimitedClient, IsNeverAbortedWithCartesianVelocities) {
       const Twist twist =
           franka::limitRate(v.velocity, v.acceleration, v.jerk, w.velocity, w.acceleration, w.jerk,
                             target, wire(last.twist), wire(last.acceleration));
-      const MotionFault fault = motion.takeTwist(twist, {}, -1.0, bounds.limits);
-      ASSERT_FALSE(fault) << *fault << " in tick " << tick << " of seed " << seed;
+      const ErrorSet fault = motion.takeTwist(twist, {}, -1.0, bounds.limits);
+      ASSERT_FALSE(fault) << fault << " in tick " << tick << " of seed " << seed;
     }
   }
 }

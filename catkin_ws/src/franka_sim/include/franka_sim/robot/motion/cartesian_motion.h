@@ -30,8 +30,8 @@ struct ElbowCommand {
 
 /// The commanded motion of end effector and elbow, with the check of its next step; JointMotion
 /// describes how. The norms of the linear and of the angular part of velocity, acceleration and
-/// jerk are checked stage by stage (decision 14); within a stage translation and rotation come
-/// before the elbow. Real-time safe; one thread.
+/// jerk and those of the elbow are checked together (decisions 14, 47). Real-time safe; one
+/// thread.
 class CartesianMotion {
  public:
   /// At rest. @param pose O_T_EE @param elbow q3 [rad] and its sign.
@@ -40,24 +40,28 @@ class CartesianMotion {
   /// Takes the next commanded pose O_T_EE; it is kept orthonormalised. The first must be where the
   /// motion starts, and sets the history to rest there.
   /// @param sign the elbow's present sign, which a commanded elbow must have.
-  MotionFault takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
-                       const MotionLimits& limits) noexcept;
+  ErrorSet takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
+                    const MotionLimits& limits) noexcept;
   /// Takes the next commanded twist in O [m/s, rad/s], from rest on; the pose follows by
   /// integration.
-  MotionFault takeTwist(const std::array<double, 6>& twist, const ElbowCommand& elbow, double sign,
-                        const MotionLimits& limits) noexcept;
+  ErrorSet takeTwist(const std::array<double, 6>& twist, const ElbowCommand& elbow, double sign,
+                     const MotionLimits& limits) noexcept;
   /// A step without a command: accelerations are held. Before the first step nothing changes.
-  MotionFault extrapolate(const MotionLimits& limits) noexcept;
+  ErrorSet extrapolate(const MotionLimits& limits) noexcept;
   /// Whether end effector and elbow could stand still in the next tick.
-  MotionFault checkStop(const MotionLimits& limits) const noexcept;
+  ErrorSet checkStop(const MotionLimits& limits) const noexcept;
 
   const CartesianSample& last() const noexcept { return last_; }
+  /// The last step if it violated a limit; nullptr if it was taken, or was no motion at all.
+  const CartesianSample* refused() const noexcept { return has_refused_ ? &refused_ : nullptr; }
 
  private:
-  MotionFault checkElbow(const ElbowCommand& elbow, double sign) const noexcept;
+  ErrorSet checkElbow(const ElbowCommand& elbow, double sign) const noexcept;
 
-  CartesianSample last_;
-  bool started_{false};
+  ErrorSet take(const CartesianSample& step, const ErrorSet& errors) noexcept;
+
+  CartesianSample last_, refused_;
+  bool started_{false}, has_refused_{false};
 };
 
 }  // namespace franka_sim

@@ -28,18 +28,20 @@ class JointMotion {
 
   /// Takes the next commanded positions [rad]. The first must be where the motion starts, and sets
   /// the history to rest there.
-  MotionFault takePositions(const std::array<double, 7>& q_c, const MotionLimits& limits) noexcept;
+  ErrorSet takePositions(const std::array<double, 7>& q_c, const MotionLimits& limits) noexcept;
   /// Takes the next commanded velocities [rad/s], from rest on; positions follow by integration.
-  MotionFault takeVelocities(const std::array<double, 7>& dq_c,
-                             const MotionLimits& limits) noexcept;
+  ErrorSet takeVelocities(const std::array<double, 7>& dq_c, const MotionLimits& limits) noexcept;
   /// Takes the next positions [rad] from inverse kinematics; checked with the flags 27 to 30.
   /// @param first sets the history to rest there.
-  MotionFault takeSolved(const std::array<double, 7>& q, bool first,
-                         const MotionLimits& limits) noexcept;
+  ErrorSet takeSolved(const std::array<double, 7>& q, bool first,
+                      const MotionLimits& limits) noexcept;
+  /// The joints' part in a Cartesian command that is refused already. Of its joint positions [rad]
+  /// only the jerk is judged, as on real robots (decision 47). Nothing changes.
+  ErrorSet judgeJump(const std::array<double, 7>& q, const MotionLimits& limits) const noexcept;
   /// A step without a command: the acceleration is held. Before the first step nothing changes.
-  MotionFault extrapolate(const MotionLimits& limits) noexcept;
+  ErrorSet extrapolate(const MotionLimits& limits) noexcept;
   /// Whether the joints could stand still in the next tick, as after a finished motion.
-  MotionFault checkStop(const MotionLimits& limits) const noexcept;
+  ErrorSet checkStop(const MotionLimits& limits) const noexcept;
   /// Takes over a motion that needs no check.
   void follow(const JointSample& sample) noexcept { last_ = sample; }
 

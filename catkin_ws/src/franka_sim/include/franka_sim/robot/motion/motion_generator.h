@@ -47,18 +47,18 @@ struct DesiredMotion {
 
 /// Result of one tick.
 struct MotionStep {
-  MotionFault fault;     ///< why the command was refused; desired() is then that of the tick before
-  bool finished{false};  ///< the client has finished the motion (with a fault: while moving)
+  ErrorSet errors;       ///< why the command was refused; desired() is then that of the tick before
+  bool finished{false};  ///< the client has finished the motion (with errors: while moving)
 };
 
 /// The robot's motion generators: turns one command a millisecond, or its absence, into the desired
 /// motion, within the robot's limits.
 ///
-/// Commands are checked in stages (decision 14). If a command is lost the acceleration is held, and
-/// the result is checked like a command (protocol 5.3). After a fault the motion is over: brake
-/// from desired() with BrakeTrajectory and start anew. A finish is checked as a stop within one
-/// tick: a client that is too fast raises the flag of the acceleration or jerk that this would
-/// take; an asynchronous motion brakes and finishes at rest.
+/// Commands are checked against every rule (decisions 14, 47). If a command is lost the
+/// acceleration is held, and the result is checked like a command (protocol 5.3). After an error
+/// the motion is over: brake from desired() with BrakeTrajectory and start anew. A finish is
+/// checked as a stop within one tick: a client that is too fast raises the flag of the acceleration
+/// or jerk that this would take; an asynchronous motion brakes and finishes at rest.
 ///
 /// One thread owns it. Real-time safe; throws nothing.
 class MotionGenerator {
@@ -77,11 +77,13 @@ class MotionGenerator {
 
  private:
   bool isCartesian() const noexcept;
-  MotionFault advanceAsync(const franka_core::RobotCommand* command) noexcept;
-  MotionFault advanceJoints(const franka_core::RobotCommand* command) noexcept;
-  MotionFault advanceCartesian(const franka_core::RobotCommand* command,
-                               const franka_core::ArmModel& model) noexcept;
+  ErrorSet advanceAsync(const franka_core::RobotCommand* command) noexcept;
+  ErrorSet advanceJoints(const franka_core::RobotCommand* command) noexcept;
+  ErrorSet advanceCartesian(const franka_core::RobotCommand* command,
+                            const franka_core::ArmModel& model) noexcept;
   void showJoints(const franka_core::ArmModel& model) noexcept;
+  InverseKinematics::Solution solve(const CartesianSample& commanded,
+                                    const franka_core::ArmModel& model) const noexcept;
   void showCartesian(const InverseKinematics::Solution& solution) noexcept;
   void showAcceleration() noexcept;
 

@@ -4,16 +4,12 @@
 
 #include <franka_core/limits.h>
 #include <franka_core/robot_error.h>
+#include <franka_sim/robot/error_set.h>
 
 #include <array>
 #include <cstddef>
-#include <optional>
 
 namespace franka_sim {
-
-/// Nothing, or the one error of a command: only the first failing stage raises one (decision 14).
-/// Whether real robots raise several is open (decision 47).
-using MotionFault = std::optional<franka_core::RobotError>;
 
 /// Limits of commanded motions, and the flags that report violations.
 struct MotionLimits {
