@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-LINKS = Path(__file__).parent.parent / "catkin_ws/src/franka_description/robots/common/inertial.yaml"
+ROBOTS = Path(__file__).parent.parent / "catkin_ws/src/franka_description/robots"
+LINKS = {"panda": ROBOTS / "common/inertial.yaml", "fr3": ROBOTS / "fr3/inertials.yaml"}
 GRAVITY = np.array([0.0, 0.0, -9.81])  # [m/s^2]
 FLANGE = 8
 
@@ -39,11 +40,12 @@ class Body:
     inertia: np.ndarray
 
 
-def bodies(load: Body) -> list[Body]:
-    """The moving links, and the load."""
+def bodies(load: Body, robot: str) -> list[Body]:
+    """The moving links of `panda` or `fr3`, and the load."""
     found = [load]
+    links = yaml.safe_load(LINKS[robot].read_text())
     for link in range(1, 8):
-        values = yaml.safe_load(LINKS.read_text())[f"link{link}"]
+        values = links[f"link{link}"]
         centre = np.array([float(number) for number in values["origin"]["xyz"].split()])
         of = {axes: float(number) for axes, number in values["inertia"].items()}
         inertia = [[of["".join(sorted(row + column))] for column in "xyz"] for row in "xyz"]

@@ -44,23 +44,23 @@ def run(request, long_run, tmp_path_factory):
         assert client.returncode == 0, f"{client.stderr}\n{session.tail(20)}"
         session.check()
     report = json.loads(client.stdout.strip().splitlines()[-1])
-    return SimpleNamespace(report=report, recording=np.load(recording))
+    return SimpleNamespace(robot=robot, report=report, recording=np.load(recording))
 
 
 @pytest.fixture(params=[0, 1], ids=["first", "again"])
 def recorded(request, run):
     """Recorded states of a controller's run, by its name."""
-    return lambda name: Run(run.recording, name, request.param)
+    return lambda name: Run(run, name, request.param)
 
 
 class Run:
     """Each field an array over the states (n, ...), matrices as such."""
 
-    def __init__(self, recording, controller, number):
-        for key in recording.files:
+    def __init__(self, run, controller, number):
+        for key in run.recording.files:
             prefix, _, field = key.rpartition("/")
             if prefix == f"{controller}/{number}":
-                setattr(self, field, recording[key])
+                setattr(self, field, run.recording[key])
         self.O_T_EE, self.O_T_EE_d = (as_poses(poses) for poses in (self.O_T_EE, self.O_T_EE_d))
         self.elbow_d = self.elbow_d[:, 0]
         assert self.flawless
@@ -68,7 +68,7 @@ class Run:
         load = rigid_arm.Body(
             rigid_arm.FLANGE, self.m_total[0], self.F_x_Ctotal[0], self.I_total[0].reshape(3, 3)
         )
-        self.bodies = rigid_arm.bodies(load)
+        self.bodies = rigid_arm.bodies(load, run.robot)
 
     def led_by(self, formula, field):
         """A formula's value for each state, with the start time found from a field of desired values."""
@@ -139,7 +139,7 @@ def test_joint_impedance_moves_the_arm_along_a_circle(recorded):
 
 @pytest.mark.parametrize("number", [0, 1], ids=["first", "again"])
 def test_model_prints_the_textbook_values(run, number):
-    seen, bodies = run.report["model"][number], Run(run.recording, "joint_position", 0).bodies
+    seen, bodies = run.report["model"][number], Run(run, "joint_position", 0).bodies
     printed, q, links = seen["printed"], seen["q"], rigid_arm.poses(seen["q"])
     same = partial(np.testing.assert_allclose, rtol=1e-5, atol=1e-5)  # six digits are printed
     same(as_poses(printed["joint_pose"])[0], links[4])
@@ -165,7 +165,7 @@ def test_cartesian_impedance_reaches_its_equilibrium_and_yields_like_a_spring(ru
 
 def test_cartesian_impedance_commands_match_its_control_law(run):
     """While the hand is pushed and released; the null space target is the start position."""
-    states, desired = Run(run.recording, "cartesian_impedance", 0), np.array(run.report["led"]["desired"])
+    states, desired = Run(run, "cartesian_impedance", 0), np.array(run.report["led"]["desired"])
     q_nullspace = run.report["led"]["q_nullspace"]
     some = np.arange(2, len(states.time), 15)
     expected = []
@@ -179,7 +179,7 @@ def test_cartesian_impedance_commands_match_its_control_law(run):
 
 
 def test_restarted_cartesian_impedance_holds_its_position(run):
-    states = Run(run.recording, "cartesian_impedance", 1)
+    states = Run(run, "cartesian_impedance", 1)
     assert states.moving.sum() > RECORDS_A_SECOND // 2
     assert distances(states.O_T_EE, states.O_T_EE[0]).max() < POSE_ERROR
     assert np.abs(states.q - states.q[0]).max() < JOINT_ERROR
@@ -187,7 +187,7 @@ def test_restarted_cartesian_impedance_holds_its_position(run):
 
 @pytest.mark.parametrize("number", [0, 1], ids=["first", "again"])
 def test_force_presses_with_the_desired_force(run, number):
-    pressed, states = run.report["pressed"][number], Run(run.recording, "force", number)
+    pressed, states = run.report["pressed"][number], Run(run, "force", number)
     weight = GRAVITY * pressed["desired_mass"]
     assert pressed["forces"] == pytest.approx([weight] * len(pressed["forces"]), rel=FORCE_ERROR)
     J = rigid_arm.jacobian(rigid_arm.poses(states.q[-1]), states.O_T_EE[-1, :3, 3])

@@ -160,7 +160,7 @@ def test_panda_gripper(panda):
 
 def test_fr3_connects(fr3):
     assert fr3["mode"] == "Idle"
-    assert fr3["m_ee"] == pytest.approx(0.76, abs=1e-6)
+    assert fr3["m_ee"] == pytest.approx(0.73, abs=1e-6)
     # The client's model is pinocchio on the URDF that the robot served; the state is single precision.
     assert fr3["gravity_error"] < 1e-4
 

@@ -36,7 +36,7 @@ def test_defaults(name):
         "parent",
         "xyz",
         "rpy",
-    }
+    } | ({"inertials"} if name == "fr3" else set())
 
 
 @pytest.mark.parametrize("name", NAMES)

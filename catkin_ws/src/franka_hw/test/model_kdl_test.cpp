@@ -212,8 +212,13 @@ TEST_P(ModelKDLTest, HoldsTheStretchedArm) {
   // Upright and stretched, joint 2 carries the sum of each link's mass times the horizontal
   // distance (x) of its centre of mass: links 2 to 7; the frames of links 4 and 7 are at 0.0825 m
   // and 0.088 m.
-  const double moment = 0.646926 * -0.003141 + 3.228604 * 0.027518 + 3.587895 * (0.0825 - 0.05317) +
-                        1.225946 * -0.011953 + 1.666555 * 0.060149 + 0.735522 * (0.088 + 0.010517);
+  const double moment =
+      robot == "panda"
+          ? 0.646926 * -0.003141 + 3.228604 * 0.027518 + 3.587895 * (0.0825 - 0.05317) +
+                1.225946 * -0.011953 + 1.666555 * 0.060149 + 0.735522 * (0.088 + 0.010517)
+          : 2.9355370338 * 0.0031828864 + 2.2449013699 * 0.0407015686 +
+                2.6155955791 * (0.0825 - 0.0459100965) + 2.3271207594 * -0.0016039605 +
+                1.8170376524 * 0.0597131221 + 0.6271432862 * (0.088 + 0.0045225817);
   const Array7 gravity = model.gravity({}, 0.0, {}, {{0.0, 0.0, kHang}});
   EXPECT_NEAR(moment * kHang, gravity[1], 1e-9);
   // With a load of one kilogram at the flange, at 88 mm.

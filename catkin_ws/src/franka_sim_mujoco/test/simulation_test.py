@@ -114,7 +114,7 @@ class SimulationTest(unittest.TestCase):
 
     def test_state_is_that_of_a_moving_panda_at_rest(self):
         now = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_MOVE)
-        self.assertAlmostEqual(now.m_ee, 0.76, places=6)  # hand and both fingers
+        self.assertAlmostEqual(now.m_ee, 0.76, places=6)
         self.assertAlmostEqual(now.m_total, 0.76, places=6)
         self.assertAlmostEqual(now.F_T_NE[14], 0.1034)
         self.assertAlmostEqual(now.F_T_NE[0], math.cos(math.pi / 4), places=6)

@@ -168,6 +168,19 @@ TEST(EndEffectorFromUrdf, ComposesHandAndClosedFingers) {
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues().minCoeff(), 0.0);
 }
 
+TEST(EndEffectorFromUrdf, IsDesksHandOnAnFr3) {
+  const Payload ee = endEffectorFromUrdf(readData("fr3_hand.urdf"), "fr3");
+  EXPECT_NEAR(0.73, ee.mass, 1e-15);
+  const std::array<double, 3> com{-0.01, 0.0, 0.03};
+  const std::array<double, 9> inertia{0.001, 0, 0, 0, 0.0025, 0, 0, 0, 0.0017};
+  for (std::size_t i = 0; i < 3; i++) {
+    EXPECT_NEAR(com[i], ee.com[i], 1e-15);
+  }
+  for (std::size_t i = 0; i < 9; i++) {
+    EXPECT_NEAR(inertia[i], ee.inertia[i], 1e-15);
+  }
+}
+
 TEST(EndEffectorFromUrdf, IsEmptyForABareArmAndRefusesAHandWithoutMass) {
   const std::string bare = std::regex_replace(
       panda(), std::regex("<parent link=\"panda_link8\" />"), "<parent link=\"panda_link0\" />");

@@ -58,7 +58,7 @@ class ModelAgreement : public ::testing::TestWithParam<const char*> {
   ModelAgreement()
       : reference_(GetParam()),
         model_(franka_core::ArmModel::fromUrdf(urdfOf(GetParam()), GetParam())),
-        payload_(handPayload()) {}
+        payload_(handPayload(GetParam())) {}
 
   void draw() {
     std::uniform_real_distribution<double> angle(-2.8, 2.8), speed(-2.5, 2.5);

@@ -61,7 +61,7 @@ inline RobotDescription robot(const std::string& kind, const std::string& arm_id
 inline RobotDescription robot(const std::string& kind) { return robot(kind, kind); }
 
 /// The hand with closed fingers as payload at the flange, from the numbers of the description.
-inline franka_core::Payload handPayload() {
+inline franka_core::Payload handPayload(const std::string& kind = "panda") {
   const auto body = [](double mass, std::array<double, 3> com, std::array<double, 3> moments) {
     franka_core::Payload payload;
     payload.mass = mass;
@@ -69,6 +69,9 @@ inline franka_core::Payload handPayload() {
     payload.inertia = {moments[0], 0, 0, 0, moments[1], 0, 0, 0, moments[2]};
     return payload;
   };
+  if (kind == "fr3") {  // as Desk configures it
+    return body(0.73, {-0.01, 0, 0.03}, {0.001, 0.0025, 0.0017});
+  }
   const std::array<double, 3> finger{2.375e-06, 2.375e-06, 7.5e-07};
   franka_core::Payload hand = body(0.73, {-0.01, 0, 0.03}, {0.001, 0.0025, 0.0017});
   hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
@@ -91,10 +94,10 @@ inline franka_core::Payload handPayload() {
 /// Holds or moves the arm by gravity compensation and joint springs.
 class ArmHolder {
  public:
-  ArmHolder(ArmPlant* arm, const franka_core::ArmModel& model)
-      : arm_(arm), model_(model), payload_(handPayload()) {}
   explicit ArmHolder(ArmPlant* arm, const std::string& kind = "panda")
-      : ArmHolder(arm, franka_core::ArmModel::fromUrdf(urdfOf(kind), kind)) {}
+      : arm_(arm),
+        model_(franka_core::ArmModel::fromUrdf(urdfOf(kind), kind)),
+        payload_(handPayload(kind)) {}
 
   std::array<double, 7> torques(const std::array<double, 7>& q_d,
                                 const std::array<double, 7>& dq_d = {}) const noexcept {

@@ -24,7 +24,15 @@ namespace {
 using franka_core::RobotState;
 
 // Centre of the hand alone, in its own frame [m].
-Eigen::Vector3d handCenter() { return {-0.01, 0.0, 0.03}; }
+/// The centre of mass of the link hand, in its frame, and the link's mass as the URDF has it.
+Eigen::Vector3d handCenter(const std::string& id) {
+  return id == "fr3"
+             ? Eigen::Vector3d(-0.00737411357523114, -0.00737411357523114, 0.0287828571428571)
+             : Eigen::Vector3d(-0.01, 0.0, 0.03);
+}
+std::string handMass(const std::string& id, int more) {
+  return "<mass value=\"" + std::to_string(more) + (id == "fr3" ? ".7\"" : ".73\"");
+}
 
 Eigen::Vector3d inWorld(const Pose& pose, const Eigen::Vector3d& point) {
   const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
@@ -53,7 +61,7 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     arm = &world->arm(id(), id());
     hand = &world->hand(id(), id());
     ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdfOf(id()), id())};
-    parameters.end_effector = handPayload();
+    parameters.end_effector = handPayload(id());
     parameters.F_T_NE = kHandF_T_NE;
     if (over_fci) {
       parameters.rules = InterfaceRules::kFci;
@@ -196,7 +204,7 @@ TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
 }
 
 TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsItsWeight) {
-  start("empty", "<mass value=\"0.73\"", "<mass value=\"1.73\"");
+  start("empty", handMass(id(), 0), handMass(id(), 1));
   run(4000);
   EXPECT_NEAR(9.81, unit->state().O_F_ext_hat_K[2], 0.01);
   EXPECT_NEAR(0.0, unit->state().O_F_ext_hat_K[0], 0.01);
@@ -206,12 +214,12 @@ TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsItsWeight) {
 TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsWeightAndInertiaAtFullSpeed) {
   // A point of 1 kg at the hand's centre of mass: the arm always exerts m (a - g) on it. Its
   // acceleration is the second difference of its position in the world.
-  start("empty", "<mass value=\"0.73\"", "<mass value=\"1.73\"");
+  start("empty", handMass(id(), 0), handMass(id(), 1));
   tick();
   ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
   SineDriver driver(unit->configuration(), unit->configuration().end_effector, 4.0, 0.5,
                     id() == "fr3" ? kFr3Speed : kPandaSpeed);
-  const Eigen::Vector3d in_hand = handCenter();
+  const Eigen::Vector3d in_hand = handCenter(id());
   constexpr double kSmoothing = 1e-3 / (1e-3 + 1.0 / (2 * 3.14159265358979324 * 100));
   std::array<Eigen::Vector3d, 3> places;
   places.fill(Eigen::Vector3d::Zero());
