@@ -107,6 +107,11 @@ class Services:
         ).ok
 
 
+def fastest(call, name, **values):
+    """The answer of three refused calls that took the least time: a machine may stall in one of them."""
+    return min((call(name, **values) for _ in range(3)), key=lambda answer: answer[-1])
+
+
 def thresholds(**changed):
     """Arguments of set_full_collision_behavior: wide, except those named as in lower_force=5."""
     arguments = {}
@@ -246,7 +251,9 @@ class Topics:
 def idle(robot, operator, services, topics, diagnosis):
     report = {"diagnosis": diagnosis.shows("Robot", "Ready")}
     report["loop"] = diagnosis.shows("Control loop", "The controllers keep time")
-    report["bad"] = [[name, what, *services.set(name, **values)] for name, what, values in bad_values()]
+    report["bad"] = [
+        [name, what, *fastest(services.set, name, **values)] for name, what, values in bad_values()
+    ]
     before = robot.state
     report["good"] = {}
     for name, (values, effect) in good_values().items():
@@ -344,8 +351,8 @@ def soft_joints(robot, operator, services, topics, diagnosis):
     refused["set_force_torque_collision_behavior"] = nominal()
     refused["set_full_collision_behavior"] = thresholds()
     refused.update({name: values for name, (values, _) in good_values().items()})
-    report["refused"] = {name: services.set(name, **values) for name, values in refused.items()}
-    report["refused"].update({name: services.trigger(name) for name in ("connect", "disconnect")})
+    report["refused"] = {name: fastest(services.set, name, **values) for name, values in refused.items()}
+    report["refused"].update({name: fastest(services.trigger, name) for name in ("connect", "disconnect")})
     report["goes_on"] = robot.state.robot_mode
     report["stopped"] = services.switch(stop=[CONTROLLER])
     return report

@@ -142,6 +142,8 @@ def fidelity():
         ("above # W", constant(HEADERS + "robot/measured_limits.h", "kPowerLimit = #;")),
         ("# times the motors'", constant(ROBOT + "measured_limits.cpp", "kTorqueMargin = #;")),
         ("# times the joints' jerk", constant(ROBOT + "motion/joint_motion.cpp", "kSolvedJerkFactor = #;")),
+        ("clamp at less than # rad/s", constant(ROBOT + "motion_supervisor.cpp", "kStandstill = #;")),
+        ("or after # s in which", constant(ROBOT + "motion_supervisor.cpp", "kClosingTicks = #;") * tick),
         (
             "with # times, it would never",
             constant(TESTS + "robot/error_flags_test.cpp", "2 * limits->ddq[i], # * limits->dddq[i] * 1e-3"),

@@ -229,8 +229,9 @@ TEST_P(ModelKDLTest, HoldsTheStretchedArm) {
 TEST_P(ModelKDLTest, ReadsTurnedInertialFrames) {
   // The same numbers in turned frames are different inertias; both readers must read the same
   // inertias.
-  const std::string turned = replaced(urdf_text, "<origin rpy=\"0 0 0\" xyz=\"0.027518",
-                                      "<origin rpy=\"0.3 -0.2 1.1\" xyz=\"0.027518");
+  const std::string x = robot == "panda" ? "0.027518" : "0.0407015686";  // of link 3
+  const std::string turned = replaced(urdf_text, "<origin rpy=\"0 0 0\" xyz=\"" + x,
+                                      "<origin rpy=\"0.3 -0.2 1.1\" xyz=\"" + x);
   const ModelKDL turned_model(parsed(turned), robot + "_link0", robot + "_link8");
   const franka_core::ArmModel other = franka_core::ArmModel::fromUrdf(turned, robot);
   const Sample s = samples.next();

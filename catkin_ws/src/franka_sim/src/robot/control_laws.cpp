@@ -50,6 +50,28 @@ std::array<double, 7> guide(CartesianImpedanceInput in, const GuidingTask& guidi
   return cartesianImpedance(in);
 }
 
+// The torques that links and rotors need for a desired acceleration, here that of braking. They act
+// without a blend: an arm that begins to brake too late overshoots and springs back.
+std::array<double, 7> accelerating(const std::array<double, 7>& ddq_d,
+                                   const std::array<double, 49>& mass,
+                                   const std::array<double, 7>& rotor_inertia) noexcept {
+  std::array<double, 7> tau;
+  for (std::size_t i = 0; i < 7; i++) {
+    tau[i] = rotor_inertia[i] * ddq_d[i];
+    for (std::size_t j = 0; j < 7; j++) {
+      tau[i] += mass[7 * j + i] * ddq_d[j];
+    }
+  }
+  return tau;
+}
+
+std::array<double, 7> sumOf(std::array<double, 7> a, const std::array<double, 7>& b) noexcept {
+  for (std::size_t i = 0; i < 7; i++) {
+    a[i] += b[i];
+  }
+  return a;
+}
+
 std::array<double, 7> follow(CartesianImpedanceInput in, const franka_core::RobotState& state,
                              const std::array<double, 6>& stiffness) noexcept {
   in.O_T_EE_d = state.O_T_EE_d;
@@ -70,12 +92,15 @@ const std::array<double, 7>& ControlLaws::torques(
   } else if (task.law_switch == LawSwitch::kFromZero) {
     blend_.lawStartsFromZero();
   }
-  law_ = saturate(law(task, state, dynamics), configuration_.parameters().max_torque);
+  const ControlUnitParameters& parameters = configuration_.parameters();
+  law_ = saturate(law(task, state, dynamics), parameters.max_torque);
   motor_torques_ = blend_.apply(law_);
-  const std::array<double, 7> compensated = compensation(state, dynamics);
-  for (std::size_t i = 0; i < 7; i++) {
-    motor_torques_[i] += compensated[i];
+  if (task.mode != RobotMode::kMove) {
+    const std::array<double, 7> braking =
+        accelerating(state.ddq_d, dynamics.mass, parameters.rotor_inertia);
+    motor_torques_ = saturate(sumOf(motor_torques_, braking), parameters.max_torque);
   }
+  motor_torques_ = sumOf(motor_torques_, compensation(state, dynamics));
   return motor_torques_;
 }
 
@@ -97,7 +122,7 @@ std::array<double, 7> ControlLaws::law(const ControlTask& task,
     return guide(measuredInput(parameters, state, dynamics), task.guiding);
   }
   if (task.mode != RobotMode::kMove) {
-    // Holds a pose that was latched at the start of the mode (decision 6).
+    // Holds a pose that was latched at the start of the mode (decision 6), or brakes.
     return joint_impedance(parameters.joint_stiffness);
   }
   switch (task.controller) {
@@ -114,13 +139,11 @@ std::array<double, 7> ControlLaws::law(const ControlTask& task,
 std::array<double, 7> ControlLaws::compensation(
     const franka_core::RobotState& state, const franka_core::ArmDynamics& dynamics) const noexcept {
   const ControlUnitParameters& parameters = configuration_.parameters();
-  std::array<double, 7> sum =
-      frictionCompensation(parameters.coulomb_friction, parameters.viscous_friction, state.dq);
-  for (std::size_t i = 0; i < 7; i++) {
-    sum[i] = dynamics.gravity[i] + sum[i];
-  }
   // The configured payload may be heavier than a motor can hold.
-  return saturate(sum, parameters.max_torque);
+  return saturate(
+      sumOf(dynamics.gravity, frictionCompensation(parameters.coulomb_friction,
+                                                   parameters.viscous_friction, state.dq)),
+      parameters.max_torque);
 }
 
 }  // namespace franka_sim

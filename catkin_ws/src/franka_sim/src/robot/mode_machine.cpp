@@ -58,7 +58,7 @@ bool ModeMachine::handle(ModeEvent event) noexcept {
   return false;
 }
 
-bool ModeMachine::brakesClosed() const noexcept {
+bool ModeMachine::closesBrakes() const noexcept {
   return mode_ == RobotMode::kUserStopped || mode_ == RobotMode::kOther;
 }
 

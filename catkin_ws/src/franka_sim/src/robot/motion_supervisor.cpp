@@ -24,6 +24,9 @@ constexpr double kStandstill = 0.01;  // [rad/s] below this speed a recovery may
 constexpr int kStillTicks = 20;       // for at least this time
 // Chosen here: braking and yielding take less than 1 s, so a longer recovery has failed.
 constexpr int kRecoveryTicks = 5000;
+// Chosen here: an arm follows its braking trajectory within some 20 ms; one that something else
+// moves is not waited for any longer.
+constexpr int kClosingTicks = 100;
 
 }  // namespace
 
@@ -118,6 +121,9 @@ void MotionSupervisor::advance(const franka_core::RobotCommand* command) noexcep
   if (mode() == RobotMode::kAutomaticErrorRecovery) {
     advanceRecovery();
   }
+  if (modes_.closesBrakes()) {
+    advanceBrakes();
+  }
 }
 
 ControlTask MotionSupervisor::takeTask() noexcept {
@@ -194,11 +200,11 @@ void MotionSupervisor::advanceRest() noexcept {
       followArm();
       break;
     case RestSequence::Step::kBrakes:
-    case RestSequence::Step::kStops:
       showJoints(rest_.braking().q(), rest_.braking().dq(), rest_.braking().ddq());
-      if (step == RestSequence::Step::kStops) {
-        answers_.atRest();
-      }
+      break;
+    case RestSequence::Step::kStops:
+      showJoints(rest_.braking().q(), {}, {});
+      answers_.atRest();
   }
 }
 
@@ -207,10 +213,7 @@ void MotionSupervisor::advanceRecovery() noexcept {
   // The recovery need not wait for the end of the yield time if the arm no longer moves: the socket
   // of a client that does not read states meanwhile holds at most those of 50 ms, and the recovery
   // should be complete within them.
-  const bool still =
-      !rest_.isBraking() && std::all_of(state_.dq.begin(), state_.dq.end(),
-                                        [](double dq) { return std::abs(dq) < kStandstill; });
-  still_ticks_ = still ? still_ticks_ + 1 : 0;
+  still_ticks_ = !rest_.isBraking() && stands() ? still_ticks_ + 1 : 0;
   if (still_ticks_ >= kStillTicks) {
     clearErrors();
     answers_.recoveryEnds(Status::kSuccess);
@@ -219,6 +222,20 @@ void MotionSupervisor::advanceRecovery() noexcept {
     answers_.recoveryEnds(Status::kAborted);
     change(ModeEvent::kRecoveryFailed);
   }
+}
+
+// Category 1: the motors bring the arm to rest, then the brakes close, so that they need not stop
+// it.
+void MotionSupervisor::advanceBrakes() noexcept {
+  if (!brakes_closed_ && !rest_.isBraking()) {
+    closing_ticks_++;
+    brakes_closed_ = stands() || closing_ticks_ >= kClosingTicks;
+  }
+}
+
+bool MotionSupervisor::stands() const noexcept {
+  return std::all_of(state_.dq.begin(), state_.dq.end(),
+                     [](double dq) { return std::abs(dq) < kStandstill; });
 }
 
 // --- what the state shows ------------------------------------------------------------------------

@@ -205,7 +205,8 @@ UnitStatus MotionSupervisor::status() const noexcept {
   status.brakes_closed = brakesClosed();
   status.user_stop_pressed = user_stop_;
   status.fci_active = fci_active_;
-  status.settling = !rest_.isFinished() || mode() == RobotMode::kAutomaticErrorRecovery;
+  status.settling = !rest_.isFinished() || mode() == RobotMode::kAutomaticErrorRecovery ||
+                    modes_.closesBrakes() != brakes_closed_;
   status.answers_at_rest = answers_.waitForRest();
   status.thresholds = thresholds();
   status.joint_collision = safety_.jointCollision();
@@ -222,6 +223,7 @@ void MotionSupervisor::restart() noexcept {
   forgetMotion();
   law_switch_ = LawSwitch::kNone;
   still_ticks_ = 0;
+  brakes_closed_ = modes_.closesBrakes();
 }
 
 // --- transitions ---------------------------------------------------------------------------------
@@ -289,7 +291,7 @@ void MotionSupervisor::enter(RobotMode before) noexcept {
       break;
     case RobotMode::kIdle:
     case RobotMode::kReflex:
-      if (before == RobotMode::kUserStopped || before == RobotMode::kOther) {
+      if (brakes_closed_) {
         holdHere();
       } else if (before != RobotMode::kAutomaticErrorRecovery) {
         brake();
@@ -302,7 +304,23 @@ void MotionSupervisor::enter(RobotMode before) noexcept {
     case RobotMode::kAutomaticErrorRecovery:
       break;
     default:
-      holdHere();
+      stopAndClose();
+      return;
+  }
+  brakes_closed_ = false;
+}
+
+// The user stop, or the brakes: an arm that moves is brought to rest first.
+void MotionSupervisor::stopAndClose() noexcept {
+  closing_ticks_ = 0;
+  if (brakes_closed_) {
+    return;
+  }
+  brakes_closed_ = stands() && !rest_.isBraking();
+  if (brakes_closed_) {
+    holdHere();
+  } else {
+    brake();
   }
 }
 

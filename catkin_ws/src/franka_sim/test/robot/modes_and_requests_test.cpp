@@ -156,8 +156,15 @@ TEST_F(ArmTest, UserStopLocksTheArmAndReleaseHoldsIt) {
   startTorqueControl();
   const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
   run(100, &push);
+  const double speed = arm.dq()[0];
+  ASSERT_GT(speed, 0.3);
   unit.request(UserStop{true});
-  tick(unit, arm, &push);
+  EXPECT_FALSE(unit.status().brakes_closed) << "the motors stop it first";
+  EXPECT_TRUE(unit.status().settling);
+  // At 15 rad/s^2; then the arm catches up with its desired motion.
+  run(static_cast<int>(speed / 15e-3) + 60, &push);
+  EXPECT_TRUE(unit.status().brakes_closed);
+  EXPECT_FALSE(unit.status().settling);
   EXPECT_EQ((std::array<double, 7>{}), arm.torques());
   const std::array<double, 7> stopped = arm.q();
   arm.push = {{0, 0, -50, 0, 0, 0}};
@@ -173,6 +180,37 @@ TEST_F(ArmTest, UserStopLocksTheArmAndReleaseHoldsIt) {
   for (std::size_t i = 0; i < 7; i++) {
     EXPECT_NEAR(stopped[i], arm.q()[i], 1e-5);
   }
+}
+
+TEST_F(ArmTest, AUserStopReleasedEarlyStillBrakes) {
+  startTorqueControl();
+  const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
+  run(100, &push);
+  unit.request(UserStop{true});
+  run(5, &push);
+  unit.request(UserStop{false});
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+  EXPECT_GT(unit.state().dq_d[0], 0.2) << "it goes on braking";
+  run(1000, &push);
+  EXPECT_FALSE(unit.status().settling);
+  EXPECT_NEAR(0.0, arm.dq()[0], 1e-3);
+}
+
+TEST_F(ArmTest, BrakesCloseAtOnceAtRestAndNoLaterThanATenthOfASecondOtherwise) {
+  unit.request(Brakes{true});
+  EXPECT_TRUE(unit.status().brakes_closed);
+  unit.request(Brakes{false});
+  EXPECT_FALSE(unit.status().brakes_closed);
+  // Pushed so hard that it never stands still.
+  arm.push = {{0, 300, 0, 0, 0, 0}};
+  run(20);
+  unit.request(Brakes{true});
+  int ticks = 0;
+  while (!unit.status().brakes_closed) {
+    run(1);
+    ASSERT_LT(++ticks, 1000);
+  }
+  EXPECT_GE(ticks, 100);
 }
 
 TEST_F(ArmTest, SettersFollowTheRulesOfTheInterface) {

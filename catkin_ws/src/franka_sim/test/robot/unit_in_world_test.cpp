@@ -111,6 +111,52 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     return sum;
   }
 
+  /// Moves, then grasps the stone with 5 N.
+  void graspTheStone() {
+    run(10);
+    EXPECT_EQ(GripperOutcome::kSucceeded, finish(gripper->move(0.08, 0.1)));
+    EXPECT_NEAR(0.08, gripper->width(), 1e-3);
+    EXPECT_EQ(GripperOutcome::kSucceeded, finish(gripper->move(0.05, 0.1)));
+    EXPECT_NEAR(0.05, gripper->width(), 1e-3);
+    // The stone's 32 mm are in the fingers' direction; at first nothing holds it.
+    world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
+    const GripperUnit::Ticket grasp = gripper->grasp(0.032, 0.005, 0.005, 0.1, 5);
+    while (gripper->outcome(grasp) == GripperOutcome::kRunning) {
+      if (gripper->width() > 0.0325) {
+        world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
+      }
+      tick();
+    }
+    EXPECT_EQ(GripperOutcome::kSucceeded, gripper->outcome(grasp));
+    run(1000);
+    EXPECT_TRUE(gripper->isGrasped());
+  }
+
+  /// Where the stone is in the frame of the tool centre point [m].
+  Eigen::Vector3d stoneInHand() const {
+    const Pose hand_pose = world->bodyPose(id() + "_hand_tcp");
+    const Pose stone = world->bodyPose("stone");
+    const Eigen::Quaterniond turn(hand_pose.orientation[0], hand_pose.orientation[1],
+                                  hand_pose.orientation[2], hand_pose.orientation[3]);
+    return turn.conjugate() *
+           (Eigen::Vector3d(stone.position.data()) - Eigen::Vector3d(hand_pose.position.data()));
+  }
+
+  /// Brings joint 1 to a speed [rad/s] by commanded joint velocities.
+  void turnFirstJoint(double speed) {
+    tick();
+    franka_core::fci::MoveRequest move;
+    move.motion_generator_mode = franka_core::MotionGeneratorMode::kJointVelocity;
+    move.controller_mode = franka_core::ControllerMode::kJointImpedance;
+    ASSERT_EQ(Status::kMotionStarted, unit->request(move));
+    for (int i = 0; i < 600; i++) {
+      franka_core::RobotCommand command;
+      command.dq_c[0] = speed * std::min(1.0, i / 400.0);
+      tick(&command);
+    }
+    ASSERT_NEAR(speed, unit->state().dq[0], 0.01);
+  }
+
   bool over_fci{false};
   std::unique_ptr<World> world;
   ArmPlant* arm{nullptr};
@@ -247,6 +293,61 @@ TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsWeightAndInertiaAtFullSpeed) {
   EXPECT_LT(worst, 0.1);
 }
 
+TEST_P(UnitInWorldTest, StopsAtSpeedBrakeLikeAReflexAndThenClamp) {
+  for (const UnitRequest& stop : {UnitRequest{UserStop{true}}, UnitRequest{Brakes{true}}}) {
+    start("empty");
+    turnFirstJoint(1.0);
+    const double from = unit->state().q[0];
+    const double ddq = unit->limits().arm.ddq[0];
+    const std::array<double, 7> held = unit->state().tau_J;
+    unit->request(stop);
+    double furthest = from;
+    double braking_torque = 0.0;   // strongest change of a joint's torque, while the motors brake
+    double clamping_torque = 0.0;  // and from then on
+    int braking = 0;
+    int closed = 0;
+    for (int i = 0; i < 1000; i++) {
+      const double desired = unit->state().dq_d[0];
+      tick();
+      const RobotState& state = unit->state();
+      if (state.dq_d[0] > 0.0) {
+        braking++;
+        EXPECT_NEAR(ddq * 1e-3, desired - state.dq_d[0], 1e-9);
+      }
+      closed += unit->status().brakes_closed ? 1 : 0;
+      furthest = std::max(furthest, state.q[0]);
+      for (std::size_t j = 0; j < 7; j++) {
+        EXPECT_LT(std::abs(state.tau_J[j]), unit->configuration().max_torque[j]);
+        double& strongest = closed > 2 ? clamping_torque : braking_torque;
+        strongest = std::max(strongest, std::abs(state.tau_J[j] - held[j]));
+      }
+    }
+    const double rebound = furthest - unit->state().q[0];
+    std::printf(
+        "%s stops from 1 rad/s: %d ms, %.1f mrad, rebound %.3f mrad; torques change by %.1f "
+        "Nm, after the brakes have closed by %.1f Nm\n",
+        GetParam(), braking, 1e3 * (furthest - from), 1e3 * rebound, braking_torque,
+        clamping_torque);
+    EXPECT_NEAR(1.0 / ddq * 1e3, braking, 2);
+    EXPECT_NEAR(0.5 / ddq, furthest - from, 0.001);
+    EXPECT_LT(rebound, 1e-3);
+    EXPECT_LT(clamping_torque, 0.25 * braking_torque) << "the brakes had to stop the arm";
+    EXPECT_GT(closed, 700);
+  }
+}
+
+TEST_P(UnitInWorldTest, AUserStopDoesNotShakeTheStoneOutOfTheHand) {
+  start("stone");
+  graspTheStone();
+  const Eigen::Vector3d held = stoneInHand();
+  turnFirstJoint(1.0);
+  unit->request(UserStop{true});
+  run(1000);
+  EXPECT_TRUE(unit->status().brakes_closed);
+  EXPECT_TRUE(gripper->isGrasped());
+  EXPECT_LT((stoneInHand() - held).norm(), 1e-3);
+}
+
 TEST_P(UnitInWorldTest, UserStopAtSpeedLocksTheArmWithoutACollision) {
   start("empty");
   tick();
@@ -255,7 +356,7 @@ TEST_P(UnitInWorldTest, UserStopAtSpeedLocksTheArmWithoutACollision) {
   run(80, &push);
   EXPECT_GT(std::abs(unit->state().dq[0]), 0.5);
   unit->request(UserStop{true});
-  run(200);
+  run(1000);  // 30 Nm make it faster than any motion may be
   const std::array<double, 7> stopped = unit->state().q;
   run(2000);
   for (std::size_t i = 0; i < 7; i++) {
@@ -272,23 +373,7 @@ TEST_P(UnitInWorldTest, UserStopAtSpeedLocksTheArmWithoutACollision) {
 
 TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
   start("stone");
-  run(10);
-  EXPECT_EQ(GripperOutcome::kSucceeded, finish(gripper->move(0.08, 0.1)));
-  EXPECT_NEAR(0.08, gripper->width(), 1e-3);
-  EXPECT_EQ(GripperOutcome::kSucceeded, finish(gripper->move(0.05, 0.1)));
-  EXPECT_NEAR(0.05, gripper->width(), 1e-3);
-  // The stone's 32 mm are in the fingers' direction; at first nothing holds it.
-  world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
-  const GripperUnit::Ticket grasp = gripper->grasp(0.032, 0.005, 0.005, 0.1, 5);
-  while (gripper->outcome(grasp) == GripperOutcome::kRunning) {
-    if (gripper->width() > 0.0325) {
-      world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
-    }
-    tick();
-  }
-  EXPECT_EQ(GripperOutcome::kSucceeded, gripper->outcome(grasp));
-  run(1000);
-  EXPECT_TRUE(gripper->isGrasped());
+  graspTheStone();
   const Pose pose = world->bodyPose(id() + "_hand");
   const Eigen::Vector3d across = Eigen::Quaterniond(pose.orientation[0], pose.orientation[1],
                                                     pose.orientation[2], pose.orientation[3]) *

@@ -73,7 +73,7 @@ TEST(ModeTable, EveryEventInEveryMode) {
           expected == '.' ? kModes[row] : static_cast<RobotMode>(letters.find(expected));
       EXPECT_EQ(after, machine.mode()) << row << " " << event;
       EXPECT_EQ(after == RobotMode::kOther || after == RobotMode::kUserStopped,
-                machine.brakesClosed());
+                machine.closesBrakes());
     }
   }
 }
@@ -347,11 +347,11 @@ TEST_F(UnitMotion, UserStopEndsMotionAndRecovery) {
   drive(300, [&](int i, const RobotState&) { return swing(i); });
   unit.request(UserStop{true});
   EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
-  EXPECT_TRUE(unit.status().brakes_closed);
   EXPECT_EQ(Status::kEmergencyAborted, unit.takeAnswer(PendingAnswer::kMotion));
   EXPECT_EQ(Status::kCommandNotPossibleRejected,
             unit.request(request(MotionGeneratorMode::kNone, ControllerMode::kExternalController)));
-  run(100);
+  run(200);
+  EXPECT_TRUE(unit.status().brakes_closed);
   unit.request(UserStop{false});
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
   run(100);

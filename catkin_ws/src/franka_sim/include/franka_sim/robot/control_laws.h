@@ -38,9 +38,10 @@ struct ControlTask {
 /// From command to torque: external torque, joint impedance, Cartesian impedance, hold, guiding;
 /// saturation, gravity and friction compensation.
 ///
-///     tau_motor = blend(saturate(law)) + saturate(gravity + friction)
+///     tau_motor = saturate(blend(saturate(law)) + braking) + saturate(gravity + friction)
 ///
-/// Gravity includes the configured load. Called by one thread. Real-time safe.
+/// braking: (M + B) ddq_d of an arm that brakes outside of a motion. Gravity includes the
+/// configured load. Called by one thread. Real-time safe.
 class ControlLaws {
  public:
   /// @param configuration outlives the laws.

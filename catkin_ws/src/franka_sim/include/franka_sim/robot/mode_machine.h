@@ -32,8 +32,8 @@ class ModeMachine {
   /// @returns whether the event caused a transition.
   bool handle(ModeEvent event) noexcept;
 
-  /// Whether the joints are locked in this mode.
-  bool brakesClosed() const noexcept;
+  /// Whether the brakes close in this mode, once the arm rests.
+  bool closesBrakes() const noexcept;
 
  private:
   franka_core::RobotMode mode_{franka_core::RobotMode::kIdle};

@@ -72,7 +72,7 @@ class MotionSupervisor {
   bool isMoving() const noexcept { return mode() == franka_core::RobotMode::kMove; }
   bool generates() const noexcept;
   bool acceptsSetters() const noexcept;
-  bool brakesClosed() const noexcept { return modes_.brakesClosed(); }
+  bool brakesClosed() const noexcept { return brakes_closed_; }
   UnitStatus status() const noexcept;
   const MotionLimits& limits() const noexcept { return generator_.limits(); }
   const VirtualWalls& walls() const noexcept { return safety_.walls(); }
@@ -94,6 +94,8 @@ class MotionSupervisor {
   void finishMotion() noexcept;
   void advanceRest() noexcept;
   void advanceRecovery() noexcept;
+  void advanceBrakes() noexcept;
+  bool stands() const noexcept;
 
   // transitions
   MotionStartResult startGenerator(const franka_core::fci::MoveRequest& request) noexcept;
@@ -109,6 +111,7 @@ class MotionSupervisor {
   void forgetMotion() noexcept;
   void clearErrors() noexcept;
   void brake() noexcept;
+  void stopAndClose() noexcept;
   void holdHere() noexcept;
   void followArm() noexcept;
   void guideFromHere() noexcept;
@@ -138,6 +141,8 @@ class MotionSupervisor {
 
   RestSequence rest_;
   int recovery_ticks_{0}, still_ticks_{0};
+  bool brakes_closed_{false};
+  int closing_ticks_{0};      // that the arm has had to stand still
   bool desired_stale_{true};  // q_d or the frames have changed
   GuidingTask guiding_;
   LawSwitch law_switch_{LawSwitch::kNone};
