@@ -172,10 +172,10 @@ def bad_values():
     ]
 
 
-def rate_of(headers):
-    """Rate of consecutive messages [Hz]. The median, because a busy machine delays some of them."""
-    pairs = zip(headers, headers[1:])
-    return 1.0 / median((b.stamp - a.stamp).to_sec() for a, b in pairs if b.seq == a.seq + 1)
+def periods_of(messages):
+    """Times between consecutive messages, given by their stamps [s]; a busy machine drops some between."""
+    headers = [messages[stamp].header for stamp in sorted(messages)]
+    return [(b.stamp - a.stamp).to_sec() for a, b in zip(headers, headers[1:]) if b.seq == a.seq + 1]
 
 
 class Topics:
@@ -208,12 +208,13 @@ class Topics:
     def compare(self, count):
         """Largest differences between topics of one cycle, over a number of cycles."""
         self.forget()
-        complete = []
+        complete, periods = [], []
         deadline = time.monotonic() + 8 * PATIENCE
-        while len(complete) < count and time.monotonic() < deadline:
+        while (len(complete) < count or not periods) and time.monotonic() < deadline:
             time.sleep(0.02)
             kept = {name: dict(messages) for name, messages in self.kept.items()}
             complete = sorted(set.intersection(*(set(messages) for messages in kept.values())))
+            periods = periods_of(kept["franka_states"])
         differences = dict.fromkeys(kept, 0.0)
         for stamp in complete:
             cycle = {name: messages[stamp] for name, messages in kept.items()}
@@ -223,7 +224,7 @@ class Topics:
         return {
             "cycles": len(complete),
             "differences": differences,
-            "rate": rate_of([kept["franka_states"][stamp].header for stamp in sorted(kept["franka_states"])]),
+            "rate": 1.0 / median(periods),  # the machine delays some messages
             "wrench_frame": wrench.header.frame_id,
             "names": joints.name,
             "frames": [[t.header.frame_id, t.child_frame_id] for t in frames.transforms],

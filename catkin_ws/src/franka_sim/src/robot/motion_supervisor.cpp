@@ -227,9 +227,15 @@ void MotionSupervisor::advanceRecovery() noexcept {
 // Category 1: the motors bring the arm to rest, then the brakes close, so that they need not stop
 // it.
 void MotionSupervisor::advanceBrakes() noexcept {
-  if (!brakes_closed_ && !rest_.isBraking()) {
-    closing_ticks_++;
-    brakes_closed_ = stands() || closing_ticks_ >= kClosingTicks;
+  if (brakes_closed_ || rest_.isBraking()) {
+    return;
+  }
+  closing_ticks_++;
+  brakes_closed_ = stands() || closing_ticks_ >= kClosingTicks;
+  if (mode() == RobotMode::kUserStopped && !user_stop_) {
+    leaveStop(ModeEvent::kUserStopReleased);
+  } else if (mode() == RobotMode::kOther && !brakes_requested_) {
+    leaveStop(ModeEvent::kBrakesOpened);
   }
 }
 

@@ -129,8 +129,8 @@ MotionSupervisor::Answer MotionSupervisor::handle(const UserStop& request) noexc
   user_stop_ = request.pressed;
   if (request.pressed) {
     endMotion(ModeEvent::kUserStopPressed, Status::kEmergencyAborted, false);
-  } else if (change(ModeEvent::kUserStopReleased)) {
-    settle();
+  } else {
+    leaveStop(ModeEvent::kUserStopReleased);
   }
   return Status::kSuccess;
 }
@@ -145,10 +145,11 @@ MotionSupervisor::Answer MotionSupervisor::handle(const Guiding& request) noexce
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(const Brakes& request) noexcept {
+  brakes_requested_ = request.closed;
   if (request.closed) {
     endMotion(ModeEvent::kBrakesClosed, Status::kAborted, false);
-  } else if (change(ModeEvent::kBrakesOpened)) {
-    settle();
+  } else {
+    leaveStop(ModeEvent::kBrakesOpened);
   }
   return Status::kSuccess;
 }
@@ -321,6 +322,14 @@ void MotionSupervisor::stopAndClose() noexcept {
     holdHere();
   } else {
     brake();
+  }
+}
+
+// A stop that is taken back while the arm still brakes goes on until the brakes are closed.
+void MotionSupervisor::leaveStop(ModeEvent event) noexcept {
+  const bool braking = modes_.closesBrakes() && !brakes_closed_;
+  if (!braking && change(event)) {
+    settle();
   }
 }
 

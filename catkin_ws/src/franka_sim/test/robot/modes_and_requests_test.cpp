@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include "arm_fixture.h"
 
@@ -182,18 +183,29 @@ TEST_F(ArmTest, UserStopLocksTheArmAndReleaseHoldsIt) {
   }
 }
 
-TEST_F(ArmTest, AUserStopReleasedEarlyStillBrakes) {
-  startTorqueControl();
-  const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
-  run(100, &push);
-  unit.request(UserStop{true});
-  run(5, &push);
-  unit.request(UserStop{false});
-  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-  EXPECT_GT(unit.state().dq_d[0], 0.2) << "it goes on braking";
-  run(1000, &push);
-  EXPECT_FALSE(unit.status().settling);
-  EXPECT_NEAR(0.0, arm.dq()[0], 1e-3);
+TEST_F(ArmTest, AStopThatIsTakenBackEarlyIsCompleted) {
+  for (const auto& [stop, release, mode] :
+       {std::tuple{UnitRequest{UserStop{true}}, UnitRequest{UserStop{false}},
+                   RobotMode::kUserStopped},
+        std::tuple{UnitRequest{Brakes{true}}, UnitRequest{Brakes{false}}, RobotMode::kOther}}) {
+    startTorqueControl();
+    const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
+    run(100, &push);
+    unit.request(stop);
+    run(5, &push);
+    unit.request(release);
+    EXPECT_EQ(mode, unit.state().robot_mode);
+    EXPECT_GT(unit.state().dq_d[0], 0.2) << "it goes on braking";
+    int ticks = 0;
+    while (unit.state().robot_mode == mode) {
+      run(1, &push);
+      ASSERT_LT(++ticks, 1000);
+    }
+    EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+    EXPECT_FALSE(unit.status().settling);
+    EXPECT_FALSE(unit.status().brakes_closed);
+    EXPECT_NEAR(0.0, arm.dq()[0], 0.01);
+  }
 }
 
 TEST_F(ArmTest, BrakesCloseAtOnceAtRestAndNoLaterThanATenthOfASecondOtherwise) {

@@ -112,6 +112,7 @@ class MotionSupervisor {
   void clearErrors() noexcept;
   void brake() noexcept;
   void stopAndClose() noexcept;
+  void leaveStop(ModeEvent event) noexcept;
   void holdHere() noexcept;
   void followArm() noexcept;
   void guideFromHere() noexcept;
@@ -125,7 +126,7 @@ class MotionSupervisor {
   franka_core::RobotState& state_;
 
   ModeMachine modes_;
-  bool user_stop_{false};
+  bool user_stop_{false}, brakes_requested_{false};
   bool fci_active_{true};
   SafetyMonitor safety_;
   PendingAnswers answers_;
