@@ -294,6 +294,13 @@ def tree(robot):
     return difference
 
 
+def stopped(robot, services):
+    """Stops the controller. The states that show it have arrived, so that the next Move is another one."""
+    answer = services.switch(stop=[CONTROLLER])
+    robot.waits(lambda: robot.state.robot_mode != FrankaState.ROBOT_MODE_MOVE)
+    return answer
+
+
 def pushed(robot, operator, topics, settling=SETTLED):
     """Pushes the arm until it rests under the push; returns its state before, and one at rest.
 
@@ -355,7 +362,7 @@ def soft_joints(robot, operator, services, topics, diagnosis):
     report["refused"] = {name: fastest(services.set, name, **values) for name, values in refused.items()}
     report["refused"].update({name: fastest(services.trigger, name) for name in ("connect", "disconnect")})
     report["goes_on"] = robot.state.robot_mode
-    report["stopped"] = services.switch(stop=[CONTROLLER])
+    report["stopped"] = stopped(robot, services)
     return report
 
 
@@ -372,7 +379,7 @@ def soft_hand(robot, operator, services, topics):
     moved = np.array(last.O_T_EE[12:15]) - np.array(before.O_T_EE_d[12:15])
     report["gives"] = (moved / (PUSH[2] / SOFT_HAND[2])).tolist()
     report["contacts"] = [any(last.cartesian_contact), any(last.joint_contact)]
-    report["stopped"] = services.switch(stop=[CONTROLLER])
+    report["stopped"] = stopped(robot, services)
     return report
 
 
@@ -392,7 +399,7 @@ def reflex(robot, operator, services, diagnosis):
     report["log"] = log_of(report["abort"], robot.state)
     report["recovered"] = robot.recover()
     report["error_gone"] = robot.waits(lambda: not robot.has_error) is not None
-    services.switch(stop=[CONTROLLER])
+    stopped(robot, services)
     services.set("set_full_collision_behavior", **thresholds())
     return report
 
