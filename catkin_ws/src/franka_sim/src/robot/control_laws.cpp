@@ -95,7 +95,7 @@ const std::array<double, 7>& ControlLaws::torques(
   const ControlUnitParameters& parameters = configuration_.parameters();
   law_ = saturate(law(task, state, dynamics), parameters.max_torque);
   motor_torques_ = blend_.apply(law_);
-  if (task.mode != RobotMode::kMove) {
+  if (task.mode != RobotMode::kMove && state.ddq_d != std::array<double, 7>{}) {
     const std::array<double, 7> braking =
         accelerating(state.ddq_d, dynamics.mass, parameters.rotor_inertia);
     motor_torques_ = saturate(sumOf(motor_torques_, braking), parameters.max_torque);

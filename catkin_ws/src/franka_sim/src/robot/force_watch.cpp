@@ -21,13 +21,15 @@ ErrorSet ForceWatch::update(const std::array<double, 7>& tau_ext,
                             const std::array<double, 7>& achieved,
                             const std::array<double, 7>& desired,
                             const std::array<double, 7>& range) noexcept {
-  ErrorSet errors;
+  bool beyond = false;
   bool misses = false;
   for (std::size_t i = 0; i < 7; i++) {
-    errors.addIf(std::abs(tau_ext[i]) > range[i], RobotError::kForceControlSafetyViolation);
-    misses = misses || std::abs(achieved[i] - desired[i]) > kTolerance;
+    beyond |= std::abs(tau_ext[i]) > range[i];
+    misses |= std::abs(achieved[i] - desired[i]) > kTolerance;
   }
   missed_ = misses ? missed_ + 1 : 0;
+  ErrorSet errors;
+  errors.addIf(beyond, RobotError::kForceControlSafetyViolation);
   errors.addIf(missed_ >= kPatience, RobotError::kForceControllerDesiredForceToleranceViolation);
   return errors;
 }

@@ -31,16 +31,18 @@ bool beyondJointLimits(const franka_core::ArmLimits& limits,
 ErrorSet measuredViolations(const franka_core::ArmLimits& limits,
                             const franka_core::RobotState& state,
                             const std::array<double, 6>& O_dP_EE) noexcept {
-  ErrorSet errors;
+  bool strong = false;
+  bool fast = false;
   double power = 0.0;
   for (std::size_t i = 0; i < 7; i++) {
-    errors.addIf(std::abs(state.tau_J[i]) > kTorqueMargin * limits.tau[i],
-                 RobotError::kTauJRangeViolation);
-    errors.addIf(std::abs(state.dq[i]) > kSpeedMargin * limits.dq[i],
-                 RobotError::kJointVelocityViolation);
+    strong |= std::abs(state.tau_J[i]) > kTorqueMargin * limits.tau[i];
+    fast |= std::abs(state.dq[i]) > kSpeedMargin * limits.dq[i];
     power += std::abs(state.tau_J[i] * state.dq[i]);
   }
   const double speed = std::hypot(O_dP_EE[0], O_dP_EE[1], O_dP_EE[2]);
+  ErrorSet errors;
+  errors.addIf(strong, RobotError::kTauJRangeViolation);
+  errors.addIf(fast, RobotError::kJointVelocityViolation);
   errors.addIf(beyondJointLimits(limits, state.q), RobotError::kJointPositionLimitsViolation);
   errors.addIf(speed > kSpeedMargin * limits.translation.velocity,
                RobotError::kCartesianVelocityViolation);

@@ -5,6 +5,7 @@
 #include <franka_core/robot_error.h>
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 
 namespace franka_sim {
@@ -16,27 +17,28 @@ class ErrorSet {
   // NOLINTNEXTLINE(google-explicit-constructor): one error is a set of one
   ErrorSet(franka_core::RobotError error) noexcept { add(error); }
 
-  void add(franka_core::RobotError error) noexcept { flags_[franka_core::indexOf(error)] = true; }
+  void add(franka_core::RobotError error) noexcept { addIf(true, error); }
+  void add(const ErrorSet& others) noexcept { flags_ |= others.flags_; }
   /// Adds the error if a rule is violated.
   void addIf(bool violated, franka_core::RobotError error) noexcept {
-    flags_[franka_core::indexOf(error)] |= violated;
+    flags_[franka_core::indexOf(error)] = violated || flags_[franka_core::indexOf(error)];
   }
-  void add(const ErrorSet& others) noexcept { others.addTo(flags_); }
   /// Sets the flags of these errors in the order of the wire; the others stay.
   void addTo(std::array<bool, franka_core::kErrorCount>& flags) const noexcept {
-    for (std::size_t i = 0; i < flags.size(); i++) {
-      flags[i] |= flags_[i];
+    if (flags_.any()) {
+      for (std::size_t i = 0; i < flags.size(); i++) {
+        flags[i] = flags[i] || flags_[i];
+      }
     }
   }
 
-  explicit operator bool() const noexcept { return flags_ != Flags{}; }
+  explicit operator bool() const noexcept { return flags_.any(); }
   friend bool operator==(const ErrorSet& a, const ErrorSet& b) noexcept {
     return a.flags_ == b.flags_;
   }
 
  private:
-  using Flags = std::array<bool, franka_core::kErrorCount>;
-  Flags flags_{};
+  std::bitset<franka_core::kErrorCount> flags_;
 };
 
 }  // namespace franka_sim
