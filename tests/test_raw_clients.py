@@ -61,11 +61,16 @@ def steps(client, state, count, q, finish=False):
 
 
 DAMAGE = {
-    # The command's numbers, and the error of a Panda and of an FR3 (whose system has its own range error).
-    "NaN": (float("nan"), 13, 13),
-    "infinite": (float("inf"), 13, 13),
-    "huge": (1e300, 12, 0),
-    "flipped exponent": (struct.unpack("<d", struct.pack("<Q", 1 << 62 | 1 << 55))[0], 12, 0),
+    # The command's numbers, and the errors of a Panda and of an FR3 (whose system has its own range error):
+    # a jump out of the range violates the limits of position, velocity, acceleration and jerk.
+    "NaN": (float("nan"), [13], [13]),
+    "infinite": (float("inf"), [13], [13]),
+    "huge": (1e300, [12, 13, 14, 15], [0, 13, 14, 15]),
+    "flipped exponent": (
+        struct.unpack("<d", struct.pack("<Q", 1 << 62 | 1 << 55))[0],
+        [12, 13, 14, 15],
+        [0, 13, 14, 15],
+    ),
 }
 
 
@@ -79,7 +84,7 @@ def test_damaged_numbers_end_the_motion_with_the_generators_error(raw, kind):
         client.send(command(raw.version, state.message_id, (*q[:3], value, *q[4:])))
         state = client.state_until(lambda state: state.mode != MOVE)
         assert state.mode == REFLEX
-        assert state.reasons == [expected[raw.version == 10]]
+        assert state.reasons == expected[raw.version == 10]
         assert client.reply()[1][0] == LAYOUTS[raw.version].reflex
         resting = client.recover()
         assert resting.errors == []
