@@ -20,12 +20,12 @@ using franka_core::RobotMode;
 
 namespace {
 
-constexpr double kStandstill = 0.01;  // [rad/s] below this speed a recovery may end (decision 16)
-constexpr int kStillTicks = 20;       // for at least this time
+constexpr double kStandstill = 0.01;  // [rad/s] slower joints stand still (decision 16)
+constexpr int kStillTicks = 20;       // a recovery may end after this time at standstill
 // Chosen here: braking and yielding take less than 1 s, so a longer recovery has failed.
 constexpr int kRecoveryTicks = 5000;
-// Chosen here: an arm follows its braking trajectory within some 20 ms; one that something else
-// moves is not waited for any longer.
+// Chosen here: the time for the arm to come to rest after its desired motion. The brakes also close
+// on an arm that something else still moves then.
 constexpr int kClosingTicks = 100;
 
 }  // namespace
@@ -213,7 +213,7 @@ void MotionSupervisor::advanceRecovery() noexcept {
   // The recovery need not wait for the end of the yield time if the arm no longer moves: the socket
   // of a client that does not read states meanwhile holds at most those of 50 ms, and the recovery
   // should be complete within them.
-  still_ticks_ = !rest_.isBraking() && stands() ? still_ticks_ + 1 : 0;
+  still_ticks_ = !rest_.isBraking() && standsStill() ? still_ticks_ + 1 : 0;
   if (still_ticks_ >= kStillTicks) {
     clearErrors();
     answers_.recoveryEnds(Status::kSuccess);
@@ -224,14 +224,13 @@ void MotionSupervisor::advanceRecovery() noexcept {
   }
 }
 
-// Category 1: the motors bring the arm to rest, then the brakes close, so that they need not stop
-// it.
+// A stop of category 1 (IEC 60204-1): the motors bring the arm to rest, then the brakes close.
 void MotionSupervisor::advanceBrakes() noexcept {
   if (brakes_closed_ || rest_.isBraking()) {
     return;
   }
   closing_ticks_++;
-  brakes_closed_ = stands() || closing_ticks_ >= kClosingTicks;
+  brakes_closed_ = standsStill() || closing_ticks_ >= kClosingTicks;
   if (mode() == RobotMode::kUserStopped && !user_stop_) {
     leaveStop(ModeEvent::kUserStopReleased);
   } else if (mode() == RobotMode::kOther && !brakes_requested_) {
@@ -239,7 +238,7 @@ void MotionSupervisor::advanceBrakes() noexcept {
   }
 }
 
-bool MotionSupervisor::stands() const noexcept {
+bool MotionSupervisor::standsStill() const noexcept {
   return std::all_of(state_.dq.begin(), state_.dq.end(),
                      [](double dq) { return std::abs(dq) < kStandstill; });
 }

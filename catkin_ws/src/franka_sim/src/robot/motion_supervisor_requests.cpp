@@ -317,7 +317,7 @@ void MotionSupervisor::stopAndClose() noexcept {
   if (brakes_closed_) {
     return;
   }
-  brakes_closed_ = stands() && !rest_.isBraking();
+  brakes_closed_ = standsStill() && !rest_.isBraking();
   if (brakes_closed_) {
     holdHere();
   } else {

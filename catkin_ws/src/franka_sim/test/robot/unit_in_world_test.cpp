@@ -23,13 +23,13 @@ namespace {
 
 using franka_core::RobotState;
 
-// Centre of the hand alone, in its own frame [m].
-/// The centre of mass of the link hand, in its frame, and the link's mass as the URDF has it.
+/// Centre of mass of the link hand, in its own frame [m].
 Eigen::Vector3d handCenter(const std::string& id) {
   return id == "fr3"
              ? Eigen::Vector3d(-0.00737411357523114, -0.00737411357523114, 0.0287828571428571)
              : Eigen::Vector3d(-0.01, 0.0, 0.03);
 }
+/// The URDF's text for the mass of the link hand, with some kilograms more.
 std::string handMass(const std::string& id, int more) {
   return "<mass value=\"" + std::to_string(more) + (id == "fr3" ? ".7\"" : ".73\"");
 }

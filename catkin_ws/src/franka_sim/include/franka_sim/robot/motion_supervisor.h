@@ -95,7 +95,7 @@ class MotionSupervisor {
   void advanceRest() noexcept;
   void advanceRecovery() noexcept;
   void advanceBrakes() noexcept;
-  bool stands() const noexcept;
+  bool standsStill() const noexcept;
 
   // transitions
   MotionStartResult startGenerator(const franka_core::fci::MoveRequest& request) noexcept;
@@ -143,7 +143,7 @@ class MotionSupervisor {
   RestSequence rest_;
   int recovery_ticks_{0}, still_ticks_{0};
   bool brakes_closed_{false};
-  int closing_ticks_{0};      // that the arm has had to stand still
+  int closing_ticks_{0};      // since the end of braking
   bool desired_stale_{true};  // q_d or the frames have changed
   GuidingTask guiding_;
   LawSwitch law_switch_{LawSwitch::kNone};

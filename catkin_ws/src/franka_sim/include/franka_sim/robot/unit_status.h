@@ -10,7 +10,7 @@ namespace franka_sim {
 
 /// Status of a control unit that is not part of franka_core::RobotState.
 struct UnitStatus {
-  bool brakes_closed{false};  ///< the joints are locked (UserStopped, Other)
+  bool brakes_closed{false};  ///< the joints are locked (UserStopped, Other, once the arm rests)
   bool user_stop_pressed{false};
   bool fci_active{true};
   /// Time must advance even if no client answers: the arm brakes or recovers.

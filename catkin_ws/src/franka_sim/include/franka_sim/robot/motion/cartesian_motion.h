@@ -57,7 +57,6 @@ class CartesianMotion {
 
  private:
   ErrorSet checkElbow(const ElbowCommand& elbow, double sign) const noexcept;
-
   ErrorSet take(const CartesianSample& step, const ErrorSet& errors) noexcept;
 
   CartesianSample last_, refused_;
