@@ -11,6 +11,7 @@ import math
 import re
 from pathlib import Path
 
+import pytest
 import rigid_arm
 import yaml
 
@@ -59,6 +60,82 @@ def arm_limits(name):
     return joints | {"translation_velocity": numbers[49], "rotation_velocity": numbers[52]}
 
 
+def profiles(physics):
+    """The entries of the table of profiles: figures of the simulation from physics.yaml, others from its test."""
+    realism = TESTS + "world/realism_test.cpp"
+    panda, fr3 = physics["panda"], physics["fr3"]
+    seven = "#, #, #, #, #, # and #"
+    inertia = panda["motors"]["inertia"]
+    assert (
+        inertia == fr3["motors"]["inertia"]
+        and inertia[:4] == [inertia[0]] * 4
+        and inertia[4:] == [inertia[4]] * 3
+    )
+    assert panda["bandwidth"] == fr3["bandwidth"] and panda["gripper"] == fr3["gripper"]
+    comment = (SOURCES / "franka_description/config/physics.yaml").read_text()
+    rotors = [
+        float(figure)
+        for figure in re.search(r"rotors themselves have ([\d., \n#]+) kg", comment)[1]
+        .replace("#", " ")
+        .split(",")
+    ]
+    amplitude = re.search(
+        r"isPanda\(\) \? Array7\{\{(.*?)\}\}\s*: Array7\{\{(.*?)\}\}", (SOURCES / realism).read_text(), re.S
+    )
+    seen = [[float(figure) for figure in group.split(",")] for group in amplitude.groups()]
+    assert seen[0] == pytest.approx([a / 2 for a in panda["friction"]["amplitude"]])
+    assert seen[1] == [a / 2 for a in fr3["friction"]["amplitude"]]
+    fit = [float(figure) for figure in re.search(r"sign alone: ([\d., ]+)", comment)[1].split(",")]
+    share = 100 * constant(realism, "coulomb, # * expected[i])")
+    noise_share = 100 * constant(realism, "# * recorded.dq_noise")
+    second = [data["noise"]["tau_J_second_difference"] for data in (fr3, panda)]
+    resolution = [data["noise"]["tau_J_resolution"] for data in (fr3, panda)]
+    offsets = constant("franka_sim/src/physics/physics_config.cpp", f"kGravityError{{{SEVEN}}};")
+    decisions = "../../docs/design/decisions.md"
+    return [
+        ("R2: mean # N, largest # N", constant(decisions, "a force of # N on average and # N at most in")),
+        ("up to # Nm between # and # Hz", constant(decisions, "ripples by up to # Nm between # and # Hz")),
+        ("command after about # ms", constant(decisions, "dq follows its command after about # ms")),
+        ("hand | approximation | about # s even", constant(decisions, "about # s for a gripper command")),
+        ("FR3: # kg m² (joints 1 to 4) and # kg m² (joints", [inertia[0], inertia[4]]),
+        ("themselves have # to # kg m²", [max(rotors), min(rotors)]),
+        ("`ideal` #; `real`, `recorded`: the identified", panda["rotor_inertia"][0]),
+        (f"Gaz et al.: {seven} Nm", seen[0]),
+        (f"alone gives {seven} Nm", fit),
+        ("the law, within # %", share),
+        (f"hysteresis of {seven} Nm", seen[1]),
+        ("these, within # %, with a slope", share),
+        ("coasting from # rad/s", constant(realism, "setJointVelocity(joint(7), #);")),
+        ("stops it in # s", constant(realism, "EXPECT_NEAR(#, time_to_tenth, 0.03);")),
+        ("within # s of that", constant(realism, "EXPECT_NEAR(0.1, time_to_tenth, #);")),
+        (f"first order, {seven} Hz", panda["bandwidth"]["tau_ext_hat_filtered"]),
+        ("`ideal` # Hz", constant(HEADERS + "robot/tick.h", "kSignalCutoff = #;")),
+        ("a push of # N reads", constant(realism, 'push(id() + "_hand_tcp", {{#, 0, 0}}')),
+        ("reads # % after", round(10 * constant(realism, "O_F_ext_hat_K[0] - before) < #)"))),
+        (
+            "after # to # ms",
+            [constant(realism, "EXPECT_GE(ticks, #);"), constant(realism, "EXPECT_LE(ticks, #);")],
+        ),
+        ("freely below # rad/s", constant(realism, "EXPECT_LT(fastest, #);")),
+        (
+            "`real`: mean # to # N",
+            [constant(realism, f"EXPECT_{what}(sum / ticks, #);") for what in ("GE", "LE")],
+        ),
+        ("below # N", constant(realism, "EXPECT_LT(largest, #);")),
+        ("R2: # to # Nm", [min(offsets), max(offsets)]),
+        (
+            "FR3 # and # Nm, Panda # and # Nm",
+            [resolution[0][0], resolution[0][6], resolution[1][0], resolution[1][6]],
+        ),
+        (f"R2 {seven} Nm, R1 {seven} Nm. `recorded`: within # %", second[0] + second[1] + [noise_share]),
+        ("FR3 #, Panda # rad/s", [fr3["noise"]["dq_noise"][0], panda["noise"]["dq_noise"][0]]),
+        ("rad/s. `recorded`: within # %", noise_share),
+        ("adds up to # ms", constant(HEADERS + "robot/realism.h", "kLongestCommandDelay = #;")),
+        ("`recorded`: # s until", panda["gripper"]["start"]),
+        ("(chosen here), # s at least", panda["gripper"]["shortest"]),
+    ]
+
+
 def fidelity():
     """The entries of docs/fidelity.md."""
     tick = constant(CORE + "tick.h", "kTick = #;")
@@ -86,7 +163,7 @@ def fidelity():
         # State
         ("# Hz low-pass", cutoff),
         ("q + tau_J/#, dq + dtau_J/#", elasticity),
-        ("friction; # in Idle", constant(ROBOT + "motion_supervisor.cpp", "state_.tau_J_d.fill(#);")),
+        ("without gravity; # in Idle", constant(ROBOT + "motion_supervisor.cpp", "state_.tau_J_d.fill(#);")),
         (
             "singular value is below #",
             constant(ROBOT + "external_wrench.cpp", "kSmallestSingularValue = #;"),
@@ -99,12 +176,7 @@ def fidelity():
         ("push of # N", push[0]),
         ("`O_F_ext_hat_K[0] = #`", [-push[0], push[1]]),
         # Robot
-        ("| # kg m²", physics["panda"]["rotor_inertia"] + physics["fr3"]["rotor_inertia"]),
-        (
-            "rotor inertias of # and # kg m²",
-            sorted(set(physics["friction_sets"]["fr3"]["rotor_inertia"]), reverse=True),
-        ),
-        ("above # rad/s", constant(ROBOT + "friction.cpp", "kMoving = #;")),
+        ("| # kg m² per joint", physics["panda"]["rotor_inertia"] + physics["fr3"]["rotor_inertia"]),
         ("damping #·√", damping),
         (
             "# rad outside",
@@ -121,6 +193,8 @@ def fidelity():
                 for what in ("Grasp", "Contact")
             ],
         ),
+        # Profiles
+        *profiles(physics),
         # Control
         ("null space # Nm/rad", constant(ROBOT + "control_laws.cpp", "kNullspace = #;")),
         ("fades at # Nm/s", constant(ROBOT + "torque_blend.cpp", "kStep = # * kTick;")),
@@ -178,7 +252,10 @@ def fidelity():
         ),
         # FrankaHWSim, other devices, SDF worlds, hand, ros_control
         ("is # in Move and # in Idle", [rate_in_move, rate_in_idle]),
-        ("below # rad/s", constant(drive_test, "EXPECT_LT(wheel_->measure().velocity, #);")),
+        (
+            "creeps below the limit (below # rad/s",
+            constant(drive_test, "EXPECT_LT(wheel_->measure().velocity, #);"),
+        ),
         (
             "at # % of it",
             100

@@ -72,7 +72,7 @@ def test_setters_work_at_rest_and_report_refusals(seen):
     assert outcome["load"] == outcome["no_load"] == outcome["delay"] == OK
     assert "load was refused" in outcome["bad_load"][1]
     assert "The probability" in outcome["bad_loss"][1]
-    assert "0, 1 or 2 ticks" in outcome["bad_delay"][1]
+    assert "from 0 to 20" in outcome["bad_delay"][1]
     assert "load was refused" in outcome["load_in_motion"][1]
     assert not outcome["reset_in_motion"][0] and "over the FCI" in outcome["reset_in_motion"][1]
     assert outcome["ended"] == 0

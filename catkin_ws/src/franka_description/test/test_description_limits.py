@@ -97,18 +97,20 @@ def test_mechanical_stops_are_outside_every_fci_limit(physics, name):
 
 
 @pytest.mark.parametrize("name", TABLES)
-def test_rotor_inertia_and_friction(physics, name):
+def test_inertia_of_the_motors(physics, name):
+    assert set(physics) == {"panda", "fr3"}
     assert physics[name]["rotor_inertia"] == [0.1] * 7
-    assert physics[name]["damping"] == [0.0] * 7
-    assert physics[name]["coulomb_friction"] == [0.0] * 7
+    assert physics[name]["motors"]["inertia"] == [0.195] * 4 + [0.074] * 3
 
 
-def test_friction_sets(physics):
-    assert set(physics) == {"panda", "fr3", "friction_sets"}
-    assert set(physics["friction_sets"]) == {"none", "fr3"}
-    none = physics["friction_sets"]["none"]
-    assert none == {k: physics["panda"][k] for k in ("rotor_inertia", "damping", "coulomb_friction")}
-    fr3 = physics["friction_sets"]["fr3"]
-    assert fr3["rotor_inertia"] == [0.195] * 4 + [0.074] * 3
-    assert fr3["damping"] == [0.21] * 7
-    assert fr3["coulomb_friction"] == [1.137] * 4 + [0.763, 0.44, 0.248]
+def test_friction_is_that_of_the_publications(physics):
+    panda, fr3 = (physics[name]["friction"] for name in ("panda", "fr3"))
+    assert panda["amplitude"] == [0.546, 0.872, 0.641, 1.279, 0.839, 0.303, 0.565]
+    assert panda["offset"] == [0.0395, 0.0259, -0.0461, 0.0362, 0.0262, -0.0210, 0.0036]
+    assert panda["slope"] == [5.12, 9.07, 10.14, 5.59, 8.35, 17.13, 10.34]
+    identified = [1.137] * 4 + [0.763, 0.44, 0.248]
+    for amplitude, coulomb, total in zip(fr3["amplitude"], fr3["coulomb"], identified):
+        assert amplitude / 2 + coulomb == pytest.approx(total, abs=1e-12)
+    assert fr3["amplitude"] == [2 * hysteresis for hysteresis in (0.50, 0.35, 0.27, 0.22, 0.28, 0.30, 0.14)]
+    assert fr3["viscous"] == [0.21] * 7
+    assert panda["coulomb"] == fr3["coulomb"]

@@ -21,6 +21,7 @@ function(sim_test name)
   target_link_libraries(${test} ${ARG_LIBRARIES} ${CMAKE_DL_LIBS} Threads::Threads)
   target_compile_definitions(${test} PRIVATE
     FRANKA_SIM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/physics/data"
+    FRANKA_SIM_PHYSICS="${CMAKE_CURRENT_SOURCE_DIR}/../franka_description/config/physics.yaml"
     FRANKA_SIM_ROBOTS="${CMAKE_CURRENT_SOURCE_DIR}/robots"
     FRANKA_SIM_WORLDS="${CMAKE_CURRENT_SOURCE_DIR}/worlds")
 endfunction()
@@ -60,6 +61,8 @@ sim_test(robot_motion_test
   LIBRARIES franka_sim_robot Franka::Franka)
 
 sim_test(unit_in_world_test SOURCES test/robot/unit_in_world_test.cpp
+  LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
+sim_test(realism_test SOURCES test/world/realism_test.cpp
   LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
 sim_test(arm_in_world_test SOURCES test/world/arm_in_world_test.cpp
   LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})

@@ -91,8 +91,8 @@ def test_help_names_every_option():
         ),
         (["--nonsense"], "not expected: --nonsense"),
         (["--nonsense=3"], "not expected: --nonsense=3"),
-        (["--friction", "x"], "--friction: x not in {none,fr3}"),
-        (["--friction=x"], "--friction: x not in {none,fr3}"),
+        (["--realism", "x"], "--realism: realism 'x': 'x' is not known there."),
+        (["--realism=real,friction"], "--realism: realism 'real,friction': 'friction' is not known there."),
         (["--control-port", "1337"], "1337 to 1339 are those of robot, gripper and vacuum gripper"),
         (["--control-port=1339"], "1337 to 1339 are those of robot"),
         (["--ip=localhost"], "--ip: localhost is not an IPv4 address"),
@@ -171,7 +171,7 @@ def test_invalid_control_commands_are_reported():
         for seed in ("-1", "18446744073709551616", "1e300", "0.5"):
             assert send(f"loss 0 {seed}").startswith(f"error: '{seed}' is no seed: give a whole number")
         assert send("loss 0 18446744073709551615") == "ok"
-        assert send("delay 3") == "error: Commands are delayed by 0, 1 or 2 ticks."
+        assert send("delay 21") == "error: Commands are delayed by a whole number of ticks from 0 to 20."
         assert send("load -1 0 0 0").startswith("error: The load was refused")
         assert "push BODY" in send("help")
         assert send("load 0.5 0 0 0.1") == "ok"
@@ -241,7 +241,7 @@ def test_a_vacuum_gripper_replaces_the_gripper():
 
 
 def test_every_option_also_takes_its_value_after_an_equals_sign():
-    options = "--robot=fr3 --protocol=10 --base=0,1,0 --arm-id=left --friction=fr3 --hand=none"
+    options = "--robot=fr3 --protocol=10 --base=0,1,0 --arm-id=left --realism=real --hand=none"
     options += " --control-port=1340 --pace=lockstep --world=stone.xml --linger=0"
     with simulated("127.0.22.12", *options.split()) as (send, _):
         assert send("where left_link0") == "ok 0 1 0"

@@ -6,6 +6,7 @@
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/param_reader.h>
 #include <ros/console.h>
+#include <ros/package.h>
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,20 @@ std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std:
   return stiffness;
 }
 
+franka_sim::RobotPhysics readPhysics(const ros::NodeHandle& node, const std::string& robot_type) {
+  std::string found;
+  const std::string name = node.searchParam("realism", found) ? found : "realism";
+  const franka_sim::Realism realism =
+      franka_sim::readRealism(readString(node, name).value_or("ideal"));
+  const std::string folder = ros::package::getPath("franka_description");
+  if (folder.empty()) {
+    ROS_WARN_NAMED("franka_sim_mujoco",
+                   "The package franka_description was not found: joints get the default physics.");
+    return franka_sim::RobotPhysics{};
+  }
+  return franka_sim::readRobotPhysics(folder + "/config/physics.yaml", robot_type, realism);
+}
+
 std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& arm_id) {
   std::string found;
   const auto note = [&](const std::string& name) {
@@ -186,7 +201,7 @@ franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
   parameters.protocol_version = franka_sim::fci::protocolsOf(robot.robot_type).newest;
   parameters.has_hand = robot.world->hasHand(robot.name, arm_id);
   parameters.substeps = franka_sim::World::kSubsteps;
-  franka_sim::useJointPhysics(parameters, robot.arm_physics);
+  franka_sim::applyPhysics(robot.arm_physics, parameters);
   parameters.gravity = gravityInBase(*robot.world, arm_id + "_link0");
   readArray(node, "gravity_vector", parameters.gravity);
 

@@ -7,7 +7,6 @@
 #include <franka_sim_mujoco/robot_instance.h>
 #include <franka_sim_mujoco/robot_type.h>
 #include <ros/console.h>
-#include <ros/package.h>
 #include <tinyxml2.h>
 #include <transmission_interface/transmission_parser.h>
 
@@ -89,17 +88,6 @@ std::string chooseRobotType(const ros::NodeHandle& node, const RobotPlan& plan) 
                    parameter.c_str());
   }
   return type.name;
-}
-
-franka_sim::JointPhysics choosePhysics(const ros::NodeHandle& node, const std::string& robot_type) {
-  const std::string friction = readString(node, "friction").value_or("none");
-  const std::string folder = ros::package::getPath("franka_description");
-  if (folder.empty()) {
-    ROS_WARN_NAMED(kLog,
-                   "The package franka_description was not found: joints get the default physics.");
-    return franka_sim::JointPhysics{};
-  }
-  return franka_sim::readJointPhysics(folder + "/config/physics.yaml", robot_type, friction);
 }
 
 /// As in Gazebo's spawner: the robotNamespace of the description, or that of the order if there is
@@ -192,8 +180,8 @@ RobotPlan planRobot(const SpawnOrder& order) {
   plan.description.initial_positions = knownPositions(order, plan.urdf);
   if (plan.urdf.getJoint(plan.arm_id + "_joint1")) {
     plan.robot_type = chooseRobotType(node, plan);
-    plan.arm_physics = choosePhysics(node, plan.robot_type);
-    franka_sim::applyJointPhysics(plan.arm_physics, plan.arm_id, plan.description);
+    plan.arm_physics = readPhysics(node, plan.robot_type);
+    franka_sim::applyPhysics(plan.arm_physics, plan.arm_id, plan.description);
     if (!plan.fci_ip.empty()) {
       // As a real robot, it rests with a small distance from its initial positions.
       franka_sim::comeToRest(franka_sim::kJointStiffness, plan.arm_id, plan.description);

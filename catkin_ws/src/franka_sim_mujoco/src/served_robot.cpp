@@ -30,10 +30,14 @@ franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& ro
   }
   const franka_sim::ControlUnitParameters unit =
       readArmParameters(ros::NodeHandle(plan.robot_namespace), robot, plan.urdf, plan.arm_id);
-  return franka_sim::fci::servedRobot(
-      plan.fci_ip, franka_sim::fci::protocolsOf(plan.robot_type), unit,
-      robot.world->arm(robot.name, plan.arm_id),
-      unit.has_hand ? &robot.world->hand(robot.name, plan.arm_id) : nullptr);
+  std::optional<franka_sim::fci::SimRobot::Hand> hand;
+  if (unit.has_hand) {
+    hand = franka_sim::fci::servedHand(robot.world->hand(robot.name, plan.arm_id),
+                                       plan.arm_physics.gripper);
+  }
+  return franka_sim::fci::servedRobot(plan.fci_ip, franka_sim::fci::protocolsOf(plan.robot_type),
+                                      unit, robot.world->arm(robot.name, plan.arm_id), hand, {},
+                                      plan.arm_physics.command_delay);
 }
 
 void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) {

@@ -63,7 +63,7 @@ WRONG = [
         "upper_force_thresholds_nominal",
     ),
     ("restart_controllers_after_recovery", "yes", "restart_controllers_after_recovery"),
-    ("friction", "ice", "ice"),
+    ("realism", "ice", "realism 'ice': 'ice' is not known there"),
     ("rate_limiting", 1, "rate_limiting"),
     ("cutoff_frequency", 0, "cutoff_frequency"),
     ("internal_controller", "soft", "joint_impedance or cartesian_impedance"),
@@ -138,7 +138,7 @@ class ParametersTest(unittest.TestCase):
             "F_x_Cload": [0.0, 0.0, 0.1],
             "EE_T_K": "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0.02 1",
             "tau_ext_lowpass_filter": 0.5,
-            "friction": "fr3",
+            "realism": "real",
         }.items():
             rospy.set_param("/right/" + name, value)
         answer = self.spawn("panda", "/right")

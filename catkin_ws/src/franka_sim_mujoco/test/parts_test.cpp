@@ -232,41 +232,48 @@ TEST(Resources, AreFoundInFoldersThatPackagesExport) {
 class PhysicsFile : public testing::Test {
  protected:
   void TearDown() override { std::remove(path_.c_str()); }
-  franka_sim::JointPhysics read(const std::string& text, const std::string& friction = "none") {
+  franka_sim::RobotPhysics read(const std::string& text, const std::string& realism = "ideal") {
     std::ofstream(path_) << text;
-    return franka_sim::readJointPhysics(path_, "panda", friction);
+    return franka_sim::readRobotPhysics(path_, "panda", franka_sim::readRealism(realism));
   }
   std::string path_{testing::TempDir() + "franka_physics_file_test.yaml"};
 };
 
-TEST_F(PhysicsFile, TakesTheRobotsSectionAndTheFrictionSet) {
+TEST_F(PhysicsFile, TakesTheRobotsSectionAndItsParts) {
   const std::string text =
       "panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, 7], joint_stops: {lower: [-1, -1, -1, -1, -1, -1, "
-      "-1], "
-      "upper: [1, 1, 1, 1, 1, 1, 2]}}\n"
-      "friction_sets: {none: {}, fr3: {damping: [.1, .2, .3, .4, .5, .6, .7]}}\n";
-  const franka_sim::JointPhysics plain = read(text);
-  EXPECT_EQ(7.0, plain.rotor_inertia[6]);
-  EXPECT_EQ(0.0, plain.damping[6]);
-  ASSERT_TRUE(plain.stops);
-  EXPECT_EQ(2.0, plain.stops->upper[6]);
-  EXPECT_EQ(0.7, read(text, "fr3").damping[6]);
+      "-1], upper: [1, 1, 1, 1, 1, 1, 2]}, motors: {inertia: [.1, .2, .3, .4, .5, .6, .7]}, "
+      "friction: {viscous: [1, 2, 3, 4, 5, 6, 7]}}\n";
+  const franka_sim::RobotPhysics ideal = read(text);
+  EXPECT_EQ(7.0, ideal.joints.rotor_inertia[6]);
+  EXPECT_FALSE(ideal.joints.friction[6].acts());
+  ASSERT_TRUE(ideal.joints.stops);
+  EXPECT_EQ(2.0, ideal.joints.stops->upper[6]);
+  EXPECT_EQ(0.7, read(text, "motors=on").joints.rotor_inertia[6]);
+  EXPECT_EQ(7.0, read(text, "friction=on").joints.friction[6].viscous);
 }
 
 TEST_F(PhysicsFile, ReportsErrorsWithTheirCause) {
-  const auto complaint = [this](const std::string& text, const std::string& friction = "none") {
-    return sentence([&] { read(text, friction); });
+  const auto complaint = [this](const std::string& text, const std::string& realism = "ideal") {
+    return sentence([&] { read(text, realism); });
   };
   EXPECT_TRUE(contains(complaint("fr3: {}"), "no section 'panda'"));
-  EXPECT_TRUE(contains(complaint("panda: {damping: [1, 2]}"), "panda/damping must be a list of 7"));
-  EXPECT_TRUE(contains(complaint("panda: {damping: [1, 2, 3, 4, 5, 6, x]}"), "finite numbers"));
-  EXPECT_TRUE(contains(complaint("panda: {damping: [1, 2, 3, 4, 5, 6, .nan]}"), "finite numbers"));
+  EXPECT_TRUE(contains(complaint("panda: {rotor_inertia: [1, 2]}"),
+                       "panda/rotor_inertia must be a list of 7"));
   EXPECT_TRUE(
-      contains(complaint("panda: {}\nfriction_sets: {none: {}}", "ice"), "no section 'ice'"));
+      contains(complaint("panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, x]}"), "finite numbers"));
+  EXPECT_TRUE(
+      contains(complaint("panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, .nan]}"), "finite numbers"));
+  EXPECT_TRUE(contains(complaint("panda: {}", "motors=on"), "no section 'motors'"));
+  EXPECT_TRUE(contains(complaint("panda: {friction: {vicous: 1}}", "friction=on"), "'vicous'"));
+  EXPECT_TRUE(contains(complaint("panda: {gripper: {start: -1}}", "gripper=on"), "from 0 to 10"));
+  EXPECT_TRUE(
+      contains(complaint("panda: {bandwidth: {tau_ext_hat_filtered: [0, 1, 1, 1, 1, 1, 1]}}",
+                         "bandwidth=on"),
+               "must be positive"));
   EXPECT_TRUE(contains(complaint("panda: ["), path_));
-  EXPECT_TRUE(
-      contains(sentence([] { franka_sim::readJointPhysics("/nowhere.yaml", "panda", "none"); }),
-               "/nowhere.yaml"));
+  EXPECT_TRUE(contains(sentence([] { franka_sim::readRobotPhysics("/nowhere.yaml", "panda", {}); }),
+                       "/nowhere.yaml"));
 }
 
 /// Limits of joints 1 to 7 in the manufacturer's descriptions: lower, upper [rad], velocity

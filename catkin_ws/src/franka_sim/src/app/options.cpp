@@ -5,6 +5,7 @@
 #include <franka_core/fci/protocol.h>
 #include <franka_sim/fci/sockets.h>
 #include <franka_sim/physics/sizes.h>
+#include <franka_sim/robot/realism.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -43,6 +44,15 @@ std::string addressFault(const std::string& text) {
                               : text +
                                     " is not an IPv4 address; give one that this machine has, "
                                     "such as 127.0.0.1 or 127.0.0.2.";
+}
+
+std::string realismFault(const std::string& text) {
+  try {
+    readRealism(text);
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
 }
 
 std::string portFault(const std::string& text) {
@@ -198,8 +208,12 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
   add("--arm-id", "PREFIX",
       "prefix of the joints' names (the robot's name; panda_2 and so on where\nthat is taken)",
       text(&ArmOptions::arm_id));
-  add("--friction", "SET", "none or fr3 (none)", text(&ArmOptions::friction))
-      ->check(CLI::IsMember({"none", "fr3"}));
+  add("--realism", "PROFILE",
+      "ideal, real or recorded (ideal): without friction and noise, as recordings\n"
+      "of real robots, or with noise and an error of its model too; then changes\n"
+      "such as real,friction=off,delay=2 (docs/sim_to_real.md)",
+      text(&ArmOptions::realism))
+      ->check({realismFault, ""});
   add("--hand", "HAND", "gripper, vacuum or none: what is served (gripper)",
       [](ArmOptions& arm, const std::string& hand) {
         arm.tool = hand == "gripper"  ? Tool::kGripper

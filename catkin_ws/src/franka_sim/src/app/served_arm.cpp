@@ -41,16 +41,16 @@ std::string robotText(const ArmOptions& options) {
   return withPrefix(readFile(file), options.robot, options.arm_id);
 }
 
-JointPhysics jointPhysics(const ArmOptions& options) {
+RobotPhysics physicsOf(const ArmOptions& options) {
   const std::string file = packageFile("franka_description", "config/physics.yaml");
   if (file.empty()) {
     throw std::runtime_error("franka_sim does not find config/physics.yaml of franka_description.");
   }
-  return readJointPhysics(file, options.robot, options.friction);
+  return readRobotPhysics(file, options.robot, readRealism(options.realism));
 }
 
 RobotDescription describeRobot(const ArmOptions& options, const std::string& urdf,
-                               const JointPhysics& physics, bool hand) {
+                               const RobotPhysics& physics, bool hand) {
   RobotDescription robot;
   robot.name = options.arm_id;
   robot.urdf = urdf;
@@ -64,7 +64,7 @@ RobotDescription describeRobot(const ArmOptions& options, const std::string& urd
       robot.initial_positions[options.arm_id + finger] = kFingersAtStart;
     }
   }
-  applyJointPhysics(physics, options.arm_id, robot);
+  applyPhysics(physics, options.arm_id, robot);
   return robot;
 }
 
@@ -74,9 +74,9 @@ fci::ProtocolRange protocolsOf(const ArmOptions& options) {
 }
 
 ControlUnitParameters unitParameters(const ArmOptions& options, const std::string& urdf,
-                                     const JointPhysics& physics, bool hand) {
+                                     const RobotPhysics& physics, bool hand) {
   ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdf, options.arm_id)};
-  useJointPhysics(parameters, physics);
+  applyPhysics(physics, parameters);
   parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, options.arm_id);
   if (hand) {
     parameters.F_T_NE = kHandF_T_NE;
@@ -89,7 +89,7 @@ ControlUnitParameters unitParameters(const ArmOptions& options, const std::strin
 fci::SimRobot makeRobot(const ArmOptions& options, World& world) {
   const std::string& id = options.arm_id;
   const std::string urdf = robotText(options);
-  const JointPhysics physics = jointPhysics(options);
+  const RobotPhysics physics = physicsOf(options);
   const bool hand = urdf.find(id + "_finger_joint1") != std::string::npos;
   const ControlUnitParameters unit = unitParameters(options, urdf, physics, hand);
   world.addRobot(describeRobot(options, urdf, physics, hand));
@@ -98,8 +98,12 @@ fci::SimRobot makeRobot(const ArmOptions& options, World& world) {
     vacuum.emplace();
   }
   const bool gripper = hand && options.tool == Tool::kGripper;
-  return fci::servedRobot(options.ip, protocolsOf(options), unit, world.arm(id, id),
-                          gripper ? &world.hand(id, id) : nullptr, vacuum);
+  std::optional<fci::SimRobot::Hand> served_hand;
+  if (gripper) {
+    served_hand = fci::servedHand(world.hand(id, id), physics.gripper);
+  }
+  return fci::servedRobot(options.ip, protocolsOf(options), unit, world.arm(id, id), served_hand,
+                          vacuum, physics.command_delay);
 }
 
 }  // namespace

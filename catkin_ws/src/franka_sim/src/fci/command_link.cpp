@@ -18,7 +18,7 @@ void CommandLink::setLoss(double probability, std::uint64_t seed) {
 
 void CommandLink::setDelay(double ticks) {
   if (!(ticks >= 0.0 && ticks <= kLongestDelay) || ticks != std::floor(ticks)) {
-    throw std::invalid_argument("Commands are delayed by 0, 1 or 2 ticks.");
+    throw std::invalid_argument("Commands are delayed by a whole number of ticks from 0 to 20.");
   }
   delay_ = static_cast<unsigned>(ticks);
   clear();

@@ -70,17 +70,22 @@ RobotServerParameters servedAt(const std::string& address, const ProtocolRange& 
   return server;
 }
 
+SimRobot::Hand servedHand(HandPlant& fingers, const GripperLatency& latency) {
+  SimRobot::Hand hand{&fingers, {}};
+  hand.parameters.gains = {kFingerGains, kFingerGains};
+  hand.parameters.latency = latency;
+  return hand;
+}
+
 SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
-                     ControlUnitParameters unit, ArmPlant& arm, HandPlant* fingers,
-                     const std::optional<SimRobot::Vacuum>& vacuum) {
+                     ControlUnitParameters unit, ArmPlant& arm,
+                     const std::optional<SimRobot::Hand>& hand,
+                     const std::optional<SimRobot::Vacuum>& vacuum, unsigned command_delay) {
   unit.rules = InterfaceRules::kFci;
   unit.protocol_version = protocols.newest;
-  std::optional<SimRobot::Hand> hand;
-  if (fingers != nullptr) {
-    hand.emplace().plant = fingers;
-    hand->parameters.gains = {kFingerGains, kFingerGains};
-  }
-  return SimRobot(unit, arm, servedAt(address, protocols, unit.model), hand, vacuum);
+  RobotServerParameters server = servedAt(address, protocols, unit.model);
+  server.command_delay = command_delay;
+  return SimRobot(unit, arm, server, hand, vacuum);
 }
 
 std::string linksOf(const SelfCollision::Pair& pair) {

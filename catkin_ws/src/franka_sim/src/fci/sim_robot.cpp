@@ -16,10 +16,6 @@ using franka_core::RobotError;
 
 namespace {
 
-/// A joint slower than this stands still. Chosen here: the way of 100 ticks at this speed is below
-/// the resolution of the arm's sensors.
-constexpr double kRest = 1e-4;  // [rad/s]
-
 std::string addressOf(const RobotServerParameters& parameters) { return parameters.address; }
 
 }  // namespace
@@ -27,6 +23,7 @@ std::string addressOf(const RobotServerParameters& parameters) { return paramete
 SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
                    const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum)
     : unit_(unit), arm_(arm), handler_(unit_), server_(server, handler_) {
+  link_.setDelay(server.command_delay);
   if (hand) {
     hand_ = std::make_unique<ServedHand>(addressOf(server), *hand);
   }
@@ -169,9 +166,8 @@ bool SimRobot::settling() const {
   }
   const bool abandoned =
       state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
-  return unit_.status().settling || abandoned ||
-         std::any_of(state.dq.begin(), state.dq.end(),
-                     [](double v) { return std::abs(v) > kRest; });
+  const UnitStatus status = unit_.status();
+  return status.settling || abandoned || !status.resting;
 }
 
 bool SimRobot::handBusy() const {

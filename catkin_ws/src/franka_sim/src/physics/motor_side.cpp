@@ -19,7 +19,8 @@ void MotorSide::startTick(const mjModel& model, const mjData& data) noexcept {
   std::copy(data.qvel, data.qvel + model.nv, velocity_.begin());
 }
 
-void MotorSide::addSubstep(const mjModel& model, const mjData& data) noexcept {
+void MotorSide::addSubstep(const mjModel& model, const mjData& data,
+                           const JointFrictions& frictions) noexcept {
   // The Euler step treats damping implicitly, with the velocity after the step.
   for (int dof = 0; dof < model.nv; ++dof) {
     sum_[dof] += data.qfrc_applied[dof] - model.dof_damping[dof] * data.qvel[dof];
@@ -33,6 +34,9 @@ void MotorSide::addSubstep(const mjModel& model, const mjData& data) noexcept {
     } else if (data.efc_type[row] == mjCNSTR_EQUALITY && brake_dofs_[id] >= 0) {
       sum_[brake_dofs_[id]] += data.efc_force[row];
     }
+  }
+  for (const JointFrictions::Joint& joint : frictions.joints()) {
+    sum_[joint.dof] -= joint.motor_side;
   }
 }
 

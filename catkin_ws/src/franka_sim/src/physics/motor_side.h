@@ -6,10 +6,13 @@
 
 #include <vector>
 
+#include "physics/joint_friction.h"
+
 namespace franka_sim::physics {
 
 /// Reading of a torque sensor between gear and link, the mean over a tick (decision 2):
 /// motor torque - friction + brake - B (dq_k - dq_{k-1}) / T, per degree of freedom [Nm] or [N].
+/// The friction of JointFriction at the link side acts behind the sensor and is not subtracted.
 ///
 /// Owned by the stepping thread; allocates only in `prepare`.
 class MotorSide {
@@ -20,7 +23,8 @@ class MotorSide {
   /// Call before the first substep of a tick.
   void startTick(const mjModel& model, const mjData& data) noexcept;
   /// Call after each substep, while the constraint forces of that substep are still in the data.
-  void addSubstep(const mjModel& model, const mjData& data) noexcept;
+  void addSubstep(const mjModel& model, const mjData& data,
+                  const JointFrictions& frictions) noexcept;
   /// Call after the last substep. @param period of the tick [s].
   void finishTick(const mjModel& model, const mjData& data, int substeps, double period) noexcept;
   /// Before any motion the sensor shows the motor's torque.

@@ -22,22 +22,24 @@ void writeHold(mjModel& model, const JointSlot& slot, bool closed, double positi
 
 }  // namespace
 
-MujocoArm::MujocoArm(const PlantView* view, std::array<std::string, 7> joints)
-    : view_(view), joints_(std::move(joints)) {}
+MujocoArm::MujocoArm(const PlantView* view, std::array<std::string, 7> joints,
+                     const std::array<double, 7>& torque_offset)
+    : view_(view), joints_(std::move(joints)), torque_offset_(torque_offset) {}
 
 ArmMeasurement MujocoArm::measure() const noexcept {
   ArmMeasurement result;
   for (std::size_t i = 0; i < 7; ++i) {
     result.q[i] = view_->data->qpos[slots_[i].qpos];
     result.dq[i] = view_->data->qvel[slots_[i].dof];
-    result.tau_J[i] = view_->motor_side->torque(slots_[i].dof);
+    result.tau_J[i] = view_->motor_side->torque(slots_[i].dof) + torque_offset_[i];
   }
   return result;
 }
 
 void MujocoArm::applyTorques(const std::array<double, 7>& tau) noexcept {
   for (std::size_t i = 0; i < 7; ++i) {
-    view_->data->qfrc_applied[slots_[i].dof] = brakes_closed_ ? 0.0 : finite(tau[i]);
+    view_->data->qfrc_applied[slots_[i].dof] =
+        brakes_closed_ ? 0.0 : finite(tau[i]) - torque_offset_[i];
   }
 }
 

@@ -29,7 +29,9 @@ struct PlantView {
 /// The seven joints of an arm in MuJoCo's arrays.
 class MujocoArm final : public ArmPlant {
  public:
-  MujocoArm(const PlantView* view, std::array<std::string, 7> joints);
+  /// @param torque_offset of the joints' torque sensors [Nm]
+  MujocoArm(const PlantView* view, std::array<std::string, 7> joints,
+            const std::array<double, 7>& torque_offset);
 
   ArmMeasurement measure() const noexcept override;
   void applyTorques(const std::array<double, 7>& tau) noexcept override;
@@ -51,6 +53,7 @@ class MujocoArm final : public ArmPlant {
 
   const PlantView* view_;
   std::array<std::string, 7> joints_;
+  std::array<double, 7> torque_offset_;
   std::array<JointSlot, 7> slots_{};
   bool brakes_closed_{false};
   std::array<double, 7> brake_positions_{};

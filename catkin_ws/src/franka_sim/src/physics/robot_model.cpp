@@ -136,6 +136,16 @@ void checkNames(const RobotModel& robot, const std::map<std::string, double>& va
   }
 }
 
+void checkFriction(const RobotModel& robot) {
+  for (const auto& [joint, law] : robot.description.friction) {
+    checkNames(robot, {{joint, law.amplitude}}, "an amplitude of friction", false);
+    checkNames(robot, {{joint, law.slope}}, "a slope of friction", false);
+    checkNames(robot, {{joint, law.offset}}, "an offset of friction", true);
+    checkNames(robot, {{joint, law.coulomb}}, "a Coulomb friction", false);
+    checkNames(robot, {{joint, law.viscous}}, "a viscous friction", false);
+  }
+}
+
 void checkStops(const RobotModel& robot) {
   for (const auto& [joint, stops] : robot.description.stops) {
     if (!robot.moves(joint)) {
@@ -160,6 +170,26 @@ void checkStarts(const RobotModel& robot) {
                                   ", its stops are at " + toText({stops[0]}) + " and " +
                                   toText({stops[1]}) + ".");
     }
+  }
+}
+
+void applyLinkErrors(RobotModel& robot) {
+  for (const auto& [name, error] : robot.description.link_errors) {
+    const int index = robot.urdf.link(name);
+    if (index < 0) {
+      fail(robot.description, "an error of link '" + name + "' is given, which its URDF has not.");
+    }
+    if (!(error.mass > -1.0) || !(error.added_mass >= 0.0)) {
+      fail(robot.description, "with its error link '" + name + "' would have no mass.");
+    }
+    UrdfInertial inertial = robot.urdf.links[index].inertial.value_or(UrdfInertial{});
+    inertial.mass *= 1.0 + error.mass;
+    inertial.inertia *= 1.0 + error.mass;
+    inertial.com += Eigen::Vector3d::Map(error.centre.data());
+    UrdfInertial added;
+    added.mass = error.added_mass;
+    added.com = Eigen::Vector3d::Map(error.added_at.data());
+    robot.urdf.links[index].inertial = joined(inertial, added);
   }
 }
 
@@ -231,11 +261,11 @@ double RobotModel::armature(const UrdfJoint& joint) const {
 }
 
 double RobotModel::damping(const UrdfJoint& joint) const {
-  return valueOf(description.damping, joint.name, isFranka(joint) ? 0.0 : joint.damping);
+  return isFranka(joint) ? 0.0 : joint.damping;
 }
 
 double RobotModel::friction(const UrdfJoint& joint) const {
-  return valueOf(description.coulomb_friction, joint.name, isFranka(joint) ? 0.0 : joint.friction);
+  return isFranka(joint) ? 0.0 : joint.friction;
 }
 
 bool RobotModel::isFinger(const UrdfLink& link) const noexcept {
@@ -258,8 +288,9 @@ RobotModel buildRobot(const RobotDescription& description) {
   robot.urdf = readUrdf(description.urdf, description.name);
   checkNames(robot, description.initial_positions, "an initial position", true);
   checkNames(robot, description.rotor_inertia, "a rotor inertia", false);
-  checkNames(robot, description.coulomb_friction, "a Coulomb friction", false);
-  checkNames(robot, description.damping, "a damping", false);
+  checkFriction(robot);
+  checkNames(robot, description.torque_offset, "an offset of the torque sensor", true);
+  applyLinkErrors(robot);
   checkStops(robot);
   checkStarts(robot);
   Builder(&robot).build();

@@ -37,10 +37,10 @@ struct RobotModel {
   /// Start position of a joint [rad] or [m]: the description's value, the leader's for mimic
   /// joints, else the value nearest to zero within the stops.
   double initialPosition(const UrdfJoint& joint) const;
-  /// Apparent inertia, friction and damping of a joint from the description. If not given: inertia
-  /// 0 (fingers: kFingerArmature), the rest as in the URDF, but 0 for Franka arms and hands, in
-  /// whose URDFs these values have another meaning (decision 1).
+  /// Apparent inertia of a joint; if not given 0 (fingers: kFingerArmature).
   double armature(const UrdfJoint& joint) const;
+  /// Of the URDF's <dynamics>, but 0 for Franka arms and hands, in whose URDFs these values have
+  /// another meaning (decision 1).
   double damping(const UrdfJoint& joint) const;
   double friction(const UrdfJoint& joint) const;
   /// Whether a link slides and carries no moving link: a finger, not a lift.

@@ -82,7 +82,8 @@ void StepPreparation::prepare(const mjModel& model, mjData* data) noexcept {
   ready_ = true;
 }
 
-std::optional<StepFault> StepPreparation::step(const mjModel& model, mjData* data) noexcept {
+std::optional<StepFault> StepPreparation::step(const mjModel& model, mjData* data,
+                                               JointFrictions& frictions) noexcept {
   if (isFor(model, *data)) {
     std::copy(unit_qpos_.begin(), unit_qpos_.end(), data->qpos);
   } else {
@@ -92,6 +93,7 @@ std::optional<StepFault> StepPreparation::step(const mjModel& model, mjData* dat
     mj_step1(&model, data);
   }
   ready_ = false;
+  frictions.apply(model, data);
   return finishStep(model, data);
 }
 

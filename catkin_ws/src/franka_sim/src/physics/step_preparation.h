@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "physics/joint_friction.h"
+
 namespace franka_sim::physics {
 
 /// A number that is not finite, or beyond MuJoCo's range. MuJoCo itself would reset the whole world
@@ -32,9 +34,10 @@ class StepPreparation {
   void drop() noexcept { ready_ = false; }
   /// Does not change positions and velocities; contacts become those of the next step.
   void prepare(const mjModel& model, mjData* data) noexcept;
-  /// One physics step, or the fault that prevents it: then time, positions and velocities are
-  /// unchanged.
-  std::optional<StepFault> step(const mjModel& model, mjData* data) noexcept;
+  /// One physics step with friction in the joints, or the fault that prevents it: then time,
+  /// positions and velocities are unchanged.
+  std::optional<StepFault> step(const mjModel& model, mjData* data,
+                                JointFrictions& frictions) noexcept;
 
  private:
   bool isFor(const mjModel& model, const mjData& data) const noexcept;

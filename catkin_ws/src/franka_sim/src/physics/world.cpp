@@ -88,7 +88,13 @@ ArmPlant& World::arm(const std::string& robot, const std::string& arm_id) {
   const auto names = jointNames<7>(impl_->robot(robot), arm_id + "_joint", "arm");
   auto& arm = impl_->arms[robot + "/" + arm_id];
   if (!arm) {
-    arm = std::make_unique<physics::MujocoArm>(&impl_->view, names);
+    const auto& offsets = impl_->robot(robot).description.torque_offset;
+    std::array<double, 7> offset{};
+    for (std::size_t i = 0; i < 7; ++i) {
+      const auto found = offsets.find(names[i]);
+      offset[i] = found == offsets.end() ? 0.0 : found->second;
+    }
+    arm = std::make_unique<physics::MujocoArm>(&impl_->view, names, offset);
     physics::MujocoArm::Slots slots;
     for (std::size_t i = 0; i < 7; ++i) {
       slots[i] = impl_->slot(names[i]);

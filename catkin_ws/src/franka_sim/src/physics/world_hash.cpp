@@ -39,6 +39,9 @@ std::uint64_t World::Impl::hash() const noexcept {
   hash.add(data->mocap_pos, 3 * model->nmocap);
   hash.add(data->mocap_quat, 4 * model->nmocap);
   hash.add(motor_side.torques().data(), model->nv);
+  for (const physics::JointFrictions::Joint& joint : frictions.joints()) {
+    hash.add(&joint.held, 1);
+  }
   // Brakes, from the model: an arm that was never requested has none closed.
   for (int e = 0; e < model->neq; ++e) {
     hash.add(static_cast<std::uint64_t>(model->eq_active[e]));

@@ -78,6 +78,7 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
   mj_resetData(new_model.get(), new_data.get());
   placeInitially(*new_model, new_data.get(), *candidates);
   std::map<std::string, double> torques;
+  const physics::JointFrictions old_frictions = frictions;
   if (model) {
     physics::carryState(*model, *data, *new_model, new_data.get());
     for (int j = 0; j < model->njnt; ++j) {
@@ -99,6 +100,7 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
       motor_side.setTorque(model->jnt_dofadr[id], torque);
     }
   }
+  frictions.carry(old_frictions);
 }
 
 void World::Impl::index() {
@@ -146,6 +148,12 @@ void World::Impl::index() {
   }
   motor_side.prepare(*model, std::move(brake_dofs));
   motor_side.reset(*data);
+  frictions = {};
+  for (const auto& robot : robots) {
+    for (const auto& [joint, law] : robot->description.friction) {
+      frictions.add(*model, joint, law);
+    }
+  }
   bindPlants();
   const auto gone = [this](const Push& push) { return frames.count(push.body_name) == 0; };
   pushes.erase(std::remove_if(pushes.begin(), pushes.end(), gone), pushes.end());
@@ -294,11 +302,11 @@ void World::Impl::step() noexcept {
     for (auto& [joint, drive] : drives) {
       drive->prepare(substep + 1, kSubsteps);
     }
-    if (const auto why = preparation.step(*model, data.get())) {
+    if (const auto why = preparation.step(*model, data.get(), frictions)) {
       stop(*why);
       return;
     }
-    motor_side.addSubstep(*model, *data);
+    motor_side.addSubstep(*model, *data, frictions);
   }
   motor_side.finishTick(*model, *data, kSubsteps, kTick);
   if (!pushes.empty()) {
@@ -353,6 +361,7 @@ void World::Impl::reset() {
   pushes.clear();
   forgetFaults();
   motor_side.reset(*data);
+  frictions.reset();
   preparation.drop();
   contacts_kept = false;
   kinematics_fresh = false;

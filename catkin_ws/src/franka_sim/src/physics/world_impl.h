@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "physics/compile.h"
+#include "physics/joint_friction.h"
 #include "physics/mjcf_world.h"
 #include "physics/motor_side.h"
 #include "physics/plants.h"
@@ -60,6 +61,7 @@ struct World::Impl {
   physics::ModelPtr model;
   physics::DataPtr data;
   physics::MotorSide motor_side;
+  physics::JointFrictions frictions;
   physics::PlantView view;
   std::map<std::string, Frame> frames;
   std::vector<std::string> geom_links;  ///< per geom, the link or body shown in contacts

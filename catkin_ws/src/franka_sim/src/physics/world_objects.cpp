@@ -135,6 +135,7 @@ struct Snapshot::Content {
   std::uint64_t generation, ticks;
   physics::DataPtr data;
   physics::MotorSide motor_side;
+  physics::JointFrictions frictions;
   std::vector<Push> pushes;
   bool contacts_kept;
   std::vector<GeomContact> contacts;
@@ -156,6 +157,7 @@ Snapshot World::snapshot() const {
     throw std::runtime_error("There is not enough memory for a snapshot of the simulated world.");
   }
   content->motor_side = impl_->motor_side;
+  content->frictions = impl_->frictions;
   content->pushes = impl_->pushes;
   content->contacts_kept = impl_->contacts_kept;
   content->contacts = impl_->kept_contacts;
@@ -185,6 +187,7 @@ void World::restore(const Snapshot& snapshot) {
   std::copy(content->eq_data.begin(), content->eq_data.end(), model.eq_data);
   std::copy(content->eq_active.begin(), content->eq_active.end(), model.eq_active);
   impl_->motor_side = content->motor_side;
+  impl_->frictions = content->frictions;
   impl_->pushes = content->pushes;
   impl_->preparation.drop();
   impl_->contacts_kept = content->contacts_kept;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/robot/cartesian_impedance.h>
 #include <franka_sim/robot/control_laws.h>
-#include <franka_sim/robot/friction.h>
 #include <franka_sim/robot/joint_impedance.h>
 #include <franka_sim/robot/torque_command.h>
 
@@ -26,15 +25,15 @@ constexpr double kNullspace = 10.0;             // [Nm/rad], chosen here (decisi
 /// Fills the fields that do not depend on the task.
 CartesianImpedanceInput measuredInput(const ControlUnitParameters& parameters,
                                       const franka_core::RobotState& state,
-                                      const franka_core::ArmDynamics& dynamics) noexcept {
+                                      const Estimate& estimate) noexcept {
   CartesianImpedanceInput in;
   in.O_T_EE = state.O_T_EE;
   in.EE_T_K = state.EE_T_K;
-  in.O_J_EE = dynamics.zero_jacobian;
-  in.mass = dynamics.mass;
+  in.O_J_EE = estimate.dynamics.zero_jacobian;
+  in.mass = estimate.dynamics.mass;
   in.q = state.q;
-  in.dq = state.dq;
-  in.coriolis = dynamics.coriolis;
+  in.dq = estimate.dq;
+  in.coriolis = estimate.dynamics.coriolis;
   in.rotor_inertia = parameters.rotor_inertia;
   return in;
 }
@@ -84,23 +83,25 @@ std::array<double, 7> follow(CartesianImpedanceInput in, const franka_core::Robo
 
 }  // namespace
 
-const std::array<double, 7>& ControlLaws::torques(
-    const ControlTask& task, const franka_core::RobotState& state,
-    const franka_core::ArmDynamics& dynamics) noexcept {
+const std::array<double, 7>& ControlLaws::torques(const ControlTask& task,
+                                                  const franka_core::RobotState& state,
+                                                  const Estimate& estimate) noexcept {
   if (task.law_switch == LawSwitch::kBlend) {
     blend_.lawChanges();
   } else if (task.law_switch == LawSwitch::kFromZero) {
     blend_.lawStartsFromZero();
   }
   const ControlUnitParameters& parameters = configuration_.parameters();
-  law_ = saturate(law(task, state, dynamics), parameters.max_torque);
+  law_ = saturate(law(task, state, estimate), parameters.max_torque);
   motor_torques_ = blend_.apply(law_);
   if (task.mode != RobotMode::kMove && state.ddq_d != std::array<double, 7>{}) {
     const std::array<double, 7> braking =
-        accelerating(state.ddq_d, dynamics.mass, parameters.rotor_inertia);
+        accelerating(state.ddq_d, estimate.dynamics.mass, parameters.rotor_inertia);
     motor_torques_ = saturate(sumOf(motor_torques_, braking), parameters.max_torque);
   }
-  motor_torques_ = sumOf(motor_torques_, compensation(state, dynamics));
+  // The configured payload may be heavier than a motor can hold.
+  motor_torques_ =
+      sumOf(motor_torques_, saturate(estimate.dynamics.gravity, parameters.max_torque));
   return motor_torques_;
 }
 
@@ -112,14 +113,15 @@ const std::array<double, 7>& ControlLaws::rest() noexcept {
 
 std::array<double, 7> ControlLaws::law(const ControlTask& task,
                                        const franka_core::RobotState& state,
-                                       const franka_core::ArmDynamics& dynamics) const noexcept {
+                                       const Estimate& estimate) const noexcept {
   const ControlUnitParameters& parameters = configuration_.parameters();
   const auto joint_impedance = [&](const std::array<double, 7>& stiffness) {
     return JointImpedance(stiffness, parameters.rotor_inertia)
-        .torque(state.q_d, state.dq_d, state.q, state.dq, dynamics.mass, dynamics.coriolis);
+        .torque(state.q_d, state.dq_d, state.q, estimate.dq, estimate.dynamics.mass,
+                estimate.dynamics.coriolis);
   };
   if (task.mode == RobotMode::kGuiding) {
-    return guide(measuredInput(parameters, state, dynamics), task.guiding);
+    return guide(measuredInput(parameters, state, estimate), task.guiding);
   }
   if (task.mode != RobotMode::kMove) {
     // Holds a pose that was latched at the start of the mode (decision 6), or brakes.
@@ -129,21 +131,11 @@ std::array<double, 7> ControlLaws::law(const ControlTask& task,
     case ControllerMode::kExternalController:
       return task.tau;
     case ControllerMode::kCartesianImpedance:
-      return follow(measuredInput(parameters, state, dynamics), state,
+      return follow(measuredInput(parameters, state, estimate), state,
                     parameters.cartesian_stiffness);
     default:
       return joint_impedance(configuration_.jointStiffness());
   }
-}
-
-std::array<double, 7> ControlLaws::compensation(
-    const franka_core::RobotState& state, const franka_core::ArmDynamics& dynamics) const noexcept {
-  const ControlUnitParameters& parameters = configuration_.parameters();
-  // The configured payload may be heavier than a motor can hold.
-  return saturate(
-      sumOf(dynamics.gravity, frictionCompensation(parameters.coulomb_friction,
-                                                   parameters.viscous_friction, state.dq)),
-      parameters.max_torque);
 }
 
 }  // namespace franka_sim

@@ -101,7 +101,7 @@ const std::array<double, 7>& ControlUnit::actuate(
     return parts_->laws.rest();
   }
   const std::array<double, 7>& torques =
-      parts_->laws.torques(task, parts_->state, parts_->estimator.estimate().dynamics);
+      parts_->laws.torques(task, parts_->state, parts_->estimator.estimate());
   parts_->state.tau_J_d =
       parts_->supervisor.isMoving() ? parts_->laws.law() : std::array<double, 7>{};
   return torques;

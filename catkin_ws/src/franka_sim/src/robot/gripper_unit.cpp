@@ -55,6 +55,8 @@ const GripperParameters& checked(const GripperParameters& parameters) {
           "a finite temperature in degrees Celsius");
   require(isNotNegative(parameters.temperature_rise), "temperature_rise",
           "a number of kelvins that is not negative");
+  require(isNotNegative(parameters.latency.start) && isNotNegative(parameters.latency.shortest),
+          "latency", "two times in seconds that are not negative");
   require(isPositive(parameters.temperature_time), "temperature_time",
           "a positive time in seconds");
   return parameters;
@@ -71,21 +73,14 @@ GripperUnit::GripperUnit(const GripperParameters& parameters)
 // --- commands ------------------------------------------------------------------------------------
 
 GripperUnit::Ticket GripperUnit::homing() noexcept {
-  const Ticket ticket = tickets_.open();
-  drive(0.0, parameters_.homing_speed);
-  state_ = GripperState::kMoving;
-  homing_ = true;
-  return ticket;
+  return accept({Command::Kind::kHoming, 0.0, parameters_.homing_speed, {}});
 }
 
 GripperUnit::Ticket GripperUnit::move(double width, double speed) noexcept {
   if (!isNotNegative(width) || width > parameters_.max_width || !isNotNegative(speed)) {
     return 0;
   }
-  const Ticket ticket = tickets_.open();
-  drive(width, speed);
-  state_ = GripperState::kMoving;
-  return ticket;
+  return accept({Command::Kind::kMove, width, speed, {}});
 }
 
 GripperUnit::Ticket GripperUnit::grasp(double width, double epsilon_inner, double epsilon_outer,
@@ -94,19 +89,43 @@ GripperUnit::Ticket GripperUnit::grasp(double width, double epsilon_inner, doubl
       !isNotNegative(force) || !std::isfinite(epsilon_inner) || !std::isfinite(epsilon_outer)) {
     return 0;
   }
-  const Ticket ticket = tickets_.open();
   const double finger_force = 0.5 * std::min(force, parameters_.max_force);
   const double finger_speed = 0.5 * std::min(speed, parameters_.max_speed);
-  drive(0.0, speed);
-  state_ = GripperState::kGrasping;
-  grasp_.low = width - epsilon_inner;
-  grasp_.high = width + epsilon_outer;
-  grasp_.force = finger_force;
+  Command command{Command::Kind::kGrasp, 0.0, speed, {}};
+  command.grasp.low = width - epsilon_inner;
+  command.grasp.high = width + epsilon_outer;
+  command.grasp.force = finger_force;
   // Balances the force at the speed of the grasp, as far as a 1 kHz loop can.
-  grasp_.damping = finger_force < kPressingDamping * finger_speed
-                       ? std::max(finger_force / finger_speed, FingerForce::kDriveDamping)
-                       : kPressingDamping;
+  command.grasp.damping = finger_force < kPressingDamping * finger_speed
+                              ? std::max(finger_force / finger_speed, FingerForce::kDriveDamping)
+                              : kPressingDamping;
+  return accept(command);
+}
+
+GripperUnit::Ticket GripperUnit::accept(const Command& command) noexcept {
+  const Ticket ticket = tickets_.open();
+  since_ = 0.0;
+  if (parameters_.latency.start <= 0.0) {
+    execute(command);
+    return ticket;
+  }
+  if (state_ != GripperState::kHolding) {
+    state_ = GripperState::kIdle;
+    drive(0.0, 0.0);
+  }
+  next_ = command;
   return ticket;
+}
+
+void GripperUnit::execute(Command command) noexcept {  // by value: it may be next_
+  next_.kind = Command::Kind::kNone;
+  drive(command.width, command.speed);
+  state_ = GripperState::kMoving;
+  homing_ = command.kind == Command::Kind::kHoming;
+  if (command.kind == Command::Kind::kGrasp) {
+    state_ = GripperState::kGrasping;
+    grasp_ = command.grasp;
+  }
 }
 
 GripperUnit::Ticket GripperUnit::stop() noexcept {
@@ -154,6 +173,7 @@ void GripperUnit::begin() noexcept {
 
 void GripperUnit::idle(GripperOutcome outcome) noexcept {
   tickets_.close(outcome);
+  next_.kind = Command::Kind::kNone;
   state_ = GripperState::kIdle;
   drive(0.0, 0.0);
 }
@@ -172,6 +192,10 @@ std::array<double, 2> GripperUnit::step(const HandMeasurement& measurement,
     return {};
   }
   measured_ = measurement;
+  since_ += period;
+  if (next_.kind != Command::Kind::kNone && since_ >= parameters_.latency.start) {
+    execute(next_);
+  }
   if (!begun_) {
     begin();
   }
@@ -207,7 +231,8 @@ bool GripperUnit::resting(double period) noexcept {
 }
 
 void GripperUnit::advanceMove(bool resting) noexcept {
-  if (!resting) {
+  const bool too_early = since_ < parameters_.latency.shortest && !homing_;
+  if (!resting || too_early) {
     return;
   }
   if (std::abs(width() - ramp_.target()) > parameters_.move_tolerance) {
@@ -230,7 +255,7 @@ void GripperUnit::advanceGrasp(bool resting, double period) noexcept {
     return;
   }
   pressed_ += period;
-  if (!resting || pressed_ < kForceRise) {
+  if (!resting || pressed_ < kForceRise || since_ < parameters_.latency.shortest) {
     return;
   }
   if (withinGrasp()) {

@@ -192,7 +192,8 @@ void MotionSupervisor::finishMotion() noexcept {
 
 void MotionSupervisor::advanceRest() noexcept {
   const bool reflex = mode() == RobotMode::kReflex || mode() == RobotMode::kAutomaticErrorRecovery;
-  const RestSequence::Step step = rest_.step(reflex, state_.q, state_.dq, brakingRate());
+  const RestSequence::Step step =
+      rest_.step(reflex, state_.q, estimator_.estimate().dq, brakingRate());
   switch (step) {
     case RestSequence::Step::kNone:
       break;
@@ -239,8 +240,8 @@ void MotionSupervisor::advanceBrakes() noexcept {
 }
 
 bool MotionSupervisor::standsStill() const noexcept {
-  return std::all_of(state_.dq.begin(), state_.dq.end(),
-                     [](double dq) { return std::abs(dq) < kStandstill; });
+  const std::array<double, 7>& dq = estimator_.estimate().dq;
+  return std::all_of(dq.begin(), dq.end(), [](double v) { return std::abs(v) < kStandstill; });
 }
 
 // --- what the state shows ------------------------------------------------------------------------

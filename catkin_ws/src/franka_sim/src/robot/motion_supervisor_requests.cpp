@@ -6,6 +6,7 @@
 #include <franka_sim/robot/motion_supervisor.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace franka_sim {
 
@@ -27,6 +28,9 @@ bool goTogether(const codec::MoveRequest& request) noexcept {
          (request.controller_mode == ControllerMode::kExternalController &&
           !request.use_async_motion_generator);
 }
+
+// Chosen here: the way of 100 ticks at this speed is below the resolution of the arm's sensors.
+constexpr double kResting = 1e-4;  // [rad/s]
 
 bool anyError(const franka_core::RobotState& state) noexcept {
   return std::any_of(state.errors.begin(), state.errors.end(), [](bool error) { return error; });
@@ -208,6 +212,9 @@ UnitStatus MotionSupervisor::status() const noexcept {
   status.fci_active = fci_active_;
   status.settling = !rest_.isFinished() || mode() == RobotMode::kAutomaticErrorRecovery ||
                     modes_.closesBrakes() != brakes_closed_;
+  const std::array<double, 7>& dq = estimator_.estimate().dq;
+  status.resting =
+      std::all_of(dq.begin(), dq.end(), [](double v) { return std::abs(v) <= kResting; });
   status.answers_at_rest = answers_.waitForRest();
   status.thresholds = thresholds();
   status.joint_collision = safety_.jointCollision();
@@ -372,7 +379,7 @@ void MotionSupervisor::brake() noexcept {
   if (desired || rest_.isBraking()) {
     rest_.brake(state_.q_d, state_.dq_d, brakingRate());
   } else {
-    rest_.brake(state_.q, state_.dq, brakingRate());
+    rest_.brake(state_.q, estimator_.estimate().dq, brakingRate());
   }
 }
 

@@ -150,8 +150,6 @@ void checkParameters(const ControlUnitParameters& parameters) {
   const std::string not_negative = "must hold seven finite numbers that are not negative";
   require(allFiniteNotNegative(parameters.max_torque), "max_torque", not_negative);
   require(allFiniteNotNegative(parameters.rotor_inertia), "rotor_inertia", not_negative);
-  require(allFiniteNotNegative(parameters.coulomb_friction), "coulomb_friction", not_negative);
-  require(allFiniteNotNegative(parameters.viscous_friction), "viscous_friction", not_negative);
   require(allFiniteNotNegative(parameters.joint_stiffness), "joint_stiffness", not_negative);
   require(isCartesianStiffness(parameters.cartesian_stiffness), "cartesian_stiffness",
           "must hold three numbers from 10 to 3000 N/m and three from 1 to 300 Nm/rad");

@@ -39,12 +39,13 @@ void StateEstimator::update(const ArmMeasurement& measurement,
   started_ = true;
   continuous_ = good;
   const ArmMeasurement now = good ? measurement : restingAt(state_.q);
-  const std::array<double, 7> dq_before = estimate_.measured ? state_.dq : now.dq;
+  const std::array<double, 7> dq_before = estimate_.measured ? estimate_.dq : now.dq;
 
   const ControlUnitParameters& parameters = configuration_.parameters();
   state_.message_id++;
   state_.q = now.q;
-  state_.dq = now.dq;
+  estimate_.dq = now.dq;
+  state_.dq = noise_.velocities(now.dq);
   parameters.model.computeDynamics(ArmFrame::kEndEffector, now.q, now.dq, state_.F_T_EE,
                                    state_.EE_T_K, configuration_.payload(), parameters.gravity,
                                    estimate_.dynamics);
@@ -60,8 +61,8 @@ void StateEstimator::update(const ArmMeasurement& measurement,
 }
 
 void StateEstimator::updateTorques(const ArmMeasurement& measurement) noexcept {
-  const std::array<double, 7>& tau_J =
-      estimate_.measured ? measurement.tau_J : estimate_.dynamics.gravity;
+  estimate_.tau_J = estimate_.measured ? measurement.tau_J : estimate_.dynamics.gravity;
+  const std::array<double, 7> tau_J = noise_.torques(estimate_.tau_J);
   std::array<double, 7> difference;
   for (std::size_t i = 0; i < 7; i++) {
     difference[i] = (tau_J[i] - state_.tau_J[i]) / kTick;
@@ -74,8 +75,9 @@ void StateEstimator::updateTorques(const ArmMeasurement& measurement) noexcept {
   }
   if (estimate_.measured) {
     const ControlUnitParameters& parameters = configuration_.parameters();
-    estimate_.tau_ext = external_torque_.update(parameters.model, configuration_.payload(),
-                                                parameters.gravity, measurement);
+    estimate_.tau_ext =
+        external_torque_.update(parameters.model, configuration_.payload(), parameters.gravity,
+                                {measurement.q, measurement.dq, tau_J});
   } else {
     estimate_.tau_ext.fill(0.0);
     external_torque_.restart(measurement);
@@ -114,11 +116,11 @@ void StateEstimator::updateContacts(const CollisionThresholds& thresholds) noexc
 void StateEstimator::updateAccelerometers(const std::array<double, 7>& dq_before) noexcept {
   std::array<double, 7> ddq;
   for (std::size_t i = 0; i < 7; i++) {
-    ddq[i] = (state_.dq[i] - dq_before[i]) / kTick;
+    ddq[i] = (estimate_.dq[i] - dq_before[i]) / kTick;
   }
   const ControlUnitParameters& parameters = configuration_.parameters();
   const LinkAccelerations readings =
-      linkAccelerations(parameters.model, state_.q, state_.dq, ddq, parameters.gravity);
+      linkAccelerations(parameters.model, state_.q, estimate_.dq, ddq, parameters.gravity);
   state_.accelerometer_top = readings.top;
   state_.accelerometer_bottom = readings.bottom;
 }
@@ -133,6 +135,7 @@ void StateEstimator::clearContacts() noexcept {
 void StateEstimator::restart() noexcept {
   started_ = false;
   continuous_ = false;
+  noise_.restart();
   tau_ext_filter_.restart();
   dtau_J_filter_.restart();
   joint_contacts_.clear();

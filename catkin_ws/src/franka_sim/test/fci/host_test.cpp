@@ -75,7 +75,7 @@ class Fixture {
     description.resolve = [](const std::string&) { return std::string(); };
     ControlUnitParameters unit{franka_core::ArmModel::fromUrdf(urdf, "panda")};
     startAt(kReadyPose, "panda", description);
-    applyJointPhysics({}, "panda", description);
+    applyPhysics(RobotPhysics{}, "panda", description);
     unit.end_effector = franka_core::endEffectorFromUrdf(urdf, "panda");
     unit.rules = InterfaceRules::kFci;
     unit.protocol_version = 5;

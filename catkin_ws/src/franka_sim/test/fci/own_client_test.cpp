@@ -103,7 +103,7 @@ class SimulatedRobots {
     description.base.position = {place.x, 0, 0};
     description.base.orientation = {std::cos(0.5 * place.yaw), 0, 0, std::sin(0.5 * place.yaw)};
     startAt(kReadyPose, name, description);
-    applyJointPhysics({}, name, description);
+    applyPhysics(RobotPhysics{}, name, description);
     unit.end_effector = franka_core::endEffectorFromUrdf(text.str(), name);
     unit.rules = InterfaceRules::kFci;
     unit.protocol_version = place.version;

@@ -81,38 +81,83 @@ TEST_P(ArmPlantTest, TorqueInMotionExcludesTheRotors) {
   EXPECT_GT(rotor, 0.3) << "the motion was too slow to show anything";
 }
 
-TEST_P(ArmPlantTest, FrictionActsBetweenMotorAndSensor) {
-  RobotDescription description = robot(id());
-  const std::string joint = id() + "_joint1";
-  description.coulomb_friction[joint] = 1.5;
-  description.damping[joint] = 0.4;
-  put(description);
-  // Constant speed of joint 1 by a stiff speed loop; it turns about the vertical: no gravity.
-  for (int k = 0; k < 2500; ++k) {
-    auto tau = holder_->torques(kHome);
-    tau[0] = 30.0 * (0.5 - arm_->measure().dq[0]);
-    arm_->applyTorques(tau);
-    world_.step();
-  }
-  const ArmMeasurement m = arm_->measure();
-  const double motor = 30.0 * (0.5 - m.dq[0]);
-  EXPECT_NEAR(1.5 + 0.4 * m.dq[0], motor, 5e-3);
-  EXPECT_NEAR(0.0, m.tau_J[0], 5e-3);
+/// The law of JointFriction in closed form [Nm].
+double linkFriction(const JointFriction& law, double dq) {
+  return law.amplitude / (1.0 + std::exp(-law.slope * (dq + law.offset))) -
+         law.amplitude / (1.0 + std::exp(-law.slope * law.offset)) + law.viscous * dq;
 }
 
-/// Torque below dry friction does not move the arm, and the sensor does not show it.
-TEST_P(ArmPlantTest, DryFrictionHoldsTheJointAndIsNotMeasured) {
+TEST_P(ArmPlantTest, SensorMeasuresTheLinkSidesFrictionOnly) {
   RobotDescription description = robot(id());
-  description.coulomb_friction[id() + "_joint1"] = 1.5;
+  const JointFriction law{1.2, 8.0, 0.03, 0.4, 1.5};
+  description.friction[id() + "_joint1"] = law;
   put(description);
-  for (int k = 0; k < 2000; ++k) {
-    auto tau = holder_->torques(kHome);
-    tau[0] = 1.0;
-    arm_->applyTorques(tau);
-    world_.step();
+  for (const double speed : {0.5, -0.3}) {
+    // Constant speed of joint 1 by a stiff speed loop; it turns about the vertical: no gravity.
+    double motor = 0.0;
+    for (int k = 0; k < 1500; ++k) {
+      auto tau = holder_->torques(kHome);
+      motor = tau[0] = 30.0 * (speed - arm_->measure().dq[0]);
+      arm_->applyTorques(tau);
+      world_.step();
+    }
+    const ArmMeasurement m = arm_->measure();
+    const double link = linkFriction(law, m.dq[0]);
+    EXPECT_NEAR(link, m.tau_J[0], 5e-3);
+    EXPECT_NEAR(link + std::copysign(1.5, speed), motor, 5e-3);
   }
-  EXPECT_NEAR(0.0, arm_->measure().tau_J[0], 1e-3);
-  EXPECT_LT(std::abs(arm_->measure().dq[0]), 1e-2);
+}
+
+/// Torque below the motor side's Coulomb friction does not move the arm, and the sensor does not
+/// show it.
+TEST_P(ArmPlantTest, DryFrictionHoldsTheJointWithoutCreepAndIsNotMeasured) {
+  RobotDescription description = robot(id());
+  description.friction[id() + "_joint1"].coulomb = 1.5;
+  put(description);
+  const auto push = [this](int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      auto tau = holder_->torques(kHome);
+      tau[0] = std::min(1.4, world_.time());  // a step would make the arm swing beyond
+      arm_->applyTorques(tau);
+      world_.step();
+    }
+  };
+  push(3000);
+  const double rests_at = arm_->measure().q[0];
+  EXPECT_NEAR(0.0, arm_->measure().tau_J[0], 1e-6);
+  EXPECT_NEAR(kHome[0] + 1e-4 * 1.4 / 1.5, rests_at, 1e-6) << "the spring of the motor side";
+  push(10000);
+  EXPECT_NEAR(rests_at, arm_->measure().q[0], 1e-9) << "it creeps";
+}
+
+/// The same future after a snapshot, a reset and another robot's arrival.
+TEST_P(ArmPlantTest, FrictionIsPartOfTheWorldsState) {
+  RobotDescription description = robot(id());
+  description.friction[id() + "_joint1"].coulomb = 1.5;
+  put(description);
+  const auto run = [this](int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      auto tau = holder_->torques(kHome);
+      tau[0] = 1.4;
+      arm_->applyTorques(tau);
+      world_.step();
+    }
+    return world_.stateHash();
+  };
+  const std::uint64_t first = run(20);
+  const Snapshot snapshot = world_.snapshot();
+  const std::uint64_t second = run(20);
+  world_.restore(snapshot);
+  EXPECT_EQ(first, world_.stateHash());
+  EXPECT_EQ(second, run(20));
+  world_.reset();
+  EXPECT_EQ(first, run(20));
+  run(1000);
+  const double held = arm_->measure().q[0];
+  world_.addObject("stone", "<body><freejoint/><geom type='box' size='.02 .02 .02'/></body>",
+                   {{2, 0, 0.02}});
+  run(200);
+  EXPECT_NEAR(held, arm_->measure().q[0], 1e-6) << "the friction let go";
 }
 
 TEST_P(ArmPlantTest, ClosedBrakesHoldForTenSecondsWithoutTorque) {

@@ -37,7 +37,7 @@ RobotDescription panda() {
   description.urdf = readFile(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
   description.base.position = {-0.5, 0, 0};
   startAt(kHome, "panda", description);
-  applyJointPhysics({}, "panda", description);
+  applyPhysics(franka_sim::RobotPhysics{}, "panda", description);
   return description;
 }
 

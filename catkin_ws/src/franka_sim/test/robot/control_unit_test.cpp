@@ -158,40 +158,6 @@ TEST_F(ArmTest, MissingOrNonFiniteCommandsKeepTheLastTorque) {
   EXPECT_NEAR(0.97, state.control_command_success_rate, 1e-12);
 }
 
-TEST_F(ArmTest, FrictionIsCompensatedOnlyWhereAJointMoves) {
-  parameters.coulomb_friction = {{1, 1, 1, 1, 0.5, 0.5, 0.5}};
-  parameters.viscous_friction.fill(0.2);
-  rebuild();
-  ArmMeasurement m;
-  m.q = kReady;
-  m.dq = {{0.009, -0.009, 0.02, -0.02, 0, 0, 1.0}};
-  unit.observe(m);
-  unit.request(torqueControl());
-  const franka_core::RobotCommand zero;
-  const std::array<double, 7> applied = unit.actuate(&zero);
-  const std::array<double, 7> gravity = parameters.model.gravity(kReady, parameters.end_effector);
-  const std::array<double, 7> friction{{0, 0, 1.004, -1.004, 0, 0, 0.7}};
-  for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(friction[i], applied[i] - gravity[i], 1e-9);
-  }
-}
-
-TEST_F(ArmTest, JointFrictionIsNotAnExternalForce) {
-  parameters.coulomb_friction = {{1.137, 1.137, 1.137, 1.137, 0.763, 0.44, 0.248}};
-  parameters.viscous_friction.fill(0.21);
-  rebuild();
-  arm.coulomb = parameters.coulomb_friction;
-  arm.viscous = parameters.viscous_friction;
-  startTorqueControl();
-  const franka_core::RobotCommand command = torques({{3, 0, 0, 0, 0, 0, 0}});
-  double largest = 0.0;
-  for (int i = 0; i < 300; i++) {
-    largest = std::max(largest, norm(tick(unit, arm, &command).O_F_ext_hat_K, 0, 3));
-  }
-  EXPECT_GT(std::abs(arm.dq()[0]), 0.1);
-  EXPECT_LT(largest, 0.01);
-}
-
 TEST_F(ArmTest, FillsPosesElbowAndTimeFromTheModel) {
   const RobotState& state = run(3);
   EXPECT_EQ(parameters.model.pose(ArmFrame::kEndEffector, state.q, state.F_T_EE, state.EE_T_K),

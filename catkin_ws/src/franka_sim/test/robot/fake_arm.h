@@ -28,8 +28,7 @@ class FakeArm : public ArmPlant {
 
   franka_core::Payload payload;  ///< true payload at the flange
   std::array<double, 3> gravity{{0, 0, -9.81}};
-  std::array<double, 7> coulomb{}, viscous{};  ///< joint friction [Nm], [Nm s/rad]
-  std::array<double, 6> push{};                ///< external, in O, at the frame below [N, Nm]
+  std::array<double, 6> push{};  ///< external, in O, at the frame below [N, Nm]
   std::array<double, 16> push_frame{franka_core::kIdentityTransform};  ///< in the flange frame
 
   ArmMeasurement measure() const noexcept override { return {q_, dq_, tau_J_}; }
@@ -75,11 +74,7 @@ class FakeArm : public ArmPlant {
       dq_.fill(0.0);
       return Eigen::Map<const Vector7>(d.gravity.data()) - outside;
     }
-    Vector7 tau;
-    for (int i = 0; i < 7; i++) {
-      const double sign = dq_[i] > 0 ? 1.0 : dq_[i] < 0 ? -1.0 : 0.0;
-      tau[i] = tau_[i] - coulomb[i] * sign - viscous[i] * dq_[i];
-    }
+    const Vector7 tau = Eigen::Map<const Vector7>(tau_.data());
     Matrix7 M = Eigen::Map<const Matrix7>(d.mass.data());
     M.diagonal().array() += kRotor;
     const Vector7 ddq = M.llt().solve(tau + outside - bias);

@@ -163,6 +163,50 @@ TEST_F(GripperTest, MoveToWhereItIsSucceedsAtOnce) {
   EXPECT_LT(finish(gripper.move(0.04, 0.1)), 0.01);
 }
 
+/// As users report of the real hand: about a second even for tiny moves.
+TEST_F(GripperTest, LatencyDelaysTheStartAndTheOutcome) {
+  GripperParameters parameters;
+  parameters.latency = {0.2, 1.0};
+  gripper = GripperUnit(parameters);
+  run(10);
+  const double before = gripper.width();
+  const GripperUnit::Ticket tiny = gripper.move(before + 1e-3, 0.1);
+  run(195);
+  EXPECT_NEAR(before, gripper.width(), 1e-5);
+  EXPECT_NEAR(1.0, 0.195 + finish(tiny), 2e-3);
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(tiny));
+  EXPECT_NEAR(before + 1e-3, gripper.width(), 1e-4);
+  const double way = gripper.width();
+  const GripperUnit::Ticket close = gripper.move(0.0, 0.02);
+  EXPECT_NEAR(way / 0.02 + 0.2, finish(close), 0.1) << "a long way takes no further second";
+  const GripperUnit::Ticket interrupted = gripper.move(0.04, 0.1);
+  run(100);
+  const GripperUnit::Ticket next = gripper.homing();
+  EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(interrupted));
+  run(100);
+  const GripperUnit::Ticket stop = gripper.stop();
+  EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(next));
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(stop)) << "stop does not wait";
+  run(500);
+  EXPECT_NEAR(0.0, gripper.width(), 1e-3) << "a stopped command began after all";
+}
+
+TEST_F(GripperTest, HeldObjectIsHeldUntilTheNextCommandBegins) {
+  GripperParameters parameters;
+  parameters.latency = {0.2, 1.0};
+  gripper = GripperUnit(parameters);
+  putStone();
+  hand.put(0.06);
+  run(10);
+  EXPECT_GE(finish(gripper.grasp(0.025, 0.005, 0.005, 0.1, 20.0)), 1.0);
+  ASSERT_TRUE(gripper.isGrasped());
+  gripper.move(0.08, 0.1);
+  run(190);
+  EXPECT_TRUE(gripper.isGrasped());
+  run(100);
+  EXPECT_FALSE(gripper.isGrasped());
+}
+
 TEST_F(GripperTest, ObstacleEndsAMoveAsFailed) {
   putStone();
   hand.object.movable = false;

@@ -226,12 +226,12 @@ TEST_F(UnitParts, LawsCompensateGravityAndSaturateTheCommand) {
   task.controller = ControllerMode::kExternalController;
   task.tau = {{1, -2, 3, 1000, 0, 0, 0}};
   task.law_switch = LawSwitch::kFromZero;
-  const franka_core::ArmDynamics& dynamics = estimator.estimate().dynamics;
-  const Joints& torques = laws.torques(task, state, dynamics);
+  const Estimate& estimate = estimator.estimate();
+  const Joints& torques = laws.torques(task, state, estimate);
   const Joints expected{{1, -2, 3, 87, 0, 0, 0}};
   EXPECT_EQ(expected, laws.law());
   for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(expected[i] + dynamics.gravity[i], torques[i], 1e-12) << i;
+    EXPECT_NEAR(expected[i] + estimate.dynamics.gravity[i], torques[i], 1e-12) << i;
   }
   EXPECT_EQ(Joints{}, laws.rest());
 }
@@ -244,11 +244,11 @@ TEST_F(UnitParts, LawsFadeFromOneLawToTheNext) {
   task.controller = ControllerMode::kExternalController;
   task.tau = {{10, 0, 0, 0, 0, 0, 0}};
   task.law_switch = LawSwitch::kFromZero;
-  const franka_core::ArmDynamics& dynamics = estimator.estimate().dynamics;
-  laws.torques(task, state, dynamics);
+  const Estimate& estimate = estimator.estimate();
+  laws.torques(task, state, estimate);
   task.tau.fill(0.0);
   task.law_switch = LawSwitch::kBlend;
-  EXPECT_NEAR(9.0, laws.torques(task, state, dynamics)[0] - dynamics.gravity[0], 1e-12)
+  EXPECT_NEAR(9.0, laws.torques(task, state, estimate)[0] - estimate.dynamics.gravity[0], 1e-12)
       << "1000 Nm/s (protocol 5.5)";
 }
 

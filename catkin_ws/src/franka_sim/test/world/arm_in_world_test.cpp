@@ -71,7 +71,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     robot.urdf = urdf;
     robot.resolve = [](const std::string&) { return std::string(); };
     startAt(kReadyPose, id, robot);
-    applyJointPhysics({}, id, robot);
+    applyPhysics(RobotPhysics{}, id, robot);
     world_->addRobot(robot);
     arm_ = &world_->arm(id, id);
     unit_ = std::make_unique<ControlUnit>(parameters);

@@ -30,7 +30,7 @@ struct RobotHandle {
   franka_sim::World* world;  ///< use only in initSim, readSim, writeSim and between ticks
   std::string name;          ///< of the robot in the world
   std::string urdf;          ///< text of its description
-  franka_sim::JointPhysics arm_physics;  ///< rotor inertia and friction of the world's joints
+  franka_sim::RobotPhysics arm_physics;  ///< rotor inertia and friction of the world's joints
   BetweenTicks between_ticks;
   std::string robot_type;  ///< type of the arm, "panda" or "fr3"; empty without an arm
 };

@@ -39,7 +39,7 @@ struct RobotPlan {
   std::string robot_namespace;
   std::string arm_id;
   std::string robot_type;  ///< "panda" or "fr3"; empty for a robot without such an arm
-  franka_sim::JointPhysics arm_physics;
+  franka_sim::RobotPhysics arm_physics;
   std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a robot without hardware
   std::string fci_ip;         ///< address if it is served by a ServedRobot instead; else empty
   int control_ticks{1};       ///< controlPeriod in ticks of 1 ms

@@ -14,14 +14,14 @@ namespace franka_sim::fci {
 /// whole ticks. The same seed loses the same commands. One thread; pass is real-time safe.
 class CommandLink {
  public:
-  static constexpr unsigned kLongestDelay = 2;  ///< [ticks] (decision 20)
+  static constexpr unsigned kLongestDelay = 20;  ///< [ticks] (decision 20)
 
   /// @param probability of loss of each command, 0 to 1.
   /// @throws std::invalid_argument with a sentence for any other.
   void setLoss(double probability, std::uint64_t seed);
   /// Loses the next `commands` commands.
   void loseNext(unsigned commands) noexcept { lose_next_ = commands; }
-  /// @param ticks 0, 1 or 2. @throws std::invalid_argument with a sentence for any other.
+  /// @param ticks 0 to 20. @throws std::invalid_argument with a sentence for any other.
   void setDelay(double ticks);
 
   /// Drops all commands that are in transit.

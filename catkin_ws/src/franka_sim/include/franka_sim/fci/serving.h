@@ -27,13 +27,18 @@ ProtocolRange protocolsOf(const std::string& robot) noexcept;
 RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
                                const franka_core::ArmModel& arm);
 
+/// A hand to serve, with the gains of its fingers. @param fingers outlive the robot
+SimRobot::Hand servedHand(HandPlant& fingers, const GripperLatency& latency);
+
 /// A robot that behaves as behind its own interface, of its newest protocol.
 /// @param unit the robot's own configuration, as the user enters it in Desk
-/// @param arm outlives the robot, as do the fingers @param fingers null: no hand is served
+/// @param arm outlives the robot @param command_delay of every command [ticks]
 /// @throws as SimRobot
 SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
-                     ControlUnitParameters unit, ArmPlant& arm, HandPlant* fingers,
-                     const std::optional<SimRobot::Vacuum>& vacuum = {});
+                     ControlUnitParameters unit, ArmPlant& arm,
+                     const std::optional<SimRobot::Hand>& hand,
+                     const std::optional<SimRobot::Vacuum>& vacuum = {},
+                     unsigned command_delay = 0);
 
 /// The two links that came too close, named as in the description without the arm's name: "link2
 /// and hand".

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/physics/world.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/gripper_unit.h>
 #include <franka_sim/robot/plant.h>
+#include <franka_sim/robot/realism.h>
 
 #include <array>
 #include <cmath>
@@ -10,18 +14,28 @@
 
 namespace franka_sim {
 
-struct RobotDescription;
+/// The physics of one robot.
+struct RobotPhysics {
+  JointPhysics joints;
+  SensorPhysics sensors;
+  std::array<double, 7> torque_offset{};   ///< of the torque sensors [Nm]
+  std::array<LinkError, 8> link_errors{};  ///< of the links 1 to 8, the flange
+  GripperLatency gripper;
+  unsigned command_delay{0};  ///< [ms]
+};
 
-/// Reads franka_description's physics.yaml.
+/// Reads franka_description's physics.yaml, then the realism's own file.
 /// @param robot_type its section: "panda" or "fr3"
-/// @param friction_set "none", "fr3"; see the file
 /// @throws std::runtime_error with the file and the error
-JointPhysics readJointPhysics(const std::string& file, const std::string& robot_type,
-                              const std::string& friction_set);
+RobotPhysics readRobotPhysics(const std::string& file, const std::string& robot_type,
+                              const Realism& realism);
 
-/// Sets the properties for the joints <arm_id>_joint1 to 7.
-void applyJointPhysics(const JointPhysics& physics, const std::string& arm_id,
-                       RobotDescription& description);
+/// Sets the properties for the joints <arm_id>_joint1 to 7 and the links <arm_id>_link1 to 8.
+void applyPhysics(const RobotPhysics& physics, const std::string& arm_id,
+                  RobotDescription& description);
+
+/// Sets what the control unit knows of its motors, and how its sensors read.
+void applyPhysics(const RobotPhysics& physics, ControlUnitParameters& parameters);
 
 /// Start pose of the arms of franka_sim and of the original's launch files [rad].
 constexpr std::array<double, 7> kReadyPose{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};

@@ -26,6 +26,18 @@ struct Pose {
 /// when unknown.
 using ResourceResolver = std::function<std::string(const std::string& uri)>;
 
+/// How a robot's link differs from its URDF.
+struct LinkError {
+  double mass{0};                    ///< as a share of the link's mass and inertia
+  std::array<double, 3> centre{};    ///< shift of the centre of mass, in the link's frame [m]
+  double added_mass{0};              ///< a point mass on the link [kg]
+  std::array<double, 3> added_at{};  ///< where, in the link's frame [m]
+
+  bool exists() const noexcept {
+    return mass != 0.0 || added_mass != 0.0 || centre != std::array<double, 3>{};
+  }
+};
+
 /// A robot to add to the world: its simulatable URDF (xacro argument gazebo:=true).
 struct RobotDescription {
   std::string name;  ///< unique in the world; the arm_id for an arm
@@ -33,11 +45,14 @@ struct RobotDescription {
   ResourceResolver resolve;
   Pose base;  ///< of the URDF's root, unless that is a link named `world`
   std::map<std::string, double> initial_positions;  ///< joint name -> [rad] or [m]
-  // For joints not named: no rotor inertia; friction and damping of the URDF's <dynamics>, but none
-  // for the joints of Franka arms and hands.
-  std::map<std::string, double> rotor_inertia;     ///< joint name -> armature [kg m^2]
-  std::map<std::string, double> coulomb_friction;  ///< joint name -> [Nm]
-  std::map<std::string, double> damping;           ///< joint name -> [Nm s/rad]
+  std::map<std::string, double> rotor_inertia;      ///< joint name -> armature [kg m^2]; else none
+  /// Joint name -> friction, beside that of the URDF's <dynamics>, which the joints of Franka arms
+  /// and hands do not have.
+  std::map<std::string, JointFriction> friction;
+  /// Joint name -> offset of its torque sensor [Nm]: an arm's motors bring the reading, not the
+  /// torque itself, to the commanded value.
+  std::map<std::string, double> torque_offset;
+  std::map<std::string, LinkError> link_errors;  ///< link name -> what its URDF does not say
   /// Joint stops that differ from the URDF's limits (decision 8): name -> {lower, upper}.
   std::map<std::string, std::array<double, 2>> stops;
 };

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_core/arm_model.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/configuration.h>
+#include <franka_sim/robot/state_estimator.h>
 #include <franka_sim/robot/torque_blend.h>
 
 #include <array>
@@ -36,22 +36,24 @@ struct ControlTask {
 };
 
 /// From command to torque: external torque, joint impedance, Cartesian impedance, hold, guiding;
-/// saturation, gravity and friction compensation.
+/// saturation, gravity compensation.
 ///
-///     tau_motor = saturate(blend(saturate(law)) + braking) + saturate(gravity + friction)
+///     tau_motor = saturate(blend(saturate(law)) + braking) + saturate(gravity)
 ///
 /// braking: (M + B) ddq_d of an arm that brakes outside of a motion. Gravity includes the
-/// configured load. Called by one thread. Real-time safe.
+/// configured load. Friction is not compensated: the published values were identified behind the
+/// robot's own compensation, so they are what it leaves (decision 1). Called by one thread.
+/// Real-time safe.
 class ControlLaws {
  public:
   /// @param configuration outlives the laws.
   explicit ControlLaws(const Configuration& configuration) noexcept
       : configuration_(configuration) {}
 
-  /// The motor torques of the next tick [Nm]. @param dynamics at the measured state, frame EE
+  /// The motor torques of the next tick [Nm]. @param estimate of the measured state
   const std::array<double, 7>& torques(const ControlTask& task,
                                        const franka_core::RobotState& state,
-                                       const franka_core::ArmDynamics& dynamics) noexcept;
+                                       const Estimate& estimate) noexcept;
   /// Zero torques: the brakes are closed, or there has been no measurement yet.
   const std::array<double, 7>& rest() noexcept;
   void restart() noexcept { blend_.restart(); }
@@ -62,9 +64,7 @@ class ControlLaws {
 
  private:
   std::array<double, 7> law(const ControlTask& task, const franka_core::RobotState& state,
-                            const franka_core::ArmDynamics& dynamics) const noexcept;
-  std::array<double, 7> compensation(const franka_core::RobotState& state,
-                                     const franka_core::ArmDynamics& dynamics) const noexcept;
+                            const Estimate& estimate) const noexcept;
 
   const Configuration& configuration_;
   TorqueBlend blend_;

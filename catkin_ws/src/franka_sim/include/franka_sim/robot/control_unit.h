@@ -41,7 +41,7 @@ class ControlUnit {
   const franka_core::RobotState& observe(const ArmMeasurement& measurement) noexcept;
 
   /// Second half: the motor torques for the next tick [Nm]: the present control law, saturated,
-  /// plus gravity of the configured load and friction compensation.
+  /// plus gravity of the configured load.
   /// @param command nullptr if none arrived: motion generators then continue with the same
   /// acceleration, and the last torque is held. With reflexes, a motion ends after a command that
   /// is not finite or not within the limits, and after 20 lost commands in a row, except with the

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
-#include <franka_sim/robot/plant.h>
+#include <franka_sim/robot/sensor_physics.h>
 
 #include <array>
 #include <cmath>
@@ -54,9 +54,7 @@ struct ControlUnitParameters {
   std::array<double, 7> max_torque{{87, 87, 87, 87, 12, 12, 12}};  ///< [Nm] (protocol 5.5)
   std::array<double, 7> rotor_inertia{
       {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< B [kg m^2] (decision 1)
-  /// Coulomb friction that the unit compensates where |dq| > 0.01 rad/s [Nm] (decision 1).
-  std::array<double, 7> coulomb_friction{};
-  std::array<double, 7> viscous_friction{};      ///< likewise [Nm s/rad]
+  SensorPhysics sensors{};
   int substeps{2};                               ///< of the physics per tick (decision 3)
   std::array<double, 3> gravity{{0, 0, -9.81}};  ///< O_ddP_O, in O [m/s^2]
   std::array<double, 16> F_T_NE{franka_core::kIdentityTransform};
@@ -76,12 +74,5 @@ struct ControlUnitParameters {
   unsigned protocol_version{5};  ///< selects the limits (decisions 8, 25)
   InterfaceRules rules{InterfaceRules::kRosControl};
 };
-
-/// Sets the rotor inertia and the friction of the joints.
-inline void useJointPhysics(ControlUnitParameters& parameters, const JointPhysics& physics) {
-  parameters.rotor_inertia = physics.rotor_inertia;
-  parameters.coulomb_friction = physics.coulomb_friction;
-  parameters.viscous_friction = physics.damping;
-}
 
 }  // namespace franka_sim

@@ -13,6 +13,12 @@
 
 namespace franka_sim {
 
+/// How long a hand takes beside the way of its fingers.
+struct GripperLatency {
+  double start{0};     ///< from a command to the first motion [s]
+  double shortest{0};  ///< from a command to its outcome, at least [s]
+};
+
 struct GripperParameters {
   std::array<FingerGains, 2> gains;
   double max_width{0.08};           ///< [m]
@@ -26,6 +32,7 @@ struct GripperParameters {
   double room_temperature{30.0};   ///< of a hand at rest [deg C]
   double temperature_rise{25.0};   ///< final rise under max_force [K]
   double temperature_time{600.0};  ///< time constant [s]
+  GripperLatency latency;          ///< of homing, move and grasp; stop acts at once
 };
 
 enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
@@ -39,7 +46,8 @@ enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
 /// Idle keeps the fingers where the last command left them, by the position gains alone. A grasp
 /// approaches at its speed until the fingers stand still, then presses (the force rises within 0.05
 /// s and centres a loose object) and checks the width once they stand still under full force. A
-/// hold keeps pressing even if the object is lost; `isGrasped` shows the loss.
+/// hold keeps pressing even if the object is lost; `isGrasped` shows the loss. Until a command
+/// begins, which takes the latency, a hand holds what it held before.
 class GripperUnit {
  public:
   /// @throws std::invalid_argument with a sentence that names the invalid parameter.
@@ -92,6 +100,15 @@ class GripperUnit {
     bool opens{false};
   };
 
+  struct Command {
+    enum class Kind { kNone, kHoming, kMove, kGrasp };
+    Kind kind{Kind::kNone};
+    double width{0.0}, speed{0.0};
+    Grasp grasp;
+  };
+
+  Ticket accept(const Command& command) noexcept;
+  void execute(Command command) noexcept;
   void drive(double target, double speed) noexcept;
   void begin() noexcept;
   void idle(GripperOutcome outcome) noexcept;
@@ -113,6 +130,8 @@ class GripperUnit {
   double speed_{0.0};     // of the command [m/s]
   double temperature_;    // [deg C]
   HandMeasurement measured_;
+  Command next_;       // accepted, but not begun
+  double since_{0.0};  // its or the running command's acceptance [s]
   Grasp grasp_;
   TicketLog tickets_;
   WidthRamp ramp_;

@@ -16,11 +16,28 @@ struct ArmMeasurement {
   std::array<double, 7> tau_J{};
 };
 
+/// Friction torque of a joint at the velocity dq [rad/s] (decision 1); it acts against the motion.
+///
+///   link side:   amplitude (s(slope (dq + offset)) - s(slope offset)) + viscous dq,
+///                s(x) = 1 / (1 + exp(-x))
+///   motor side:  coulomb sign(dq); at rest it holds the joint like a stiff spring
+///
+/// The torque sensor lies between the two: tau_J contains the friction of the link side only.
+struct JointFriction {
+  double amplitude{0};  ///< [Nm]
+  double slope{0};      ///< [s/rad]
+  double offset{0};     ///< [rad/s]
+  double viscous{0};    ///< [Nm s/rad]
+  double coulomb{0};    ///< [Nm]
+
+  bool acts() const noexcept { return amplitude != 0.0 || coulomb != 0.0 || viscous != 0.0; }
+};
+
 /// The joints' properties that no URDF carries (decision 1), joints 1 to 7.
 struct JointPhysics {
-  std::array<double, 7> rotor_inertia{{0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< [kg m^2]
-  std::array<double, 7> coulomb_friction{};                                  ///< [Nm]
-  std::array<double, 7> damping{};                                           ///< [Nm s/rad]
+  /// Apparent inertia of the motor side behind the torque loop [kg m^2].
+  std::array<double, 7> rotor_inertia{{0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};
+  std::array<JointFriction, 7> friction{};
   struct Stops {
     std::array<double, 7> lower, upper;  ///< [rad]
   };

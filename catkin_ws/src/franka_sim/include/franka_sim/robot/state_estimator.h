@@ -17,8 +17,10 @@ namespace franka_sim {
 
 /// Estimates from the measurements that are not part of the state.
 struct Estimate {
-  bool first{true};      ///< the first sample since the start or a restart
-  bool measured{false};  ///< this sample continues a finite one: rates and torques are valid
+  bool first{true};            ///< the first sample since the start or a restart
+  bool measured{false};        ///< this sample continues a finite one: rates and torques are valid
+  std::array<double, 7> dq{};  ///< without the noise of the reported one [rad/s]
+  std::array<double, 7> tau_J{};        ///< likewise [Nm]
   franka_core::ArmDynamics dynamics{};  ///< of frame EE
   std::array<double, 7> tau_ext{};      ///< unfiltered [Nm]
   std::array<double, 6> wrench{};       ///< unfiltered, in the axes of the thresholds [N, Nm]
@@ -35,7 +37,9 @@ class StateEstimator {
   StateEstimator(const Configuration& configuration, franka_core::RobotState& state) noexcept
       : configuration_(configuration),
         state_(state),
-        external_torque_(configuration.parameters().substeps) {}
+        noise_(configuration.parameters().sensors),
+        external_torque_(configuration.parameters().substeps),
+        tau_ext_filter_(configuration.parameters().sensors.tau_ext_cutoff) {}
 
   /// One tick. The first sample after the start or a restart has no motor torques of a previous
   /// tick: tau_J is then gravity, as the sensor of a resting arm measures, and the external torque
@@ -62,6 +66,7 @@ class StateEstimator {
   Estimate estimate_;
   bool started_{false};
   bool continuous_{false};  // the last sample was finite and of the same motion
+  SensorNoise noise_;
   ExternalTorque external_torque_;
   ExternalWrench external_wrench_;
   LowPass<7> tau_ext_filter_, dtau_J_filter_;

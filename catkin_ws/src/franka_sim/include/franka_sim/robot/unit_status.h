@@ -15,6 +15,8 @@ struct UnitStatus {
   bool fci_active{true};
   /// Time must advance even if no client answers: the arm brakes or recovers.
   bool settling{false};
+  /// No joint moves, or so slowly that a sensor would not see it.
+  bool resting{false};
   /// The end of a motion or of a stop is answered only after the arm has come to rest.
   bool answers_at_rest{false};
   /// The thresholds of contact and collision in this tick.

@@ -1,0 +1,43 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/tick.h>
+
+#include <array>
+#include <cstdint>
+#include <random>
+
+namespace franka_sim {
+
+/// How the robot's sensors read, joints 1 to 7 (docs/fidelity.md).
+struct SensorPhysics {
+  /// Of the first-order filter of tau_ext_hat_filtered [Hz].
+  std::array<double, 7> tau_ext_cutoff{{kSignalCutoff, kSignalCutoff, kSignalCutoff, kSignalCutoff,
+                                        kSignalCutoff, kSignalCutoff, kSignalCutoff}};
+  std::array<double, 7> tau_J_resolution{};  ///< [Nm]; 0: continuous
+  std::array<double, 7> tau_J_noise{};       ///< standard deviation before rounding [Nm]
+  std::array<double, 7> dq_noise{};          ///< standard deviation [rad/s]
+  std::uint64_t seed{1};                     ///< of the noise
+};
+
+/// White noise and resolution of the readings of torque and velocity that the robot reports. The
+/// robot's own loops use the signals without them: how it filters those is not published.
+/// Real-time safe; one thread.
+class SensorNoise {
+ public:
+  explicit SensorNoise(const SensorPhysics& physics) noexcept;
+
+  std::array<double, 7> torques(const std::array<double, 7>& tau_J) noexcept;
+  std::array<double, 7> velocities(const std::array<double, 7>& dq) noexcept;
+  /// Repeats the same noise from the start.
+  void restart() noexcept;
+
+ private:
+  SensorPhysics physics_;
+  bool noisy_torque_, noisy_velocity_;
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace franka_sim

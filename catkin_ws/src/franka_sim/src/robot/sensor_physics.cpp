@@ -1,0 +1,53 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/sensor_physics.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace franka_sim {
+
+namespace {
+
+constexpr std::array<double, 7> kNone{};
+
+}  // namespace
+
+SensorNoise::SensorNoise(const SensorPhysics& physics) noexcept
+    : physics_(physics),
+      noisy_torque_(physics.tau_J_noise != kNone || physics.tau_J_resolution != kNone),
+      noisy_velocity_(physics.dq_noise != kNone),
+      engine_(physics.seed) {}
+
+std::array<double, 7> SensorNoise::torques(const std::array<double, 7>& tau_J) noexcept {
+  if (!noisy_torque_) {
+    return tau_J;
+  }
+  std::array<double, 7> reading;
+  for (std::size_t i = 0; i < 7; i++) {
+    reading[i] = tau_J[i] + physics_.tau_J_noise[i] * normal_(engine_);
+    const double resolution = physics_.tau_J_resolution[i];
+    if (resolution > 0.0) {
+      reading[i] = resolution * std::round(reading[i] / resolution);
+    }
+  }
+  return reading;
+}
+
+std::array<double, 7> SensorNoise::velocities(const std::array<double, 7>& dq) noexcept {
+  if (!noisy_velocity_) {
+    return dq;
+  }
+  std::array<double, 7> reading;
+  for (std::size_t i = 0; i < 7; i++) {
+    reading[i] = dq[i] + physics_.dq_noise[i] * normal_(engine_);
+  }
+  return reading;
+}
+
+void SensorNoise::restart() noexcept {
+  engine_.seed(physics_.seed);
+  normal_.reset();
+}
+
+}  // namespace franka_sim

@@ -1,0 +1,373 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The profiles of realism against the figures of recordings and publications (docs/fidelity.md).
+#include <franka_sim/physics/physics_config.h>
+#include <franka_sim/robot/control_unit.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "../physics/test_support.h"
+#include "../robot/sine_driver.h"
+
+namespace franka_sim::test {
+namespace {
+
+using franka_core::RobotState;
+using Array7 = std::array<double, 7>;
+
+RobotPhysics physicsOf(const std::string& robot, const std::string& realism) {
+  return readRobotPhysics(FRANKA_SIM_PHYSICS, robot, readRealism(realism));
+}
+
+class RealismTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  std::string id() const { return GetParam(); }
+  bool isPanda() const { return id() == "panda"; }
+
+  void start(const std::string& realism) {
+    physics_ = physicsOf(id(), realism);
+    RobotDescription description = robot(id());
+    startAt(kReadyPose, id(), description);
+    applyPhysics(physics_, id(), description);
+    world_ = std::make_unique<World>();
+    world_->addRobot(description);
+    arm_ = &world_->arm(id(), id());
+    parameters_.emplace(ControlUnitParameters{franka_core::ArmModel::fromUrdf(urdfOf(id()), id())});
+    parameters_->end_effector = handPayload(id());
+    parameters_->F_T_NE = kHandF_T_NE;
+    applyPhysics(physics_, *parameters_);
+    unit_ = std::make_unique<ControlUnit>(*parameters_);
+  }
+
+  const RobotState& tick(const franka_core::RobotCommand* command = nullptr) {
+    const RobotState& state = unit_->observe(arm_->measure());
+    arm_->applyTorques(unit_->actuate(command));
+    arm_->setBrakes(unit_->status().brakes_closed);
+    world_->step();
+    return state;
+  }
+
+  const RobotState& run(int ticks, const franka_core::RobotCommand* command = nullptr) {
+    for (int i = 0; i < ticks; i++) {
+      tick(command);
+    }
+    return unit_->state();
+  }
+
+  void startTorqueControl() {
+    tick();
+    ASSERT_EQ(Status::kMotionStarted, unit_->request(torqueControl()));
+  }
+
+  std::string joint(int number) const { return id() + "_joint" + std::to_string(number); }
+
+  RobotPhysics physics_;
+  std::optional<ControlUnitParameters> parameters_;
+  std::unique_ptr<World> world_;
+  ArmPlant* arm_{nullptr};
+  std::unique_ptr<ControlUnit> unit_;
+};
+
+// --- motors and friction -------------------------------------------------------------------------
+
+/// The published law, at both sides of the sensor [Nm].
+double frictionOf(const JointFriction& law, double dq) {
+  return law.amplitude / (1.0 + std::exp(-law.slope * (dq + law.offset))) -
+         law.amplitude / (1.0 + std::exp(-law.slope * law.offset)) + law.viscous * dq +
+         std::copysign(law.coulomb, dq);
+}
+
+/// Time until a joint alone, slowed down by its friction, falls below a speed [s]: the integral of
+/// inertia / friction over the speed, by Simpson's rule.
+double coastingTime(const JointFriction& law, double inertia, double from, double to) {
+  constexpr int kSteps = 2000;
+  const double h = (from - to) / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i <= kSteps; i++) {
+    const double weight = i == 0 || i == kSteps ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
+    sum += weight * inertia / frictionOf(law, to + h * i);
+  }
+  return sum * h / 3.0;
+}
+
+TEST_P(RealismTest, JointSevenCoastsToRestAsItsPublishedFrictionSays) {
+  start("real");
+  startTorqueControl();
+  const franka_core::RobotCommand zero;
+  run(5, &zero);
+  world_->setJointVelocity(joint(7), 0.52);
+  const double below = 0.01;
+  const double tenth = 0.052;
+  double time = 0.0;
+  double time_to_tenth = 0.0;
+  for (; time < 1.0 && tick(&zero).dq[6] > below; time += 1e-3) {
+    time_to_tenth = unit_->state().dq[6] > tenth ? time : time_to_tenth;
+  }
+  const RobotState& state = unit_->state();
+  const franka_core::Payload payload = handPayload(id());
+  const double inertia =
+      parameters_->model.mass(state.q, payload)[48] + physics_.joints.rotor_inertia[6];
+  std::printf("%s: below a tenth after %.3f s, below 0.01 rad/s after %.3f s\n", GetParam(),
+              time_to_tenth, time);
+  EXPECT_NEAR(coastingTime(physics_.joints.friction[6], inertia, 0.52, tenth), time_to_tenth, 5e-3);
+  EXPECT_NEAR(coastingTime(physics_.joints.friction[6], inertia, 0.52, below), time, 5e-3);
+  EXPECT_NEAR(0.1, time_to_tenth, 0.03);
+  run(200, &zero);
+  EXPECT_NEAR(0.0, unit_->state().dq[6], 1e-6);
+}
+
+TEST_P(RealismTest, FrictionIsSeenInTheTorqueOfEachJoint) {
+  // Panda: half the amplitude of the published law. FR3: hysteresis in the recording.
+  const Array7 expected = isPanda() ? Array7{{0.273, 0.436, 0.3205, 0.6395, 0.4195, 0.1515, 0.2825}}
+                                    : Array7{{0.50, 0.35, 0.27, 0.22, 0.28, 0.30, 0.14}};
+  for (int i = 0; i < 7; i++) {
+    start("real,bandwidth=off");
+    startTorqueControl();
+    double seen[2] = {0.0, 0.0};
+    for (const bool back : {false, true}) {
+      const double speed = back ? -0.9 : 0.9;
+      for (int k = 0; k < 400; k++) {
+        const RobotState& state = unit_->state();
+        franka_core::RobotCommand command;
+        for (int j = 0; j < 7; j++) {
+          command.tau_J_d[j] = j == i ? 30.0 * (speed - state.dq[j])
+                                      : 600.0 * (kReadyPose[j] - state.q[j]) - 40.0 * state.dq[j];
+        }
+        tick(&command);
+      }
+      seen[back ? 1 : 0] = unit_->state().tau_ext_hat_filtered[i];
+    }
+    const double viscous = physics_.joints.friction[i].viscous * 0.9;
+    const double coulomb = 0.5 * (seen[0] - seen[1]) - viscous;
+    std::printf("%s joint %d: %.3f Nm\n", GetParam(), i + 1, coulomb);
+    EXPECT_NEAR(expected[i], coulomb, 0.2 * expected[i]) << "joint " << i + 1;
+  }
+}
+
+// --- what the robot reports ----------------------------------------------------------------------
+
+TEST_P(RealismTest, PushIsReadAsSlowlyAndAsWellAsByARealRobot) {
+  start("real");
+  run(1000);
+  const double before = unit_->state().O_F_ext_hat_K[0];
+  world_->push(id() + "_hand_tcp", {{10, 0, 0}}, {{0, 0, 0}}, 3000);
+  int ticks = 0;
+  while (ticks < 1000 && std::abs(tick().O_F_ext_hat_K[0] - before) < 6.32) {
+    ticks++;
+  }
+  std::printf("%s: 63 %% after %d ms\n", GetParam(), ticks);
+  EXPECT_GE(ticks, 45);
+  EXPECT_LE(ticks, 66);
+  run(500 - ticks);
+  std::printf("%s: %.3f N after 0.5 s\n", GetParam(), unit_->state().O_F_ext_hat_K[0] - before);
+  EXPECT_NEAR(-10.0, unit_->state().O_F_ext_hat_K[0] - before, 0.5);
+  EXPECT_NEAR(0.0, before, 0.5);
+}
+
+TEST_P(RealismTest, FreeMotionReadsAForceAsOfARealRobot) {
+  start("real");
+  startTorqueControl();
+  SineDriver driver(*parameters_, handPayload(id()), 1.5, 0.9, {{1, 1, 1, 1, 1, 1, 1}});
+  double sum = 0.0;
+  double largest = 0.0;
+  double fastest = 0.0;
+  const int ticks = 20000;
+  for (int i = 0; i < ticks; i++) {
+    const franka_core::RobotCommand command = driver.command(unit_->state());
+    const RobotState& state = tick(&command);
+    ASSERT_EQ(franka_core::RobotMode::kMove, state.robot_mode) << i;
+    const auto& F = state.O_F_ext_hat_K;
+    const double force = std::hypot(F[0], F[1], F[2]);
+    sum += force;
+    largest = std::max(largest, force);
+    for (const double dq : state.dq) {
+      fastest = std::max(fastest, std::abs(dq));
+    }
+  }
+  std::printf("%s: mean %.2f N, largest %.2f N, fastest joint %.2f rad/s\n", GetParam(),
+              sum / ticks, largest, fastest);
+  EXPECT_LT(fastest, 1.0);
+  EXPECT_GE(sum / ticks, 2.0);
+  EXPECT_LE(sum / ticks, 4.0);
+  EXPECT_LT(largest, 9.0);
+}
+
+// --- noise ---------------------------------------------------------------------------------------
+
+struct Recorded {
+  Array7 tau_J_second_difference, tau_J_resolution;
+  double dq_noise;
+};
+constexpr Recorded kPandaRecording{
+    {{.07, .065, .08, .06, .04, .04, .04}}, {{.0357, .0357, .0357, .0357, .006, .006, .006}}, 3e-3};
+constexpr Recorded kFr3Recording{{{.03, .05, .03, .06, .01, .016, .023}},
+                                 {{.0238, .0238, .0238, .0238, .00641, .00641, .00641}},
+                                 1e-3};
+
+double rms(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) {
+    sum += v * v;
+  }
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+TEST_P(RealismTest, ReadingsHaveTheNoiseAndTheResolutionOfTheRecordings) {
+  const Recorded& recorded = isPanda() ? kPandaRecording : kFr3Recording;
+  start("recorded");
+  run(1000);
+  std::array<std::vector<double>, 7> tau, dq;
+  for (int k = 0; k < 4000; k++) {
+    const RobotState& state = tick();
+    for (int i = 0; i < 7; i++) {
+      tau[i].push_back(state.tau_J[i]);
+      dq[i].push_back(state.dq[i]);
+    }
+  }
+  for (int i = 0; i < 7; i++) {
+    std::vector<double> second;
+    double step = 1.0;
+    for (std::size_t k = 2; k < tau[i].size(); k++) {
+      second.push_back(tau[i][k] - 2.0 * tau[i][k - 1] + tau[i][k - 2]);
+      const double change = std::abs(tau[i][k] - tau[i][k - 1]);
+      step = change > 1e-9 ? std::min(step, change) : step;
+    }
+    std::printf("%s joint %d: second difference %.4f, step %.5f Nm, dq %.5f rad/s\n", GetParam(),
+                i + 1, rms(second), step, rms(dq[i]));
+    EXPECT_NEAR(recorded.tau_J_second_difference[i], rms(second),
+                0.3 * recorded.tau_J_second_difference[i]);
+    EXPECT_NEAR(recorded.tau_J_resolution[i], step, 1e-9);
+    EXPECT_NEAR(recorded.dq_noise, rms(dq[i]), 0.3 * recorded.dq_noise);
+  }
+}
+
+TEST_P(RealismTest, TheSeedDecidesTheRobot) {
+  const auto runOf = [this](const std::string& realism) {
+    start(realism);
+    std::vector<double> values;
+    for (int k = 0; k < 500; k++) {
+      const RobotState& state = tick();
+      values.insert(values.end(), state.tau_J.begin(), state.tau_J.end());
+      values.insert(values.end(), state.dq.begin(), state.dq.end());
+      values.insert(values.end(), state.q.begin(), state.q.end());
+    }
+    return values;
+  };
+  const auto first = runOf("recorded,seed=7");
+  EXPECT_EQ(first, runOf("recorded,seed=7"));
+  EXPECT_NE(first, runOf("recorded,seed=8"));
+  unit_->restart();
+  world_->reset();
+  EXPECT_NE(runOf("recorded,seed=7,noise=off"), runOf("recorded,seed=8,noise=off"))
+      << "the model error does not depend on the seed";
+}
+
+/// Errors of links and sensors act as on a real robot: its own model does not explain its torques,
+/// and an arm without commands stays where it is.
+TEST_P(RealismTest, ModelErrorReadsAsATorqueAndLetsNoArmDrift) {
+  for (const char* seed : {"1", "2", "3", "4", "5", "6"}) {
+    start(std::string("recorded,noise=off,seed=") + seed);
+    startTorqueControl();
+    const franka_core::RobotCommand zero;
+    run(3000, &zero);
+    const Array7 there = unit_->state().q;
+    const Array7 bias = unit_->state().tau_ext_hat_filtered;
+    run(5000, &zero);
+    double worst = 0.0;
+    for (int i = 0; i < 7; i++) {
+      EXPECT_NEAR(there[i], unit_->state().q[i], 1e-4) << "joint " << i + 1 << ", seed " << seed;
+      worst = std::max(worst, std::abs(bias[i]));
+    }
+    std::printf("%s seed %s: bias", GetParam(), seed);
+    for (const double b : bias) {
+      std::printf(" %.2f", b);
+    }
+    std::printf(" Nm\n");
+    EXPECT_GT(worst, 0.05);
+    EXPECT_LT(worst, 0.8);
+  }
+}
+
+// --- ideal ---------------------------------------------------------------------------------------
+
+TEST_P(RealismTest, IdealIsTheRobotWithoutParts) {
+  const RobotPhysics ideal = physicsOf(id(), "ideal");
+  EXPECT_EQ(JointPhysics{}.rotor_inertia, ideal.joints.rotor_inertia);
+  EXPECT_EQ(SensorPhysics{}.tau_ext_cutoff, ideal.sensors.tau_ext_cutoff);
+  EXPECT_EQ(Array7{}, ideal.sensors.tau_J_noise);
+  EXPECT_EQ(Array7{}, ideal.torque_offset);
+  EXPECT_EQ(0.0, ideal.gripper.shortest);
+  for (int i = 0; i < 7; i++) {
+    EXPECT_FALSE(ideal.joints.friction[i].acts());
+    EXPECT_FALSE(ideal.link_errors[i].exists());
+  }
+}
+
+TEST_P(RealismTest, EachPartCanBeChosenAlone) {
+  EXPECT_EQ(0.195, physicsOf(id(), "motors=on").joints.rotor_inertia[0]);
+  EXPECT_TRUE(physicsOf(id(), "ideal,friction=on").joints.friction[6].acts());
+  EXPECT_FALSE(physicsOf(id(), "real,friction=off").joints.friction[6].acts());
+  EXPECT_EQ(2.4, physicsOf(id(), "bandwidth=on").sensors.tau_ext_cutoff[1]);
+  EXPECT_GT(physicsOf(id(), "noise=on").sensors.dq_noise[0], 0.0);
+  EXPECT_NE(0.0, physicsOf(id(), "model_error=on").torque_offset[0]);
+  EXPECT_EQ(1.0, physicsOf(id(), "gripper=on").gripper.shortest);
+  EXPECT_EQ(20u, physicsOf(id(), "real,delay=20").command_delay);
+}
+
+TEST(Realism, WrongTextsAreRefusedWithASentence) {
+  for (const char* text : {"", "reel", "real,", "real,friction", "real,friction=yes", "delay=21",
+                           "delay=-1", "seed=x", "file=", "real,real", "real;seed=2"}) {
+    try {
+      readRealism(text);
+      ADD_FAILURE() << text;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string::npos, std::string(error.what()).find("Give ideal, real or recorded"));
+    }
+  }
+}
+
+class OwnRobotFile : public testing::Test {
+ protected:
+  void TearDown() override { std::remove(path_.c_str()); }
+  RobotPhysics read(const std::string& text) {
+    std::ofstream(path_) << text;
+    return physicsOf("fr3", "real,file=" + path_);
+  }
+  std::string path_{testing::TempDir() + "franka_own_robot_test.yaml"};
+};
+
+TEST_F(OwnRobotFile, ReplacesTheFiguresOfTheRobot) {
+  const RobotPhysics own = read(
+      "friction: {coulomb: [.1, .2, .3, .4, .5, .6, .7]}\n"
+      "torque_offset: [0, 0.3, 0, 0, 0, 0, 0]\npayload: {mass: 0.4, centre: [0, 0, 0.1]}\n");
+  EXPECT_EQ(0.7, own.joints.friction[6].coulomb);
+  EXPECT_EQ(0.28, own.joints.friction[6].amplitude) << "figures that the file does not have stay";
+  EXPECT_EQ(0.3, own.torque_offset[1]);
+  EXPECT_EQ(0.4, own.link_errors[7].added_mass);
+  RobotDescription description = robot("fr3");
+  applyPhysics(own, "fr3", description);
+  World world;
+  world.addRobot(description);
+}
+
+TEST_F(OwnRobotFile, ErrorsNameTheFileAndTheEntry) {
+  expectSentence([&] { read("frction: {}"); }, {path_.c_str(), "frction"});
+  expectSentence([&] { read("friction: {coulomb: [1, 2]}"); }, {"coulomb", "list of 7"});
+  expectSentence([&] { read("payload: {mass: -1}"); }, {"mass", "from 0 to 10"});
+  expectSentence([&] { read("[1, 2]"); }, {path_.c_str(), "must be a map"});
+  expectSentence([&] { read("torque_offset: ["); }, {path_.c_str(), "cannot be read"});
+  std::remove(path_.c_str());
+  expectSentence([&] { physicsOf("fr3", "real,file=" + path_); }, {path_.c_str()});
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, RealismTest, ::testing::Values("panda", "fr3"));
+
+}  // namespace
+}  // namespace franka_sim::test
