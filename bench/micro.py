@@ -36,6 +36,8 @@ RATIOS = [
     Ratio("libfranka_client_bench", "cycle/10", "copies/10", goal_ns=2000),
     Ratio("physics_bench", "tickOfWorld/0", "bareSteps/0"),
     Ratio("physics_bench", "tickOfWorld/1", "bareSteps/1"),
+    Ratio("physics_bench", "tickOfRobot/real", "tickOfRobot/ideal", goal=1.05),
+    Ratio("physics_bench", "tickOfRobot/recorded", "tickOfRobot/ideal", goal=1.15),
     Ratio("controller_manager_update_bench", "managerUpdate/1", "virtualCalls/1"),
     Ratio("controller_manager_update_bench", "managerUpdate/10", "virtualCalls/10"),
     Ratio("controller_manager_update_bench", "managerUpdate/50", "virtualCalls/50"),

@@ -61,7 +61,7 @@ def arm_limits(name):
 
 
 def profiles(physics):
-    """The entries of the table of profiles: figures of the simulation from physics.yaml, others from its test."""
+    """The entries of the table of profiles: figures of the simulation and of its test."""
     realism = TESTS + "world/realism_test.cpp"
     panda, fr3 = physics["panda"], physics["fr3"]
     seven = "#, #, #, #, #, # and #"

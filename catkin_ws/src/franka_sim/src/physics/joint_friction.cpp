@@ -13,13 +13,12 @@ constexpr double kSlipsAfter = 1e-4;  // [rad]
 
 double sigmoid(double x) noexcept { return 1.0 / (1.0 + std::exp(-x)); }
 
-double linkSide(const JointFriction& law, double dq) noexcept {
+double linkSide(const JointFrictions::Joint& joint, double dq) noexcept {
+  const JointFriction& law = joint.law;
   const double viscous = law.viscous * dq;
-  if (law.amplitude == 0.0) {
-    return viscous;
-  }
-  return viscous +
-         law.amplitude * (sigmoid(law.slope * (dq + law.offset)) - sigmoid(law.slope * law.offset));
+  return law.amplitude == 0.0
+             ? viscous
+             : viscous + law.amplitude * sigmoid(law.slope * (dq + law.offset)) - joint.at_rest;
 }
 
 double motorSide(JointFrictions::Joint& joint, double dq, double period) noexcept {
@@ -35,6 +34,7 @@ void JointFrictions::add(const mjModel& model, const std::string& joint, const J
   added.name = joint;
   added.dof = model.jnt_dofadr[mj_name2id(&model, mjOBJ_JOINT, joint.c_str())];
   added.law = law;
+  added.at_rest = law.amplitude * sigmoid(law.slope * law.offset);
   added.stiffness = law.coulomb / kSlipsAfter;
   // Damps the lightest arm that can hang on the joint, which is the motor alone, critically.
   added.damping = 2.0 * std::sqrt(added.stiffness * model.dof_armature[added.dof]);
@@ -63,7 +63,7 @@ void JointFrictions::apply(const mjModel& model, mjData* data) noexcept {
   for (Joint& joint : joints_) {
     const double dq = data->qvel[joint.dof];
     joint.motor_side = motorSide(joint, dq, model.opt.timestep);
-    data->qfrc_passive[joint.dof] -= linkSide(joint.law, dq) + joint.motor_side;
+    data->qfrc_passive[joint.dof] -= linkSide(joint, dq) + joint.motor_side;
   }
 }
 

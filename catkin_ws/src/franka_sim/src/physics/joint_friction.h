@@ -22,6 +22,7 @@ class JointFrictions {
     std::string name;
     int dof{-1};
     JointFriction law;
+    double at_rest{0};  ///< the sigmoid's torque at rest, which the law subtracts [Nm]
     double stiffness{0}, damping{0};  ///< of the spring [Nm/rad], [Nm s/rad]
     double held{0};                   ///< torque of the spring [Nm]
     double motor_side{0};             ///< torque of the last step at the motor side [Nm]

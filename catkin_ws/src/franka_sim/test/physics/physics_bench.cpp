@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
+#include <franka_sim/robot/control_unit.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -31,13 +32,13 @@ std::string readFile(const std::string& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-RobotDescription panda() {
+RobotDescription panda(const franka_sim::RobotPhysics& physics = {}) {
   RobotDescription description;
   description.name = "panda";
   description.urdf = readFile(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
   description.base.position = {-0.5, 0, 0};
   startAt(kHome, "panda", description);
-  applyPhysics(franka_sim::RobotPhysics{}, "panda", description);
+  applyPhysics(physics, "panda", description);
   return description;
 }
 
@@ -103,6 +104,31 @@ void bareSteps(benchmark::State& state) {
   mj_deleteModel(model);
 }
 
+/// A tick of control unit and world under torque control, with a profile of realism.
+void tickOfRobot(benchmark::State& state, const char* realism) {
+  const franka_sim::RobotPhysics physics =
+      franka_sim::readRobotPhysics(FRANKA_SIM_PHYSICS, "panda", franka_sim::readRealism(realism));
+  World world;
+  world.addRobot(panda(physics));
+  ArmPlant& arm = world.arm("panda", "panda");
+  const std::string urdf = readFile(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
+  franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdf, "panda")};
+  parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, "panda");
+  applyPhysics(physics, parameters);
+  franka_sim::ControlUnit unit(parameters);
+  unit.observe(arm.measure());
+  unit.request(franka_sim::torqueControl());
+  franka_core::RobotCommand command;
+  for (auto _ : state) {
+    const franka_core::RobotState& now = unit.observe(arm.measure());
+    for (int i = 0; i < 7; ++i) {
+      command.tau_J_d[i] = spring(i, now.q[i], now.dq[i], 0.0);
+    }
+    arm.applyTorques(unit.actuate(&command));
+    world.step();
+  }
+}
+
 void hashOfState(benchmark::State& state) {
   const auto world = makeWorld(true);
   for (auto _ : state) {
@@ -113,6 +139,9 @@ void hashOfState(benchmark::State& state) {
 // Argument 0: arm and hand alone, 1: with table, trays and stone.
 BENCHMARK(bareSteps)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 BENCHMARK(tickOfWorld)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(tickOfRobot, ideal, "ideal")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(tickOfRobot, real, "real")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(tickOfRobot, recorded, "recorded")->Unit(benchmark::kMicrosecond);
 BENCHMARK(hashOfState)->Unit(benchmark::kNanosecond);
 
 }  // namespace
