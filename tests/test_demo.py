@@ -9,7 +9,7 @@ import sys
 import pytest
 
 SEEDS = range(1, 21)
-SEEDS_IN_SHORT = range(1, 6)
+SEEDS_IN_SHORT = {"ideal": range(1, 6), "real": range(1, 3), "recorded": range(1, 3)}
 
 
 def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int, list[dict], str]:
@@ -35,10 +35,12 @@ def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int
     )
 
 
+@pytest.mark.parametrize("realism", ["ideal", "real", "recorded"])
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_every_seed_places_the_stone(robot, tmp_path, long_run):
-    seeds = list(SEEDS if long_run else SEEDS_IN_SHORT)
+def test_every_seed_places_the_stone(robot, realism, tmp_path, long_run):
+    seeds = list(SEEDS if long_run else SEEDS_IN_SHORT[realism])
     options = [text for seed in seeds for text in ("--seed", str(seed))]
+    options += ["--realism", realism]
     code, results, _ = pick_and_place(tmp_path, "--robot", robot, "--speed", "0", "--no-pictures", *options)
     assert code == 0
     assert [result["seed"] for result in results] == seeds

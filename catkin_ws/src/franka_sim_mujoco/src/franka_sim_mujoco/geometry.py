@@ -42,6 +42,17 @@ def rotation_vector(rotation: np.ndarray) -> np.ndarray:
     return Rotation.from_matrix(rotation).as_rotvec()
 
 
+def rotation_of(vector: np.ndarray) -> np.ndarray:
+    """The 3x3 rotation of an axis times an angle [rad]."""
+    return Rotation.from_rotvec(vector).as_matrix()
+
+
+def shortened(vector: np.ndarray, longest: float) -> np.ndarray:
+    """The vector, or one of the same direction with the largest length allowed."""
+    length = float(np.linalg.norm(vector))
+    return vector if length <= longest else vector * (longest / length)
+
+
 def wrap(angle: float, period: float) -> float:
     """The same angle in [-period/2, period/2)."""
     return (angle + period / 2) % period - period / 2

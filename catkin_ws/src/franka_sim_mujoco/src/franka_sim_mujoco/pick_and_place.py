@@ -39,7 +39,9 @@ from franka_sim_mujoco.geometry import (
     matrix_of,
     minimum_jerk,
     pose_of,
+    rotation_of,
     rotation_vector,
+    shortened,
     wrap,
     yaw_of,
 )
@@ -83,6 +85,9 @@ class Arm:
     TURN_TOLERANCE = 0.03  # [rad]
     SETTLED = 0.2  # [s] for which a pose must be kept
     LONGEST_STEP = 0.02  # [s] largest advance of the target per step
+    CORRECTION = 4.0  # [1/s] how fast the equilibrium pose follows the error of an arm that rests
+    RESTS = 0.03  # [rad/s]
+    LARGEST_LEAD, LARGEST_LEAD_TURN = 0.05, 0.3  # [m], [rad]: with an obstacle the force stays small
 
     def __init__(self, arm_id: str, namespace: str = ""):
         """@param namespace of its launch file, with a final slash; none: that of this process."""
@@ -92,6 +97,10 @@ class Arm:
         self._state: FrankaState | None = None
         self._target: np.ndarray | None = None
         self._arrival: float | None = None  # time since which the arm is at its target
+        self._corrected = 0.0  # time of the last correction
+        # Friction stops an arm before its equilibrium pose: [m] and, as a rotation vector, [rad] by which
+        # that pose is led further. It stays for the next motion, so that the held object feels no jump.
+        self._lead_position, self._lead_turn = np.zeros(3), np.zeros(3)
         self._publisher = rospy.Publisher(
             f"{namespace}{self.CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1
         )
@@ -193,7 +202,10 @@ class Arm:
             ) from error
 
     def _lead(self, target: np.ndarray) -> None:
-        message = PoseStamped(pose=pose_of(target))
+        led = np.eye(4)
+        led[:3, 3] = target[:3, 3] + self._lead_position
+        led[:3, :3] = rotation_of(self._lead_turn) @ target[:3, :3]
+        message = PoseStamped(pose=pose_of(led))
         message.header.stamp = rospy.Time.now()
         message.header.frame_id = f"{self.arm_id}_link0"
         self._publisher.publish(message)
@@ -204,13 +216,24 @@ class Arm:
         self._lead(target)
         time.sleep(0.004)
         now = rospy.get_time()
-        away = float(np.linalg.norm(self.pose[:3, 3] - target[:3, 3]))
-        turned = float(np.linalg.norm(rotation_vector(target[:3, :3] @ self.pose[:3, :3].T)))
-        if away > tolerance or turned > self.TURN_TOLERANCE or max(abs(v) for v in self.state.dq) > 0.03:
+        away = target[:3, 3] - self.pose[:3, 3]
+        turned = rotation_vector(target[:3, :3] @ self.pose[:3, :3].T)
+        near = np.linalg.norm(away) <= tolerance and np.linalg.norm(turned) <= self.TURN_TOLERANCE
+        rests = max(abs(v) for v in self.state.dq) <= self.RESTS
+        if rests and not near:
+            self._correct(away, turned, now)
+        self._corrected = now
+        if not (rests and near):
             self._arrival = None
             return False
         self._arrival = self._arrival if self._arrival is not None else now
         return now - self._arrival > self.SETTLED
+
+    def _correct(self, away: np.ndarray, turned: np.ndarray, now: float) -> None:
+        """Leads the equilibrium pose further, as a person would who sees where the arm stops."""
+        share = self.CORRECTION * min(now - self._corrected, self.LONGEST_STEP)
+        self._lead_position = shortened(self._lead_position + share * away, self.LARGEST_LEAD)
+        self._lead_turn = shortened(self._lead_turn + share * turned, self.LARGEST_LEAD_TURN)
 
 
 class Gripper:
