@@ -13,10 +13,12 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "connection_statistics.h"
+#include "recording.h"
 #include "round_trips.h"
 
 namespace {
@@ -32,6 +34,11 @@ constexpr const char* kDescription =
     "protocol version 6 or 7 has no such request: if it is idle, franka_info sets its present\n"
     "stiffness frame EE_T_K again. The status is 0 if the robot is ready, 1 if it is not, 2 if it\n"
     "cannot be reached, 3 for invalid arguments.";
+
+constexpr const char* kRecordDescription =
+    "Records the robot's signals for SECONDS as a CSV file, from which fit_robot estimates its\n"
+    "friction, the offsets of its torque sensors and an unknown load (docs/sim_to_real.md).\n"
+    "Without --move the robot is not moved: guide it by hand meanwhile.";
 
 enum Status { kReady = 0, kNotReady = 1, kUnreachable = 2, kBadArguments = 3 };
 
@@ -189,23 +196,49 @@ int inform(const std::string& address, double seconds) {
   return verdict(state, statistics);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app(kDescription, "franka_info");
-  std::string address;
+int informAs(CLI::App& app, int argc, char** argv, std::string& address) {
   double seconds = 2.0;
+  app.footer("franka_info record --help: about recording a robot's motion for fit_robot.");
   app.add_option("ADDRESS", address, "Name or IP address, maybe with a port, HOST:PORT")
       ->option_text(" ")
       ->required();
   app.add_option("SECONDS", seconds, "A time above 0 and up to 3600 s (2)")->option_text(" ");
+  app.parse(argc, argv);
+  if (address.empty() || !(seconds > 0.0 && seconds <= 3600.0)) {
+    throw CLI::ValidationError("one address is needed, and maybe a time above 0 and up to 3600 s");
+  }
+  return inform(address, seconds);
+}
+
+int recordAs(CLI::App& app, int argc, char** argv, std::string& address) {
+  franka_info::RecordingOptions options;
+  app.add_option("ADDRESS", options.address, "Name or IP address of the robot")
+      ->option_text(" ")
+      ->required();
+  app.add_option("FILE", options.file, "CSV file to write")->option_text(" ")->required();
+  app.add_option("SECONDS", options.seconds, "A time from 10 to 600 s (30)")->option_text(" ");
+  app.add_flag("--move", options.moves,
+               "swing every joint by 0.25 rad about where it is; stand clear");
+  app.parse(argc, argv);
+  address = options.address;
+  if (!(options.seconds >= 10.0 && options.seconds <= 600.0)) {
+    throw CLI::ValidationError("the time must be 10 to 600 s");
+  }
+  record(options);
+  std::printf("%s holds the recording\n", options.file.c_str());
+  return kReady;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool records = argc > 1 && std::string(argv[1]) == "record";
+  CLI::App app(records ? kRecordDescription : kDescription,
+               records ? "franka_info record" : "franka_info");
+  std::string address;
   try {
-    app.parse(argc, argv);
-    if (address.empty() || !(seconds > 0.0 && seconds <= 3600.0)) {
-      throw CLI::ValidationError(
-          "one address is needed, and maybe a time above 0 and up to 3600 s");
-    }
-    return inform(address, seconds);
+    return records ? recordAs(app, argc - 1, argv + 1, address)
+                   : informAs(app, argc, argv, address);
   } catch (const CLI::CallForHelp&) {
     std::cout << app.help();
     return kReady;
@@ -215,5 +248,8 @@ int main(int argc, char** argv) {
   } catch (const franka::Exception& error) {
     std::cerr << "franka_info: " << address << " cannot be used. " << error.what() << std::endl;
     return kUnreachable;
+  } catch (const std::runtime_error& error) {
+    std::cerr << "franka_info: " << error.what() << std::endl;
+    return kNotReady;
   }
 }

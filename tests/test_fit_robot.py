@@ -1,0 +1,95 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""franka_info record and fit_robot find the figures of simulated robots of the profile recorded."""
+
+import subprocess
+
+import numpy as np
+import pytest
+import yaml
+from fci_session import simulated
+
+HIDDEN = {
+    "friction": {
+        "amplitude": [0.8, 1.1, 0.5, 0.9, 0.7, 0.5, 0.4],
+        "slope": [20, 25, 30, 20, 30, 25, 30],
+        "offset": [0, 0, 0, 0, 0, 0, 0],
+        "viscous": [0.3, 0.2, 0.25, 0.3, 0.2, 0.15, 0.1],
+        "coulomb": [0.5, 0.6, 0.7, 0.8, 0.4, 0.2, 0.15],
+    },
+    "torque_offset": [0.2, -0.3, 0.1, 0.25, -0.1, 0.05, -0.04],
+    "payload": {"mass": 0.35, "centre": [0.02, -0.01, 0.08]},
+}
+
+
+def call(*command):
+    return subprocess.run(list(map(str, command)), text=True, capture_output=True, timeout=120)
+
+
+def fit(recording, robot):
+    return call("rosrun", "franka_description", "fit_robot", recording, robot)
+
+
+def friction_at(robot, speed):
+    """Of the link side, joints 1 to 7 [Nm]."""
+    amplitude, slope, viscous = (
+        np.array(robot["friction"][key]) for key in ("amplitude", "slope", "viscous")
+    )
+    return amplitude * (1 / (1 + np.exp(-slope * speed)) - 0.5) + viscous * speed
+
+
+@pytest.mark.parametrize("robot, address", [("panda", "127.0.60.1"), ("fr3", "127.0.60.2")])
+def test_the_fit_finds_hidden_friction_and_payload(robot, address, tmp_path):
+    hidden, recording, fitted = (tmp_path / name for name in ("hidden.yaml", "recording.csv", "fitted.yaml"))
+    hidden.write_text(yaml.safe_dump(HIDDEN))
+    realism = f"recorded,seed=5,file={hidden}"
+    with simulated(robot, address, "lockstep", "--realism", realism):
+        recorded = call("franka_info", "record", address, recording, 30, "--move")
+        assert recorded.returncode == 0, recorded.stderr
+    result = fit(recording, fitted)
+    assert result.returncode == 0, result.stderr
+    found = yaml.safe_load(fitted.read_text())
+    print(found)
+    for speed in (0.1, 0.3, -0.3):
+        assert friction_at(found, speed) == pytest.approx(friction_at(HIDDEN, speed), rel=0.1)
+    assert found["friction"]["coulomb"] == pytest.approx(HIDDEN["friction"]["coulomb"], rel=0.1)
+    assert found["payload"]["mass"] == pytest.approx(HIDDEN["payload"]["mass"], abs=0.02)
+    assert found["payload"]["centre"] == pytest.approx(HIDDEN["payload"]["centre"], abs=0.02)
+    # The links' errors, which the fit does not know, appear as offsets.
+    assert found["torque_offset"] == pytest.approx(HIDDEN["torque_offset"], abs=0.1)
+    # The simulation reads the result.
+    with simulated(robot, address, "lockstep", "--realism", f"real,file={fitted}") as sim:
+        assert sim.ask("state").startswith("Idle")
+
+
+def test_recordings_that_cannot_be_used_are_refused(tmp_path):
+    recording = tmp_path / "recording.csv"
+    missing = fit(recording, tmp_path / "robot.yaml")
+    assert missing.returncode == 1 and str(recording) in missing.stderr
+    recording.write_text("time,q1\n0,1\n20,1\n")
+    wrong = fit(recording, tmp_path / "robot.yaml")
+    assert wrong.returncode == 1 and "is no recording" in wrong.stderr
+    assert not (tmp_path / "robot.yaml").exists()
+
+
+def test_a_robot_that_rests_tells_nothing(tmp_path):
+    address, recording = "127.0.60.3", tmp_path / "recording.csv"
+    with simulated("panda", address, "100"):
+        assert call("franka_info", "record", address, recording, 10).returncode == 0
+    result = fit(recording, tmp_path / "robot.yaml")
+    assert result.returncode == 1 and "hardly move" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "arguments, status, sentence",
+    [
+        (["record", "127.0.60.4"], 3, "FILE is required"),
+        (["record", "127.0.60.4", "x.csv", "5"], 3, "the time must be 10 to 600 s"),
+        (["record", "127.0.60.4", "x.csv"], 2, "cannot be used"),
+        (["record", "--help"], 0, "Records the robot's signals"),
+    ],
+)
+def test_wrong_orders_of_franka_info_record_are_refused(arguments, status, sentence):
+    result = call("franka_info", *arguments)
+    assert result.returncode == status
+    assert sentence in result.stdout + result.stderr
