@@ -9,8 +9,6 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
 namespace franka_sim {
 
@@ -156,38 +154,34 @@ void readGripper(const YAML::Node& part, const std::string& where, GripperLatenc
   readOne(part, "shortest", where, 0.0, 10.0, latency.shortest);
 }
 
-void readPart(const YAML::Node& robot, const std::string& name, const std::string& where,
-              const Realism& realism, RobotPhysics& physics) {
-  const std::string there = where + "/" + name;
-  const YAML::Node part = section(robot, name, where);
-  if (name == "motors") {
+/// Reads the parts that the realism turns on.
+void readParts(const YAML::Node& robot, const std::string& where, const Realism& realism,
+               RobotPhysics& physics) {
+  const auto read = [&](bool present, const char* name, const auto& reader) {
+    if (present) {
+      reader(section(robot, name, where), where + "/" + name);
+    }
+  };
+  using Node = YAML::Node;
+  using Text = std::string;
+  read(realism.motors, "motors", [&](const Node& part, const Text& there) {
     checkKeys(part, {"inertia"}, there);
     readNumbers(part, "inertia", there, physics.joints.rotor_inertia);
-  } else if (name == "friction") {
+  });
+  read(realism.friction, "friction", [&](const Node& part, const Text& there) {
     readFriction(part, there, physics.joints.friction);
-  } else if (name == "bandwidth") {
+  });
+  read(realism.bandwidth, "bandwidth", [&](const Node& part, const Text& there) {
     checkKeys(part, {"tau_ext_hat_filtered"}, there);
     readNumbers(part, "tau_ext_hat_filtered", there, physics.sensors.tau_ext_cutoff);
-  } else if (name == "noise") {
-    readNoise(part, there, physics.sensors);
-  } else if (name == "model_error") {
+  });
+  read(realism.noise, "noise",
+       [&](const Node& part, const Text& there) { readNoise(part, there, physics.sensors); });
+  read(realism.model_error, "model_error", [&](const Node& part, const Text& there) {
     drawModelError(part, there, realism.seed, physics);
-  } else {
-    readGripper(part, there, physics.gripper);
-  }
-}
-
-std::vector<std::string> partsOf(const Realism& realism) {
-  std::vector<std::string> parts;
-  for (const auto& [name, present] :
-       {std::pair{"motors", realism.motors}, std::pair{"friction", realism.friction},
-        std::pair{"bandwidth", realism.bandwidth}, std::pair{"noise", realism.noise},
-        std::pair{"model_error", realism.model_error}, std::pair{"gripper", realism.gripper}}) {
-    if (present) {
-      parts.emplace_back(name);
-    }
-  }
-  return parts;
+  });
+  read(realism.gripper, "gripper",
+       [&](const Node& part, const Text& there) { readGripper(part, there, physics.gripper); });
 }
 
 void checkPhysics(const RobotPhysics& physics, const std::string& where) {
@@ -239,9 +233,7 @@ RobotPhysics readRobotPhysics(const std::string& file, const std::string& robot_
     readNumbers(robot["joint_stops"], "upper", where + "/joint_stops", stops.upper);
     physics.joints.stops = stops;
   }
-  for (const std::string& part : partsOf(realism)) {
-    readPart(robot, part, where, realism, physics);
-  }
+  readParts(robot, where, realism, physics);
   physics.sensors.seed = realism.seed;
   physics.command_delay = realism.delay;
   if (!realism.file.empty()) {
