@@ -157,7 +157,7 @@ def configured(client, operator):
     outcome = {"load": operator.does("set_load", SetLoad, 0.5, [0, 0, 0.1], nothing)}
     outcome["bad_load"] = operator.does("set_load", SetLoad, -1.0, [0, 0, 0], nothing)
     outcome["bad_loss"] = operator.does("set_packet_loss", SetPacketLoss, 1.5, 0, 0)
-    outcome["bad_delay"] = operator.does("set_packet_delay", SetPacketDelay, 3)
+    outcome["bad_delay"] = operator.does("set_packet_delay", SetPacketDelay, 21)
     outcome["delay"] = operator.does("set_packet_delay", SetPacketDelay, 1)
     motion = Motion(client)
     motion.run(100, finish=False)
