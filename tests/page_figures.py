@@ -94,7 +94,7 @@ def profiles(physics):
     decisions = "../../docs/design/decisions.md"
     return [
         ("R2: mean # N, largest # N", constant(decisions, "a force of # N on average and # N at most in")),
-        ("up to # Nm between # and # Hz", constant(decisions, "ripples by up to # Nm between # and # Hz")),
+        ("by up to # Nm between # and # Hz", constant(decisions, "ripples by up to # Nm between # and # Hz")),
         ("command after about # ms", constant(decisions, "dq follows its command after about # ms")),
         ("hand | approximation | about # s even", constant(decisions, "about # s for a gripper command")),
         ("FR3: # kg m² (joints 1 to 4) and # kg m² (joints", [inertia[0], inertia[4]]),

@@ -72,12 +72,20 @@ def test_recordings_that_cannot_be_used_are_refused(tmp_path):
     assert not (tmp_path / "robot.yaml").exists()
 
 
-def test_a_robot_that_rests_tells_nothing(tmp_path):
+def test_a_recording_at_rest_is_refused(tmp_path):
     address, recording = "127.0.60.3", tmp_path / "recording.csv"
     with simulated("panda", address, "100"):
         assert call("franka_info", "record", address, recording, 10).returncode == 0
     result = fit(recording, tmp_path / "robot.yaml")
     assert result.returncode == 1 and "hardly move" in result.stderr
+
+
+def test_a_file_that_cannot_be_written_is_refused_before_the_robot_moves():
+    with simulated("panda", "127.0.60.5", "lockstep") as sim:
+        before = sim.ask("hash")
+        result = call("franka_info", "record", "127.0.60.5", "/nowhere/recording.csv", 10, "--move")
+        assert result.returncode == 1 and "/nowhere/recording.csv cannot be written" in result.stderr
+        assert sim.ask("hash") == before
 
 
 @pytest.mark.parametrize(
@@ -89,7 +97,7 @@ def test_a_robot_that_rests_tells_nothing(tmp_path):
         (["record", "--help"], 0, "Records the robot's signals"),
     ],
 )
-def test_wrong_orders_of_franka_info_record_are_refused(arguments, status, sentence):
+def test_franka_info_record_checks_its_arguments(arguments, status, sentence):
     result = call("franka_info", *arguments)
     assert result.returncode == status
     assert sentence in result.stdout + result.stderr

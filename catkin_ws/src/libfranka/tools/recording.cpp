@@ -50,17 +50,13 @@ class Recorder {
     return 1e-3 * static_cast<double>(now - start_);
   }
 
-  void write(const franka::Model& model, const std::string& file) const {
-    std::ofstream stream(file);
+  void write(const franka::Model& model, std::ofstream& stream) const {
     stream.precision(9);
     writeTitles(stream);
     for (const franka::RobotState& state : states_) {
       writeRow(stream, model, state);
     }
     stream.close();
-    if (!stream) {
-      throw std::runtime_error("The file " + file + " cannot be written.");
-    }
   }
 
  private:
@@ -130,6 +126,12 @@ class Recorder {
   std::uint64_t start_{0};
 };
 
+void requireGood(const std::ofstream& stream, const std::string& file) {
+  if (!stream) {
+    throw std::runtime_error("The file " + file + " cannot be written.");
+  }
+}
+
 void swing(franka::Robot& robot, double seconds, Recorder& recorder) {
   std::array<double, 7> start{};
   double time = 0.0;
@@ -153,6 +155,8 @@ void swing(franka::Robot& robot, double seconds, Recorder& recorder) {
 void record(const RecordingOptions& options) {
   franka::Robot robot(options.address, franka::RealtimeConfig::kIgnore);
   const franka::Model model = robot.loadModel();
+  std::ofstream stream(options.file);
+  requireGood(stream, options.file);  // before the robot moves
   Recorder recorder(options.seconds);
   if (options.moves) {
     swing(robot, options.seconds, recorder);
@@ -160,7 +164,8 @@ void record(const RecordingOptions& options) {
     robot.read(
         [&](const franka::RobotState& state) { return recorder.add(state) < options.seconds; });
   }
-  recorder.write(model, options.file);
+  recorder.write(model, stream);
+  requireGood(stream, options.file);
 }
 
 }  // namespace franka_info

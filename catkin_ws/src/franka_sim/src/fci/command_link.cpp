@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace franka_sim::fci {
 
@@ -18,7 +19,8 @@ void CommandLink::setLoss(double probability, std::uint64_t seed) {
 
 void CommandLink::setDelay(double ticks) {
   if (!(ticks >= 0.0 && ticks <= kLongestDelay) || ticks != std::floor(ticks)) {
-    throw std::invalid_argument("Commands are delayed by a whole number of ticks from 0 to 20.");
+    throw std::invalid_argument("Commands are delayed by a whole number of ticks from 0 to " +
+                                std::to_string(kLongestDelay) + ".");
   }
   delay_ = static_cast<unsigned>(ticks);
   clear();

@@ -83,9 +83,7 @@ SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
                      const std::optional<SimRobot::Vacuum>& vacuum, unsigned command_delay) {
   unit.rules = InterfaceRules::kFci;
   unit.protocol_version = protocols.newest;
-  RobotServerParameters server = servedAt(address, protocols, unit.model);
-  server.command_delay = command_delay;
-  return SimRobot(unit, arm, server, hand, vacuum);
+  return SimRobot(unit, arm, servedAt(address, protocols, unit.model), hand, vacuum, command_delay);
 }
 
 std::string linksOf(const SelfCollision::Pair& pair) {

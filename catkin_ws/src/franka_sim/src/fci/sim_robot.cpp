@@ -21,9 +21,10 @@ std::string addressOf(const RobotServerParameters& parameters) { return paramete
 }  // namespace
 
 SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
-                   const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum)
+                   const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum,
+                   unsigned command_delay)
     : unit_(unit), arm_(arm), handler_(unit_), server_(server, handler_) {
-  link_.setDelay(server.command_delay);
+  link_.setDelay(command_delay);
   if (hand) {
     hand_ = std::make_unique<ServedHand>(addressOf(server), *hand);
   }

@@ -12,10 +12,10 @@ namespace franka_sim::physics {
 
 /// The friction of arms' joints (JointFriction), as torques in each physics step.
 ///
-/// MuJoCo's own dry friction is a constraint: seven more of them cost a third of a step, and it
-/// knows no friction beyond a torque sensor. At rest the motor side is Prandtl's elastoplastic
-/// element: a spring in series with a slider, so that a joint neither creeps under a torque below
-/// Coulomb friction nor chatters. Owned by the stepping thread; only `add` and `carry` allocate.
+/// MuJoCo's own dry friction has no law of the velocity, knows no friction beyond a torque sensor,
+/// and creeps. At rest the motor side is Prandtl's elastoplastic element: a spring in series with a
+/// slider, so that a joint neither creeps under a torque below Coulomb friction nor chatters. Owned
+/// by the stepping thread; only `add` and `carry` allocate.
 class JointFrictions {
  public:
   struct Joint {

@@ -23,9 +23,8 @@ std::array<double, 7> SensorNoise::torques(const std::array<double, 7>& tau_J) n
   if (!noisy_torque_) {
     return tau_J;
   }
-  std::array<double, 7> reading;
+  std::array<double, 7> reading = noisy(tau_J, physics_.tau_J_noise);
   for (std::size_t i = 0; i < 7; i++) {
-    reading[i] = tau_J[i] + physics_.tau_J_noise[i] * normal_(engine_);
     const double resolution = physics_.tau_J_resolution[i];
     if (resolution > 0.0) {
       reading[i] = resolution * std::round(reading[i] / resolution);
@@ -35,14 +34,15 @@ std::array<double, 7> SensorNoise::torques(const std::array<double, 7>& tau_J) n
 }
 
 std::array<double, 7> SensorNoise::velocities(const std::array<double, 7>& dq) noexcept {
-  if (!noisy_velocity_) {
-    return dq;
-  }
-  std::array<double, 7> reading;
+  return noisy_velocity_ ? noisy(dq, physics_.dq_noise) : dq;
+}
+
+std::array<double, 7> SensorNoise::noisy(std::array<double, 7> values,
+                                         const std::array<double, 7>& deviation) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
-    reading[i] = dq[i] + physics_.dq_noise[i] * normal_(engine_);
+    values[i] += deviation[i] * normal_(engine_);
   }
-  return reading;
+  return values;
 }
 
 void SensorNoise::restart() noexcept {

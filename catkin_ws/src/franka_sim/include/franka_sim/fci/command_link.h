@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/robot_state.h>
+#include <franka_sim/robot/realism.h>
 
 #include <array>
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace franka_sim::fci {
 /// whole ticks. The same seed loses the same commands. One thread; pass is real-time safe.
 class CommandLink {
  public:
-  static constexpr unsigned kLongestDelay = 20;  ///< [ticks] (decision 20)
+  static constexpr unsigned kLongestDelay = kLongestCommandDelay;  ///< [ticks] (decision 20)
 
   /// @param probability of loss of each command, 0 to 1.
   /// @throws std::invalid_argument with a sentence for any other.

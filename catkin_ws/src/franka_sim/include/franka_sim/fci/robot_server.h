@@ -24,7 +24,6 @@ struct RobotServerParameters {
   std::uint16_t port{franka_core::fci::kRobotPort};  ///< 0: the system chooses
   std::uint16_t oldest_version{3};                   ///< the oldest version that is accepted
   std::uint16_t newest_version{5};          ///< the newest; sent to clients outside the range
-  unsigned command_delay{0};                ///< of every command, beside the network's [ticks]
   std::vector<std::uint8_t> model_library;  ///< for versions up to 9; empty: there is none
   /// For versions from 8 on; each is used from its version up to the next key. Empty: there is
   /// none.

@@ -36,11 +36,12 @@ class SimRobot final : public HostedRobot {
     std::uint16_t port{franka_core::fci::kVacuumGripperPort};  ///< 0: the system chooses
   };
 
-  /// @param arm outlives the robot, as the hand's plant does.
+  /// @param arm outlives the robot, as the hand's plant does. @param command_delay [ticks]
   /// @throws std::runtime_error if a port cannot be opened, std::invalid_argument if a parameter is
   /// invalid.
   SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
-           const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {});
+           const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {},
+           unsigned command_delay = 0);
 
   ControlUnit& unit() noexcept { return unit_; }
   CommandLink& link() noexcept { return link_; }

@@ -34,6 +34,9 @@ class SensorNoise {
   void restart() noexcept;
 
  private:
+  std::array<double, 7> noisy(std::array<double, 7> values,
+                              const std::array<double, 7>& deviation) noexcept;
+
   SensorPhysics physics_;
   bool noisy_torque_, noisy_velocity_;
   std::mt19937_64 engine_;
