@@ -88,8 +88,10 @@ def running(*arguments: str):
 
 @contextmanager
 def simulated(robot: str, address: str, pace: str, *arguments: str):
-    """The same for one robot."""
-    with running("--robot", robot, "--ip", address, "--pace", pace, *arguments) as process:
+    """The same for one robot: an ideal one unless the arguments say otherwise, so that no result depends on
+    friction or on the hand's latency."""
+    ideal = ["--realism", "ideal"]
+    with running("--robot", robot, "--ip", address, "--pace", pace, *ideal, *arguments) as process:
         yield Simulation(process, robot, address)
 
 

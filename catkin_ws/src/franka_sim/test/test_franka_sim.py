@@ -181,7 +181,12 @@ def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
     world = tmp_path / "world.xml"
     world.write_text(WORLD)
 
-    with simulated("127.0.22.5", "--pace", "lockstep", "--world", str(world)) as (send, _):
+    options = [
+        "--pace=lockstep",
+        f"--world={world}",
+        "--realism=ideal",
+    ]  # friction would keep it off its pose
+    with simulated("127.0.22.5", *options) as (send, _):
 
         def until(condition):
             deadline = time.monotonic() + 20
@@ -320,7 +325,8 @@ def test_a_robot_that_starts_inside_a_body_is_reported():
 
 
 def test_the_hash_command_waits_for_a_world_at_rest():
-    with simulated("127.0.22.16", "--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0") as (send, _):
+    options = ["--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0", "--realism=ideal"]
+    with simulated("127.0.22.16", *options) as (send, _):
         before = joints(send)
         # The hand is pushed for 3 s of simulated time, then it returns.
         assert send("push panda_hand 0 8 0 3000") == "ok"

@@ -157,11 +157,12 @@ std::array<double, 7> readJointStiffness(const ros::NodeHandle& node, const std:
   return stiffness;
 }
 
-franka_sim::RobotPhysics readPhysics(const ros::NodeHandle& node, const std::string& robot_type) {
+franka_sim::RobotPhysics readPhysics(const ros::NodeHandle& node, const std::string& robot_type,
+                                     const char* profile) {
   std::string found;
   const std::string name = node.searchParam("realism", found) ? found : "realism";
   const franka_sim::Realism realism =
-      franka_sim::readRealism(readString(node, name).value_or("ideal"));
+      franka_sim::readRealism(readString(node, name).value_or(""), profile);
   const std::string folder = ros::package::getPath("franka_description");
   if (folder.empty()) {
     ROS_WARN_NAMED("franka_sim_mujoco",

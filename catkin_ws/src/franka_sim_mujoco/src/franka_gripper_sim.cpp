@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/realism.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/franka_gripper_sim.h>
 #include <franka_sim_mujoco/param_reader.h>
@@ -61,9 +62,11 @@ franka_sim::GripperParameters readUnitParameters(const ros::NodeHandle& node) {
   }
   parameters.consecutive_samples = static_cast<int>(samples);
   std::string robot_type;  // hands are the same for both, so "panda" serves where it is not set
-  parameters.latency = readPhysics(node, node.searchParam("robot_type", robot_type)
-                                             ? readString(node, robot_type).value_or("panda")
-                                             : "panda")
+  parameters.latency = readPhysics(node,
+                                   node.searchParam("robot_type", robot_type)
+                                       ? readString(node, robot_type).value_or("panda")
+                                       : "panda",
+                                   franka_sim::kInProcessProfile)
                            .gripper;
   return parameters;
 }

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/physics_config.h>
+#include <franka_sim/robot/realism.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/param_reader.h>
 #include <franka_sim_mujoco/resources.h>
@@ -180,7 +181,9 @@ RobotPlan planRobot(const SpawnOrder& order) {
   plan.description.initial_positions = knownPositions(order, plan.urdf);
   if (plan.urdf.getJoint(plan.arm_id + "_joint1")) {
     plan.robot_type = chooseRobotType(node, plan);
-    plan.arm_physics = readPhysics(node, plan.robot_type);
+    plan.arm_physics = readPhysics(
+        node, plan.robot_type,
+        plan.fci_ip.empty() ? franka_sim::kInProcessProfile : franka_sim::kServedProfile);
     franka_sim::applyPhysics(plan.arm_physics, plan.arm_id, plan.description);
     if (!plan.fci_ip.empty()) {
       // As a real robot, it rests with a small distance from its initial positions.

@@ -234,7 +234,7 @@ class PhysicsFile : public testing::Test {
   void TearDown() override { std::remove(path_.c_str()); }
   franka_sim::RobotPhysics read(const std::string& text, const std::string& realism = "ideal") {
     std::ofstream(path_) << text;
-    return franka_sim::readRobotPhysics(path_, "panda", franka_sim::readRealism(realism));
+    return franka_sim::readRobotPhysics(path_, "panda", franka_sim::readRealism(realism, "ideal"));
   }
   std::string path_{testing::TempDir() + "franka_physics_file_test.yaml"};
 };

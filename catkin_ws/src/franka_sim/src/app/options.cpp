@@ -48,7 +48,7 @@ std::string addressFault(const std::string& text) {
 
 std::string realismFault(const std::string& text) {
   try {
-    readRealism(text);
+    readRealism(text, kServedProfile);
     return "";
   } catch (const std::invalid_argument& error) {
     return error.what();
@@ -209,7 +209,7 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
       "prefix of the joints' names (the robot's name; panda_2 and so on where\nthat is taken)",
       text(&ArmOptions::arm_id));
   add("--realism", "PROFILE",
-      "ideal, real or recorded (ideal): without friction and noise, as recordings\n"
+      "ideal, real or recorded (real): without friction and noise, as recordings\n"
       "of real robots, or with noise and an error of its model too; then changes\n"
       "such as real,friction=off,delay=2 (docs/sim_to_real.md)",
       text(&ArmOptions::realism))

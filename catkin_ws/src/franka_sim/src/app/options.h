@@ -23,7 +23,7 @@ struct ArmOptions {
   std::uint16_t protocol{0};     ///< 0: every version of the robot's generation
   std::array<double, 3> base{};  ///< position of the robot in the world [m]
   double yaw{0.0};               ///< rotation of the robot in the world about the vertical [rad]
-  std::string realism{"ideal"};  ///< as readRealism reads it
+  std::string realism;           ///< as readRealism reads it
   Tool tool{Tool::kGripper};
   std::uint16_t control_port{1340};  ///< of the control interface; 0: none
 };

@@ -46,7 +46,7 @@ RobotPhysics physicsOf(const ArmOptions& options) {
   if (file.empty()) {
     throw std::runtime_error("franka_sim does not find config/physics.yaml of franka_description.");
   }
-  return readRobotPhysics(file, options.robot, readRealism(options.realism));
+  return readRobotPhysics(file, options.robot, readRealism(options.realism, kServedProfile));
 }
 
 RobotDescription describeRobot(const ArmOptions& options, const std::string& urdf,

@@ -74,8 +74,9 @@ bool applyChange(const std::string& name, const std::string& value, Realism& rea
 
 }  // namespace
 
-Realism readRealism(const std::string& text) {
+Realism readRealism(const std::string& text, const char* profile) {
   Realism realism;
+  applyProfile(profile, realism);
   std::istringstream words(text);
   std::string word;
   for (bool first = true; std::getline(words, word, ','); first = false) {
@@ -88,7 +89,7 @@ Realism readRealism(const std::string& text) {
       fail(text, "'" + word + "' is not known there.");
     }
   }
-  if (text.empty() || text.back() == ',') {
+  if (!text.empty() && text.back() == ',') {
     fail(text, "a word is missing.");
   }
   return realism;

@@ -106,8 +106,8 @@ void bareSteps(benchmark::State& state) {
 
 /// A tick of control unit and world under torque control, with a profile of realism.
 void tickOfRobot(benchmark::State& state, const char* realism) {
-  const franka_sim::RobotPhysics physics =
-      franka_sim::readRobotPhysics(FRANKA_SIM_PHYSICS, "panda", franka_sim::readRealism(realism));
+  const franka_sim::RobotPhysics physics = franka_sim::readRobotPhysics(
+      FRANKA_SIM_PHYSICS, "panda", franka_sim::readRealism(realism, "ideal"));
   World world;
   world.addRobot(panda(physics));
   ArmPlant& arm = world.arm("panda", "panda");

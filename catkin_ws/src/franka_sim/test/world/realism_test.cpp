@@ -23,7 +23,7 @@ using franka_core::RobotState;
 using Array7 = std::array<double, 7>;
 
 RobotPhysics physicsOf(const std::string& robot, const std::string& realism) {
-  return readRobotPhysics(FRANKA_SIM_PHYSICS, robot, readRealism(realism));
+  return readRobotPhysics(FRANKA_SIM_PHYSICS, robot, readRealism(realism, "ideal"));
 }
 
 class RealismTest : public ::testing::TestWithParam<const char*> {
@@ -325,11 +325,20 @@ TEST_P(RealismTest, EachPartCanBeChosenAlone) {
   EXPECT_EQ(20u, physicsOf(id(), "real,delay=20").command_delay);
 }
 
+TEST(Realism, WithoutAProfileTheDoorsIsChanged) {
+  EXPECT_FALSE(readRealism("", kInProcessProfile).friction);
+  EXPECT_TRUE(readRealism("", kServedProfile).friction);
+  const Realism late = readRealism("motors=off,delay=2", kServedProfile);
+  EXPECT_TRUE(late.friction && !late.motors && !late.noise);
+  EXPECT_EQ(2u, late.delay);
+  EXPECT_FALSE(readRealism("ideal,delay=2", kServedProfile).friction);
+}
+
 TEST(Realism, WrongTextsAreRefusedWithASentence) {
-  for (const char* text : {"", "reel", "real,", "real,friction", "real,friction=yes", "delay=21",
+  for (const char* text : {",", "reel", "real,", "real,friction", "real,friction=yes", "delay=21",
                            "delay=-1", "seed=x", "file=", "real,real", "real;seed=2"}) {
     try {
-      readRealism(text);
+      readRealism(text, "ideal");
       ADD_FAILURE() << text;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string::npos, std::string(error.what()).find("Give ideal, real or recorded"));

@@ -23,10 +23,11 @@ franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
                                                     const std::string& arm_id);
 
 /// The physics of a robot as the parameter `realism` asks for it, of this namespace or of one above
-/// it (ideal by default). Without franka_description: the default physics, with a warning.
-/// @param robot_type "panda" or "fr3"
+/// it. Without franka_description: the default physics, with a warning.
+/// @param robot_type "panda" or "fr3" @param profile if the parameter is missing or names none
 /// @throws std::exception with a sentence for a wrong parameter or file
-franka_sim::RobotPhysics readPhysics(const ros::NodeHandle& node, const std::string& robot_type);
+franka_sim::RobotPhysics readPhysics(const ros::NodeHandle& node, const std::string& robot_type,
+                                     const char* profile);
 
 /// Stiffness of the internal joint impedance controller [Nm/rad]: the proportional gains
 /// `motion_generators/position/gains/<arm_id>_jointN/p`. The original follows positions by one PID
