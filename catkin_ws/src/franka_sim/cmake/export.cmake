@@ -6,7 +6,8 @@ include(CMakePackageConfigHelpers)
 
 set(build_dir ${franka_sim_build_cmake_dir}/FrankaSim)
 set(destination ${franka_sim_lib_destination}/cmake/FrankaSim)
-install(TARGETS franka_sim_robot franka_sim_physics franka_sim_fci EXPORT FrankaSimTargets
+install(TARGETS franka_sim_robot franka_sim_physics franka_sim_fci franka_sim_simulation
+        EXPORT FrankaSimTargets
         LIBRARY DESTINATION ${franka_sim_lib_destination}
         ARCHIVE DESTINATION ${franka_sim_lib_destination}
         RUNTIME DESTINATION ${franka_sim_bin_destination})

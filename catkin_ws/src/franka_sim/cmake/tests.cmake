@@ -41,6 +41,7 @@ endforeach()
 
 sim_test(robot_unit_test
   SOURCES
+    test/robot/command_link_test.cpp
     test/robot/error_flags_test.cpp
     test/robot/laws_test.cpp
     test/robot/transform_entrances_test.cpp
@@ -87,7 +88,6 @@ sim_test(physics_test
 
 sim_test(fci_test
   SOURCES
-    test/fci/command_link_test.cpp
     test/fci/hostile_clients_test.cpp
     test/fci/host_rules_test.cpp
     test/fci/host_test.cpp
@@ -98,3 +98,6 @@ sim_test(fci_test
     test/fci/sim_robot_test.cpp
     test/fci/vacuum_gripper_test.cpp
   LIBRARIES franka_sim_fci franka_sim_physics Franka::Franka PkgConfig::TINYXML2)
+
+sim_test(simulation_test SOURCES test/simulation/simulation_test.cpp
+  LIBRARIES franka_sim_simulation)

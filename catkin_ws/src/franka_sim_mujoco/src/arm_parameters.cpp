@@ -199,7 +199,7 @@ franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
                                                     const urdf::Model& model,
                                                     const std::string& arm_id) {
   franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(robot.urdf, arm_id)};
-  parameters.protocol_version = franka_sim::fci::protocolsOf(robot.robot_type).newest;
+  parameters.protocol_version = franka_sim::protocolsOf(robot.robot_type).newest;
   parameters.has_hand = robot.world->hasHand(robot.name, arm_id);
   parameters.substeps = franka_sim::World::kSubsteps;
   franka_sim::applyPhysics(robot.arm_physics, parameters);

@@ -35,8 +35,8 @@ franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& ro
     hand = franka_sim::fci::servedHand(robot.world->hand(robot.name, plan.arm_id),
                                        plan.arm_physics.gripper);
   }
-  return franka_sim::fci::servedRobot(plan.fci_ip, franka_sim::fci::protocolsOf(plan.robot_type),
-                                      unit, robot.world->arm(robot.name, plan.arm_id), hand, {},
+  return franka_sim::fci::servedRobot(plan.fci_ip, franka_sim::protocolsOf(plan.robot_type), unit,
+                                      robot.world->arm(robot.name, plan.arm_id), hand, {},
                                       plan.arm_physics.command_delay);
 }
 

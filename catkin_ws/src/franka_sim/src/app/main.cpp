@@ -3,6 +3,7 @@
 //
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/world.h>
+#include <franka_sim/simulation/files.h>
 #include <sched.h>
 #include <sys/mman.h>
 
@@ -12,7 +13,6 @@
 #include <cstdio>
 #include <deque>
 #include <exception>
-#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -20,7 +20,6 @@
 #include <utility>
 #include <vector>
 
-#include "files.h"
 #include "operator_commands.h"
 #include "options.h"
 #include "served_arm.h"
@@ -33,19 +32,6 @@ namespace {
 std::atomic<bool> end_requested{false};  // set by a signal
 
 void requestEnd(int /*signal*/) { end_requested = true; }
-
-std::string worldFile(const std::string& name) {
-  std::error_code error;
-  if (name.empty() || std::filesystem::exists(name, error)) {
-    return name;
-  }
-  const std::string file = packageFile("franka_sim", "worlds/" + name);
-  if (file.empty()) {
-    throw std::runtime_error("There is no world '" + name +
-                             "': neither a file nor one of those that come with franka_sim.");
-  }
-  return file;
-}
 
 // Gives the ticks priority over other processes, if the system allows it; otherwise their
 // punctuality depends on the load of the machine.

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <franka_sim/fci/host.h>
+#include <franka_sim/simulation/robot_setup.h>
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,15 +15,9 @@ namespace franka_sim {
 enum class Tool { kGripper, kVacuum, kNone };
 
 /// One arm of the world.
-struct ArmOptions {
-  std::string robot{"panda"};  ///< "panda" or "fr3"
-  std::string arm_id;          ///< prefix in the URDF; unique in the world
-  std::string urdf;            ///< file; empty: the robot with hand that is part of the program
+struct ArmOptions : RobotSetup {
   std::string ip{"127.0.0.1"};
-  std::uint16_t protocol{0};     ///< 0: every version of the robot's generation
-  std::array<double, 3> base{};  ///< position of the robot in the world [m]
-  double yaw{0.0};               ///< rotation of the robot in the world about the vertical [rad]
-  std::string realism;           ///< as readRealism reads it
+  std::uint16_t protocol{0};  ///< 0: every version of the robot's generation
   Tool tool{Tool::kGripper};
   std::uint16_t control_port{1340};  ///< of the control interface; 0: none
 };

@@ -15,9 +15,6 @@ using franka_core::RobotError;
 
 namespace {
 
-// Force laws of the fingers: gains of the original's FrankaGripperSim (decision 29).
-constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
-
 std::string toText(const std::array<double, 7>& values) {
   std::string text;
   for (const double value : values) {
@@ -55,10 +52,6 @@ std::string errorNames(const ControlUnit& unit) {
 
 }  // namespace
 
-ProtocolRange protocolsOf(const std::string& robot) noexcept {
-  return robot == "fr3" ? ProtocolRange{6, 10} : ProtocolRange{3, 5};
-}
-
 RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
                                const franka_core::ArmModel& arm) {
   RobotServerParameters server;
@@ -71,10 +64,7 @@ RobotServerParameters servedAt(const std::string& address, const ProtocolRange& 
 }
 
 SimRobot::Hand servedHand(HandPlant& fingers, const GripperLatency& latency) {
-  SimRobot::Hand hand{&fingers, {}};
-  hand.parameters.gains = {kFingerGains, kFingerGains};
-  hand.parameters.latency = latency;
-  return hand;
+  return {&fingers, handParameters(latency)};
 }
 
 SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,

@@ -3,11 +3,8 @@
 #include <franka_core/robot_error.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/fci/sim_robot.h>
-#include <franka_sim/robot/tick.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace franka_sim::fci {
@@ -18,58 +15,43 @@ namespace {
 
 std::string addressOf(const RobotServerParameters& parameters) { return parameters.address; }
 
+std::optional<WholeRobot::Hand> unitOf(const std::optional<SimRobot::Hand>& hand) {
+  return hand ? std::optional<WholeRobot::Hand>({hand->plant, hand->parameters}) : std::nullopt;
+}
+
+std::optional<VacuumGripperParameters> unitOf(const std::optional<SimRobot::Vacuum>& vacuum) {
+  return vacuum ? std::optional(vacuum->parameters) : std::nullopt;
+}
+
 }  // namespace
 
 SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
                    const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum,
                    unsigned command_delay)
-    : unit_(unit), arm_(arm), handler_(unit_), server_(server, handler_) {
-  link_.setDelay(command_delay);
+    : robot_(unit, arm, unitOf(hand), unitOf(vacuum), command_delay),
+      handler_(robot_.unit()),
+      server_(server, handler_) {
   if (hand) {
-    hand_ = std::make_unique<ServedHand>(addressOf(server), *hand);
+    hand_ = std::make_unique<GripperServer>(addressOf(server), hand->port, *robot_.hand());
   }
   if (vacuum) {
-    vacuum_ = std::make_unique<ServedVacuum>(addressOf(server), *vacuum);
+    vacuum_ = std::make_unique<VacuumServer>(addressOf(server), vacuum->port, *robot_.vacuum());
   }
-}
-
-void SimRobot::halt() noexcept {
-  halted_ = !unit_.status().brakes_closed;
-  unit_.request(Brakes{true});
-}
-
-void SimRobot::restart() noexcept {
-  unit_.restart();
-  if (std::exchange(halted_, false)) {
-    unit_.request(Brakes{false});
-  }
-  link_.restart();
-  if (hand_) {
-    hand_->unit.restart();
-  }
-  if (vacuum_) {
-    vacuum_->unit.restart();
-  }
-  hashing_ = false;
-  hash_ = {};
 }
 
 void SimRobot::observe() {
   constexpr std::array<RobotError, 3> kCollisions{RobotError::kSelfCollisionAvoidanceViolation,
                                                   RobotError::kJointReflex,
                                                   RobotError::kCartesianReflex};
+  const ControlUnit& unit = robot_.unit();
   std::array<bool, kCollisions.size()> before{};
   for (std::size_t i = 0; i < before.size(); i++) {
-    before[i] = unit_.state().errors[indexOf(kCollisions[i])];
+    before[i] = unit.state().errors[indexOf(kCollisions[i])];
   }
-  unit_.observe(arm_.measure());
-  if (hand_) {
-    // The hand's state is sent even while time stands still.
-    hand_->unit.observe(hand_->plant.measure());
-  }
+  robot_.observe();
   for (std::size_t i = 0; tell_ && i < before.size(); i++) {
-    if (!before[i] && unit_.state().errors[indexOf(kCollisions[i])]) {
-      tell_(collisionOf(unit_, kCollisions[i]) + " (" +
+    if (!before[i] && unit.state().errors[indexOf(kCollisions[i])]) {
+      tell_(collisionOf(unit, kCollisions[i]) + " (" +
             franka_core::kErrorNames[indexOf(kCollisions[i])] + ").");
     }
   }
@@ -77,50 +59,18 @@ void SimRobot::observe() {
 
 void SimRobot::actuate() {
   if (!server_.motionHasBegun()) {
-    link_.clear();  // removes commands of another motion
+    robot_.link().clear();  // removes commands of another motion
   }
-  const franka_core::RobotCommand* command = link_.pass(server_.takeCommand());
-  hashing_ = hashing_ || command != nullptr;
-  if (hashing_) {
-    updateHash();
-  }
-  const std::array<double, 7>& torque = unit_.actuate(command);
-  arm_.setBrakes(unit_.status().brakes_closed);
-  arm_.applyTorques(torque);
-  if (hand_) {
-    hand_->plant.applyForces(hand_->unit.step(hand_->plant.measure(), kTick));
-  }
-  if (vacuum_) {
-    vacuum_->unit.step(kTick);
-  }
-}
-
-void SimRobot::updateHash() noexcept {
-  franka_core::RobotState state = unit_.state();
-  state.message_id = 0;
-  franka_core::fci::StateBuffer bytes;
-  if (franka_core::fci::encodeState(9, state, bytes) != franka_core::fci::CodecError::kNone) {
-    return;
-  }
-  // Eight bytes at a time; the remaining bytes one by one.
-  std::size_t i = 0;
-  for (; i + sizeof(std::uint64_t) <= bytes.size(); i += sizeof(std::uint64_t)) {
-    std::uint64_t word;
-    std::memcpy(&word, &bytes[i], sizeof(word));
-    hash_.addWord(word, 32);
-  }
-  for (; i < bytes.size(); i++) {
-    hash_.addByte(bytes[i]);
-  }
+  robot_.actuate(server_.takeCommand());
 }
 
 void SimRobot::serve(bool stops_only) {
   server_.serve(stops_only);
   if (hand_) {
-    hand_->server.serve(stops_only);
+    hand_->serve(stops_only);
   }
   if (vacuum_) {
-    vacuum_->server.serve(stops_only);
+    vacuum_->serve(stops_only);
   }
 }
 
@@ -131,10 +81,10 @@ void SimRobot::publish(std::uint64_t ticks, bool same_moment) {
 
 void SimRobot::publishTools(std::uint64_t ticks) {
   if (hand_) {
-    hand_->server.publish(ticks);
+    hand_->publish(ticks);
   }
   if (vacuum_) {
-    vacuum_->server.publish(ticks);
+    vacuum_->publish(ticks);
   }
 }
 
@@ -148,40 +98,37 @@ void SimRobot::repeat() {
 void SimRobot::onRefusal(const ClientSlot::Tell& tell) {
   server_.onRefusal(tell);
   if (hand_) {
-    hand_->server.onRefusal(tell);
+    hand_->onRefusal(tell);
   }
   if (vacuum_) {
-    vacuum_->server.onRefusal(tell);
+    vacuum_->onRefusal(tell);
   }
 }
 
 bool SimRobot::hasClients() const {
-  return server_.hasClient() || (hand_ && hand_->server.hasClient()) ||
-         (vacuum_ && vacuum_->server.hasClient());
+  return server_.hasClient() || (hand_ && hand_->hasClient()) || (vacuum_ && vacuum_->hasClient());
 }
 
 bool SimRobot::settling() const {
-  const franka_core::RobotState& state = unit_.state();
+  const franka_core::RobotState& state = robot_.unit().state();
   if (state.robot_mode == franka_core::RobotMode::kGuiding) {
     return false;  // nothing brakes an arm in Guiding: it may never come to rest
   }
   const bool abandoned =
       state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
-  const UnitStatus status = unit_.status();
+  const UnitStatus status = robot_.unit().status();
   return status.settling || abandoned || !status.resting;
 }
 
-bool SimRobot::handBusy() const {
-  return (hand_ && hand_->server.busy()) || (vacuum_ && vacuum_->server.busy());
-}
+bool SimRobot::handBusy() const { return (hand_ && hand_->busy()) || (vacuum_ && vacuum_->busy()); }
 
 void SimRobot::addDescriptors(std::vector<pollfd>& fds) const {
   server_.addDescriptors(fds);
   if (hand_) {
-    hand_->server.addDescriptors(fds);
+    hand_->addDescriptors(fds);
   }
   if (vacuum_) {
-    vacuum_->server.addDescriptors(fds);
+    vacuum_->addDescriptors(fds);
   }
 }
 

@@ -4,8 +4,8 @@
 
 #include <franka_core/arm_model.h>
 #include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/robot/protocols.h>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -13,15 +13,6 @@
 /// Sets up the network servers of a Panda or an FR3, for every program that runs a world.
 
 namespace franka_sim::fci {
-
-/// Protocol versions that a robot speaks.
-struct ProtocolRange {
-  std::uint16_t oldest, newest;
-};
-
-/// All versions of a robot's generation (decision 25). @param robot "fr3"; any other value is a
-/// Panda
-ProtocolRange protocolsOf(const std::string& robot) noexcept;
 
 /// Servers at an address of this machine, with the models of the arm that clients request.
 RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,

@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_core/fnv_hash.h>
-#include <franka_sim/fci/command_link.h>
 #include <franka_sim/fci/gripper_server.h>
 #include <franka_sim/fci/host.h>
 #include <franka_sim/fci/robot_server.h>
 #include <franka_sim/fci/unit_request_handler.h>
 #include <franka_sim/fci/vacuum_server.h>
-#include <franka_sim/robot/control_unit.h>
-#include <franka_sim/robot/gripper_unit.h>
-#include <franka_sim/robot/plant.h>
-#include <franka_sim/robot/vacuum_gripper_unit.h>
+#include <franka_sim/robot/whole_robot.h>
 
 #include <functional>
 #include <memory>
@@ -22,7 +17,7 @@
 
 namespace franka_sim::fci {
 
-/// One robot on the network: control unit, hand and vacuum gripper with their plants and servers.
+/// One robot on the network: its units with their servers.
 /// Called by one thread.
 class SimRobot final : public HostedRobot {
  public:
@@ -43,13 +38,13 @@ class SimRobot final : public HostedRobot {
            const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {},
            unsigned command_delay = 0);
 
-  ControlUnit& unit() noexcept { return unit_; }
-  CommandLink& link() noexcept { return link_; }
+  ControlUnit& unit() noexcept { return robot_.unit(); }
+  CommandLink& link() noexcept { return robot_.link(); }
   const RobotServer& server() const noexcept { return server_; }
-  std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->server.port() : 0; }
-  std::uint16_t vacuumPort() const noexcept { return vacuum_ ? vacuum_->server.port() : 0; }
+  std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->port() : 0; }
+  std::uint16_t vacuumPort() const noexcept { return vacuum_ ? vacuum_->port() : 0; }
   /// Null if the robot has none.
-  VacuumGripperUnit* vacuum() noexcept { return vacuum_ ? &vacuum_->unit : nullptr; }
+  VacuumGripperUnit* vacuum() noexcept { return robot_.vacuum(); }
 
   /// Sets the function that reports a self-collision or a contact reflex, once each time the error
   /// appears. Its argument is the text after the robot's name and a colon. It is called within
@@ -60,15 +55,10 @@ class SimRobot final : public HostedRobot {
   /// argument is the text after the robot's name and a colon. It is called within `serve`.
   void onRefusal(const ClientSlot::Tell& tell);
 
-  /// Hash of all states from the first answered one on, without their ids: equal hashes mean equal
-  /// runs (decision 21).
-  std::uint64_t hash() const noexcept { return hash_.value(); }
-  /// Call after a reset of the world: restores the condition after the start; the hash restarts.
-  /// Then call `observe` once: in the next tick, or once more within a tick.
-  void restart() noexcept;
-  /// The world has stopped for good: running motions and requests are aborted, and closed brakes
-  /// show that no motion is possible until `restart`, which opens them.
-  void halt() noexcept;
+  /// As those of WholeRobot.
+  std::uint64_t hash() const noexcept { return robot_.hash(); }
+  void restart() noexcept { robot_.restart(); }
+  void halt() noexcept { robot_.halt(); }
 
   void observe() override;
   void actuate() override;
@@ -90,34 +80,14 @@ class SimRobot final : public HostedRobot {
   }
 
  private:
-  struct ServedHand {
-    ServedHand(const std::string& address, const Hand& hand)
-        : plant(*hand.plant), unit(hand.parameters), server(address, hand.port, unit) {}
-    HandPlant& plant;
-    GripperUnit unit;
-    GripperServer server;
-  };
-  struct ServedVacuum {
-    ServedVacuum(const std::string& address, const Vacuum& vacuum)
-        : unit(vacuum.parameters), server(address, vacuum.port, unit) {}
-    VacuumGripperUnit unit;
-    VacuumServer server;
-  };
-
   void publishTools(std::uint64_t ticks);
-  void updateHash() noexcept;
 
-  ControlUnit unit_;
-  ArmPlant& arm_;
+  WholeRobot robot_;
   UnitRequestHandler handler_;
   RobotServer server_;
-  CommandLink link_;
-  std::unique_ptr<ServedHand> hand_;
-  std::unique_ptr<ServedVacuum> vacuum_;
+  std::unique_ptr<GripperServer> hand_;
+  std::unique_ptr<VacuumServer> vacuum_;
   std::function<void(const std::string&)> tell_;
-  bool halted_{false};
-  bool hashing_{false};
-  franka_core::FnvHash hash_;
 };
 
 }  // namespace franka_sim::fci

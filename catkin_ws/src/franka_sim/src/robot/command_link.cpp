@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/fci/command_link.h>
+#include <franka_sim/robot/command_link.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-namespace franka_sim::fci {
+namespace franka_sim {
 
 void CommandLink::setLoss(double probability, std::uint64_t seed) {
   if (!(probability >= 0.0 && probability <= 1.0)) {
@@ -58,4 +58,4 @@ const franka_core::RobotCommand* CommandLink::pass(
   return out.full ? &out.command : nullptr;
 }
 
-}  // namespace franka_sim::fci
+}  // namespace franka_sim

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <random>
 
-namespace franka_sim::fci {
+namespace franka_sim {
 
 /// A simulated link for commands, worse than loopback: it loses some commands and delays all by
 /// whole ticks. The same seed loses the same commands. One thread; pass is real-time safe.
@@ -51,4 +51,4 @@ class CommandLink {
   std::size_t now_{0};
 };
 
-}  // namespace franka_sim::fci
+}  // namespace franka_sim

@@ -9,9 +9,13 @@ namespace franka_sim {
 /// The text of a file. @throws std::runtime_error if it cannot be read.
 std::string readFile(const std::string& name);
 
-/// A file of a package of this workspace. Found if this program runs from the install space
-/// (../../share/<package>), from the build, or from another folder. Empty if there is none.
+/// A file of a package of this workspace: from the install space that this library is part of
+/// (../share/<package>), or else from the sources. Empty if there is none.
 std::string packageFile(const std::string& package, const std::string& file);
+
+/// The file of a world: a file's name, or the name of one that comes along (stone.xml); empty for
+/// the empty world. @throws std::runtime_error if there is none
+std::string worldFile(const std::string& name);
 
 /// Converts `package://name/path` and `file://` to file names; empty if unknown.
 std::string resolveUri(const std::string& uri);

@@ -1,11 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/fci/command_link.h>
+#include <franka_sim/robot/command_link.h>
 #include <gtest/gtest.h>
 
 #include <vector>
 
-namespace franka_sim::fci {
+namespace franka_sim {
 namespace {
 
 /// Sends commands 1 to `count`; returns the ids at the output, 0 for none.
@@ -88,4 +88,4 @@ TEST(CommandLink, LosesTheConfiguredShareRepeatably) {
 }
 
 }  // namespace
-}  // namespace franka_sim::fci
+}  // namespace franka_sim

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "files.h"
-
+#include <dlfcn.h>
 #include <franka_sim/physics/resource_uri.h>
+#include <franka_sim/simulation/files.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,10 +13,11 @@ namespace franka_sim {
 
 namespace {
 
-std::filesystem::path programFolder() {
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::filesystem::path() : program.parent_path();
+std::filesystem::path libraryFolder() {
+  Dl_info info;
+  return dladdr(reinterpret_cast<const void*>(&readFile), &info) != 0 && info.dli_fname != nullptr
+             ? std::filesystem::path(info.dli_fname).parent_path()
+             : std::filesystem::path();
 }
 
 }  // namespace
@@ -32,9 +33,8 @@ std::string readFile(const std::string& name) {
 }
 
 std::string packageFile(const std::string& package, const std::string& file) {
-  const std::filesystem::path places[] = {
-      programFolder() / "../share" / package,  // install space: bin/franka_sim
-      std::filesystem::path(FRANKA_SIM_SOURCES) / package};
+  const std::filesystem::path places[] = {libraryFolder() / "../share" / package,
+                                          std::filesystem::path(FRANKA_SIM_SOURCES) / package};
   for (const auto& place : places) {
     std::error_code error;
     const auto found = place / file;
@@ -43,6 +43,19 @@ std::string packageFile(const std::string& package, const std::string& file) {
     }
   }
   return "";
+}
+
+std::string worldFile(const std::string& name) {
+  std::error_code error;
+  if (name.empty() || std::filesystem::exists(name, error)) {
+    return name;
+  }
+  const std::string file = packageFile("franka_sim", "worlds/" + name);
+  if (file.empty()) {
+    throw std::runtime_error("There is no world '" + name +
+                             "': neither a file nor one of those that come with franka_sim.");
+  }
+  return file;
 }
 
 std::string resolveUri(const std::string& uri) { return fileOfUri(uri, packageFile); }

@@ -1,0 +1,77 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/fnv_hash.h>
+#include <franka_sim/robot/command_link.h>
+#include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/gripper_unit.h>
+#include <franka_sim/robot/plant.h>
+#include <franka_sim/robot/vacuum_gripper_unit.h>
+
+#include <cstdint>
+#include <optional>
+
+namespace franka_sim {
+
+/// The units of one robot on their plants, in ticks of 1 ms: control unit, hand and vacuum gripper,
+/// and the link that commands come through. Called by one thread. Except for the constructor
+/// and `renew`: Real-time safe.
+class WholeRobot {
+ public:
+  struct Hand {
+    HandPlant* plant;
+    GripperParameters parameters;
+  };
+
+  /// @param arm outlives the robot, as the hand's plant does. @param command_delay [ticks]
+  /// @throws std::invalid_argument if a parameter is invalid.
+  WholeRobot(const ControlUnitParameters& unit, ArmPlant& arm, const std::optional<Hand>& hand,
+             const std::optional<VacuumGripperParameters>& vacuum = {}, unsigned command_delay = 0);
+  WholeRobot(const WholeRobot&) = delete;
+  WholeRobot& operator=(const WholeRobot&) = delete;
+
+  ControlUnit& unit() noexcept { return unit_; }
+  const ControlUnit& unit() const noexcept { return unit_; }
+  CommandLink& link() noexcept { return link_; }
+  /// Null if the robot has none.
+  GripperUnit* hand() noexcept { return hand_ ? &*hand_ : nullptr; }
+  VacuumGripperUnit* vacuum() noexcept { return vacuum_ ? &*vacuum_ : nullptr; }
+
+  /// First half of a tick: measures.
+  void observe() noexcept;
+  /// Second half: sets the torques and forces of the coming tick. @param command that answers the
+  /// observed state; nullptr: none arrived
+  void actuate(const franka_core::RobotCommand* command) noexcept;
+
+  /// Hash of all states from the first answered one on, without their ids: equal hashes mean equal
+  /// runs (decision 21).
+  std::uint64_t hash() const noexcept { return hash_.value(); }
+  /// Call after a reset of the world: restores the condition after the start; the hash restarts.
+  /// Then call `observe` once: in the next tick, or once more within a tick.
+  void restart() noexcept;
+  /// As `restart`, with a new control unit of the present configuration: without errors, idle,
+  /// brakes open, at time 0. References to its state become invalid. Not real-time safe.
+  void renew();
+  /// The world has stopped for good: running motions and requests are aborted, and closed brakes
+  /// show that no motion is possible until `restart`, which opens them.
+  void halt() noexcept;
+
+ private:
+  void updateHash() noexcept;
+
+  ControlUnit unit_;
+  ArmPlant& arm_;
+  CommandLink link_;
+  HandPlant* hand_plant_{nullptr};
+  std::optional<GripperUnit> hand_;
+  std::optional<VacuumGripperUnit> vacuum_;
+  bool halted_{false};
+  bool hashing_{false};
+  franka_core::FnvHash hash_;
+};
+
+/// Parameters of a Franka hand behind its own interface.
+GripperParameters handParameters(const GripperLatency& latency);
+
+}  // namespace franka_sim

@@ -1,0 +1,38 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/physics_config.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+
+#include <array>
+#include <string>
+
+namespace franka_sim {
+
+/// A robot of a world, as the user describes it.
+struct RobotSetup {
+  std::string robot{"panda"};    ///< "panda" or "fr3"
+  std::string arm_id;            ///< prefix in the URDF; unique in the world
+  std::string urdf;              ///< file; empty: the robot with hand that comes along
+  std::array<double, 3> base{};  ///< position of the robot in the world [m]
+  double yaw{0.0};               ///< rotation of the robot in the world about the vertical [rad]
+  std::string realism;           ///< as readRealism reads it
+};
+
+/// A robot that was added to a world, and what its units need.
+struct RobotInWorld {
+  ControlUnitParameters unit;  ///< of its own interface, in the newest version
+  RobotPhysics physics;
+  ArmPlant* arm;
+  HandPlant* hand;  ///< null if its description has none
+};
+
+/// Adds the robot to the world, in the ready pose.
+/// @param profile of a realism that names none
+/// @throws std::exception with a sentence for files, descriptions and values that cannot be used;
+/// then the world is unchanged.
+RobotInWorld addRobot(const RobotSetup& setup, const char* profile, World& world);
+
+}  // namespace franka_sim

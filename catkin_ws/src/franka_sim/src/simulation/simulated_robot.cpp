@@ -1,0 +1,166 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/fci/texts.h>
+#include <franka_core/limits.h>
+#include <franka_core/robot_error.h>
+#include <franka_core/tick.h>
+#include <franka_sim/robot/realism.h>
+#include <franka_sim/simulation/simulated_robot.h>
+
+#include <algorithm>
+
+namespace franka_sim {
+
+using franka_core::RobotCommand;
+using franka_core::fci::MoveRequest;
+
+namespace {
+
+std::optional<WholeRobot::Hand> handOf(const RobotInWorld& robot, bool driven) {
+  return driven && robot.hand != nullptr
+             ? std::optional<WholeRobot::Hand>({robot.hand, handParameters(robot.physics.gripper)})
+             : std::nullopt;
+}
+
+// Steps of a target or a stiffness become steps of the torque, which the robot would refuse.
+void limitRate(const std::array<double, 7>& before, std::array<double, 7>& tau) noexcept {
+  for (std::size_t i = 0; i < tau.size(); i++) {
+    const double step = 0.999 * franka_core::kFerLimits.dtau[i] * franka_core::kTick;
+    tau[i] = std::clamp(tau[i], before[i] - step, before[i] + step);
+  }
+}
+
+}  // namespace
+
+SimulatedRobot::SimulatedRobot(const RobotSetup& setup, bool hand, World& world)
+    : setup_(setup),
+      in_world_(addRobot(setup, kInProcessProfile, world)),
+      robot_(in_world_.unit, *in_world_.arm, handOf(in_world_, hand), {},
+             in_world_.physics.command_delay) {}
+
+void SimulatedRobot::refuse(const std::string& what) const {
+  std::string errors;
+  for (std::size_t i = 0; i < state_.errors.size(); i++) {
+    if (state_.errors[i]) {
+      errors += (errors.empty() ? ": " : ", ") + std::string(franka_core::kErrorNames[i]);
+    }
+  }
+  throw RequestRefused(what + " was refused: the robot is in mode " +
+                       franka_core::fci::modeName(state_.robot_mode) + errors + "." +
+                       (errors.empty() ? "" : " Recover it first."));
+}
+
+void SimulatedRobot::start(const MoveRequest& motion) {
+  if (moving() && (motion.controller_mode != motion_.controller_mode ||
+                   motion.motion_generator_mode != motion_.motion_generator_mode)) {
+    throw RequestRefused("A motion of another kind runs; end it first.");
+  }
+  if (moving()) {
+    return;
+  }
+  const std::optional<Status> status = robot_.unit().request(motion);
+  if (status == Status::kInvalidArgumentRejected) {
+    throw RequestRefused("The motion was refused: its controller cannot drive this generator.");
+  }
+  if (status != Status::kMotionStarted) {
+    refuse("The motion");
+  }
+  state_ = robot_.unit().state();
+  motion_ = motion;
+  finishing_ = false;
+}
+
+void SimulatedRobot::command(const MoveRequest& motion, const RobotCommand& command) {
+  start(motion);
+  input_ = command;
+}
+
+// Before version 10, clients send velocities of zero along with torques.
+MoveRequest SimulatedRobot::torqueMotion() const noexcept {
+  MoveRequest motion = torqueControl();
+  if (robot_.unit().configuration().protocol_version < 10) {
+    motion.motion_generator_mode = franka_core::MotionGeneratorMode::kJointVelocity;
+  }
+  return motion;
+}
+
+void SimulatedRobot::commandTorques(const std::array<double, 7>& tau) {
+  RobotCommand torques;
+  torques.tau_J_d = tau;
+  command(torqueMotion(), torques);
+}
+
+template <typename Law>
+Law& SimulatedRobot::law() {
+  start(torqueMotion());
+  if (!std::holds_alternative<Law>(input_)) {
+    input_.emplace<Law>(state());
+  }
+  return std::get<Law>(input_);
+}
+
+JointLaw& SimulatedRobot::jointLaw() { return law<JointLaw>(); }
+CartesianLaw& SimulatedRobot::cartesianLaw() { return law<CartesianLaw>(); }
+
+void SimulatedRobot::finish() noexcept { finishing_ = moving(); }
+
+void SimulatedRobot::request(const UnitRequest& request, const std::string& what) {
+  const std::optional<Status> status = robot_.unit().request(request);
+  if (status == Status::kInvalidArgumentRejected) {
+    throw RequestRefused(what + " was refused: a value is outside of what the robot accepts.");
+  }
+  if (status && status != Status::kSuccess) {
+    refuse(what);
+  }
+  state_ = robot_.unit().state();
+}
+
+void SimulatedRobot::recover() {
+  const std::optional<Status> status =
+      robot_.unit().request(franka_core::fci::AutomaticErrorRecoveryRequest{});
+  if (status && status != Status::kSuccess) {
+    refuse("The recovery");
+  }
+  state_ = robot_.unit().state();
+}
+
+void SimulatedRobot::observe() noexcept {
+  robot_.observe();
+  if (const std::optional<Status> end = robot_.unit().takeAnswer(PendingAnswer::kMotion)) {
+    last_result_ = end;
+    input_ = std::monostate{};
+  }
+  robot_.unit().takeAnswer(PendingAnswer::kStop);
+  robot_.unit().takeAnswer(PendingAnswer::kRecovery);
+  state_ = robot_.unit().state();
+}
+
+const RobotCommand* SimulatedRobot::nextCommand() noexcept {
+  if (!moving()) {
+    return nullptr;
+  }
+  if (const auto* command = std::get_if<RobotCommand>(&input_)) {
+    sent_ = *command;
+  } else {
+    sent_ = {};
+    const ControlUnitParameters& unit = robot_.unit().configuration();
+    auto* joint_law = std::get_if<JointLaw>(&input_);
+    sent_.tau_J_d = joint_law != nullptr ? joint_law->torque(state_, unit)
+                                         : std::get<CartesianLaw>(input_).torque(state_, unit);
+    limitRate(state_.tau_J_d, sent_.tau_J_d);
+  }
+  sent_.message_id = state_.message_id;
+  sent_.motion_generation_finished = finishing_;
+  sent_.torque_command_finished = finishing_;
+  return &sent_;
+}
+
+void SimulatedRobot::actuate() noexcept { robot_.actuate(nextCommand()); }
+
+void SimulatedRobot::restart() {
+  robot_.renew();
+  input_ = std::monostate{};
+  finishing_ = false;
+}
+
+}  // namespace franka_sim

@@ -1,0 +1,239 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Robots that a program drives in its own process: commands, laws, refusals, resets.
+#include <franka_core/robot_error.h>
+#include <franka_sim/simulation/simulation.h>
+#include <gtest/gtest.h>
+#include <rt_guard/rt_guard.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace franka_sim::test {
+namespace {
+
+using franka_core::RobotCommand;
+using franka_core::RobotError;
+using franka_core::RobotMode;
+using franka_core::fci::MoveRequest;
+using Array7 = std::array<double, 7>;
+
+double farthest(const Array7& a, const Array7& b) {
+  double result = 0.0;
+  for (std::size_t i = 0; i < a.size(); i++) {
+    result = std::max(result, std::abs(a[i] - b[i]));
+  }
+  return result;
+}
+
+MoveRequest positions() {
+  MoveRequest motion;
+  motion.motion_generator_mode = franka_core::MotionGeneratorMode::kJointPosition;
+  return motion;
+}
+
+class SimulationTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  std::unique_ptr<Simulation> simulationOf(const std::string& realism,
+                                           const std::string& world = "") const {
+    Simulation::Robot robot;
+    robot.setup.robot = robot.setup.arm_id = GetParam();
+    robot.setup.realism = realism;
+    robot.setup.base[0] = -0.5;  // beside the stone's table
+    return std::make_unique<Simulation>(world, std::vector<Simulation::Robot>{robot});
+  }
+  SimulatedRobot& arm(Simulation& simulation) const { return simulation.robot(GetParam()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Robots, SimulationTest, ::testing::Values("panda", "fr3"),
+                         [](const auto& param) { return std::string(param.param); });
+
+TEST_P(SimulationTest, JointLawReachesItsTargetSmoothly) {
+  const auto simulation = simulationOf("ideal");
+  SimulatedRobot& robot = arm(*simulation);
+  Array7 target = robot.state().q;
+  for (double& q : target) {
+    q += 0.2;
+  }
+  robot.jointLaw().setTarget(target, 1.0);
+  double fastest = 0.0;
+  for (int i = 0; i < 1500; i++) {
+    simulation->step(1);
+    ASSERT_EQ(RobotMode::kMove, robot.state().robot_mode) << i;
+    fastest = std::max(fastest, robot.state().dq[0]);
+  }
+  EXPECT_LT(farthest(target, robot.state().q), 2e-3);
+  EXPECT_NEAR(fastest, 0.2 * 1.875, 0.03) << "of a polynomial of fifth order";
+}
+
+TEST_P(SimulationTest, CartesianLawReachesItsTargetAndYieldsAsASpring) {
+  const auto simulation = simulationOf("ideal");
+  SimulatedRobot& robot = arm(*simulation);
+  std::array<double, 16> target = robot.state().O_T_EE;
+  target[12] += 0.05;
+  target[14] -= 0.05;
+  CartesianLaw& law = robot.cartesianLaw();
+  law.setStiffness({1000, 1000, 1000, 100, 100, 100});
+  law.setTarget(target, 1.0);
+  simulation->step(3000);
+  for (const int i : {12, 13, 14}) {
+    EXPECT_NEAR(target[i], robot.state().O_T_EE[i], 1e-3);
+  }
+  const double before = robot.state().O_T_EE[13];
+  simulation->world().push(robot.setup().arm_id + std::string("_hand"), {0, 5, 0}, {}, 4000);
+  simulation->step(4000);
+  EXPECT_NEAR(5.0 / 1000, robot.state().O_T_EE[13] - before, 1e-3);
+}
+
+TEST_P(SimulationTest, AJumpEndsTheMotionAndTheRobotRecovers) {
+  const auto simulation = simulationOf("ideal");
+  SimulatedRobot& robot = arm(*simulation);
+  RobotCommand command;
+  command.q_c = robot.state().q_d;
+  robot.command(positions(), command);
+  simulation->step(10);
+  EXPECT_TRUE(robot.moving());
+  command.q_c[0] += 0.1;
+  robot.command(positions(), command);
+  simulation->step(10);
+  EXPECT_FALSE(robot.moving());
+  EXPECT_EQ(Status::kReflexAborted, robot.lastResult());
+  EXPECT_EQ(RobotMode::kReflex, robot.state().robot_mode);
+  EXPECT_TRUE(
+      robot.state()
+          .errors[franka_core::indexOf(RobotError::kJointMotionGeneratorVelocityDiscontinuity)]);
+  try {
+    robot.command(positions(), command);
+    FAIL();
+  } catch (const RequestRefused& refused) {
+    const std::string text = refused.what();
+    EXPECT_NE(std::string::npos, text.find("Reflex")) << text;
+    EXPECT_NE(std::string::npos, text.find("joint_motion_generator_velocity_discontinuity"));
+  }
+  EXPECT_FALSE(robot.moving());
+  robot.recover();
+  simulation->step(2000);
+  EXPECT_EQ(RobotMode::kIdle, robot.state().robot_mode);
+}
+
+TEST_P(SimulationTest, AResetEndsErrorsAndKeepsTheConfiguration) {
+  const auto simulation = simulationOf("ideal");
+  SimulatedRobot& robot = arm(*simulation);
+  const franka_core::RobotState& state = robot.state();
+  robot.request(franka_sim::loadRequest({0.5, {0, 0, 0.05}, {}}), "The load");
+  RobotCommand command;
+  command.q_c = {1, 1, 1, -1, 1, 1, 1};
+  robot.command(positions(), command);
+  simulation->step(100);
+  EXPECT_EQ(RobotMode::kReflex, state.robot_mode);
+  simulation->reset();
+  EXPECT_EQ(RobotMode::kIdle, state.robot_mode);
+  EXPECT_EQ(1u, state.message_id);
+  EXPECT_EQ(0.5, state.m_load);
+  for (const bool error : state.errors) {
+    EXPECT_FALSE(error);
+  }
+}
+
+TEST_P(SimulationTest, AMotionOfAnotherKindIsRefusedUntilTheFirstHasEnded) {
+  const auto simulation = simulationOf("ideal");
+  SimulatedRobot& robot = arm(*simulation);
+  robot.jointLaw();
+  simulation->step(5);
+  EXPECT_THROW(robot.command(positions(), {}), RequestRefused);
+  robot.finish();
+  simulation->step(500);
+  EXPECT_FALSE(robot.moving());
+  EXPECT_EQ(Status::kSuccess, robot.lastResult());
+  RobotCommand command;
+  command.q_c = robot.state().q_d;
+  robot.command(positions(), command);
+  simulation->step(5);
+  EXPECT_EQ(RobotMode::kMove, robot.state().robot_mode);
+}
+
+TEST_P(SimulationTest, AResetRepeatsTheRunBitForBit) {
+  for (const char* realism : {"ideal", "recorded,seed=3"}) {
+    const auto simulation = simulationOf(realism, "stone.xml");
+    SimulatedRobot& robot = arm(*simulation);
+    const auto run = [&] {
+      Array7 target = robot.state().q;
+      target[3] += 0.3;
+      robot.jointLaw().setTarget(target, 0.5);
+      simulation->step(800);
+      return std::pair(robot.units().hash(), simulation->world().stateHash());
+    };
+    const auto first = run();
+    simulation->reset();
+    EXPECT_EQ(RobotMode::kIdle, robot.state().robot_mode);
+    EXPECT_FALSE(robot.moving());
+    EXPECT_EQ(first, run()) << realism;
+    const auto other = simulationOf(realism, "stone.xml");
+    Array7 target = arm(*other).state().q;
+    target[3] += 0.3;
+    arm(*other).jointLaw().setTarget(target, 0.5);
+    for (int i = 0; i < 800; i++) {
+      other->step(1);
+    }
+    EXPECT_EQ(first.first, arm(*other).units().hash()) << "in steps of one tick: " << realism;
+  }
+}
+
+TEST_P(SimulationTest, AnArmIsPlacedWithinItsLimitsOnly) {
+  const auto simulation = simulationOf("ideal");
+  SimulatedRobot& robot = arm(*simulation);
+  Array7 q{0.3, 0.2, -0.1, -1.5, 0.1, 1.7, 0.4};
+  simulation->place(robot, q);
+  EXPECT_EQ(q, robot.state().q);
+  simulation->step(1000);
+  EXPECT_LT(farthest(q, robot.state().q), 1e-6) << "it holds";
+  const Array7 before = robot.state().q;
+  q[3] = 1.0;
+  EXPECT_THROW(simulation->place(robot, q), std::invalid_argument);
+  q[3] = std::nan("");
+  EXPECT_THROW(simulation->place(robot, q), std::invalid_argument);
+  EXPECT_EQ(before, robot.state().q) << "nothing has moved";
+}
+
+TEST_P(SimulationTest, ASnapshotIsRestoredAtRest) {
+  const auto simulation = simulationOf("ideal", "stone.xml");
+  SimulatedRobot& robot = arm(*simulation);
+  simulation->step(50);
+  const Snapshot snapshot = simulation->world().snapshot();
+  const Array7 q = robot.state().q;
+  robot.jointLaw().setTarget({0, 0, 0, -1.5, 0, 1.5, 0}, 1.0);
+  simulation->step(700);
+  simulation->restore(snapshot);
+  EXPECT_EQ(q, robot.state().q);
+  EXPECT_FALSE(robot.moving());
+  simulation->step(500);
+  EXPECT_LT(farthest(q, robot.state().q), 1e-4);
+}
+
+TEST_P(SimulationTest, StepsNeitherAllocateNorLock) {
+  const auto simulation = simulationOf("recorded");
+  SimulatedRobot& robot = arm(*simulation);
+  Array7 target = robot.state().q;
+  target[1] += 0.1;
+  robot.jointLaw().setTarget(target, 0.2);
+  simulation->step(10);
+  rt_guard::Scope scope;
+  simulation->step(300);
+  EXPECT_EQ(0u, scope.allocations());
+  EXPECT_EQ(0u, scope.locks());
+}
+
+TEST(Simulation, ErrorsNameWhatIsWrong) {
+  try {
+    Simulation("nowhere.xml", {});
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("nowhere.xml"));
+  }
+  Simulation empty("", {});
+  EXPECT_THROW(empty.robot("panda"), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace franka_sim::test
