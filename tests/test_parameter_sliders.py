@@ -108,7 +108,7 @@ def sliders(tmp_path_factory):
     """The example with its panel and its robot, from the launch file."""
     folder = tmp_path_factory.mktemp("sliders")
     launch = ["franka_example_controllers", f"{CONTROLLER}.launch", "sim:=true", "rqt:=true", "rviz:=false"]
-    launch += ["load_gripper:=false", f"robot_ip:={ADDRESS}", "realism:=ideal"]  # friction would add to the springs
+    launch += ["load_gripper:=false", f"robot_ip:={ADDRESS}", "realism:=ideal"]  # friction adds to springs
     with virtual_screen(), Session(*launch, log=folder / "launch.log") as session:
         session.wait_for_master()
         panel = Panel(folder)
