@@ -10,6 +10,7 @@
 #include <string>
 
 #include "bindings.h"
+#include "sim_model.h"
 
 namespace pyfranka {
 
@@ -24,11 +25,11 @@ constexpr const char* kOfLoad =
     "The same for joint positions, 7 [rad], and what hangs on the flange: inertia about its centre "
     "of mass, 3x3 [kg m^2], mass [kg], centre of mass in F, 3 [m].";
 
-template <typename Model>
+template <typename State, typename Model>
 void bindKinematics(py::class_<Model>& type) {
   type.def(
           "pose",
-          [](const Model& self, Frame frame, const RobotState& state) {
+          [](const Model& self, Frame frame, const State& state) {
             return copy(self.pose(frame, state), Shape::kMatrix4);
           },
           py::arg("frame"), py::arg("state"), "Pose of a frame in O, 4x4.")
@@ -43,7 +44,7 @@ void bindKinematics(py::class_<Model>& type) {
           py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions)
       .def(
           "zero_jacobian",
-          [](const Model& self, Frame frame, const RobotState& state) {
+          [](const Model& self, Frame frame, const State& state) {
             return copy(self.zeroJacobian(frame, state), Shape::kJacobian);
           },
           py::arg("frame"), py::arg("state"), "Jacobian of a frame in O, 6x7, linear rows first.")
@@ -58,7 +59,7 @@ void bindKinematics(py::class_<Model>& type) {
           py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions)
       .def(
           "body_jacobian",
-          [](const Model& self, Frame frame, const RobotState& state) {
+          [](const Model& self, Frame frame, const State& state) {
             return copy(self.bodyJacobian(frame, state), Shape::kJacobian);
           },
           py::arg("frame"), py::arg("state"), "Jacobian of a frame in its own axes, 6x7.")
@@ -73,11 +74,11 @@ void bindKinematics(py::class_<Model>& type) {
           py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
 }
 
-template <typename Model>
+template <typename State, typename Model>
 void bindDynamics(py::class_<Model>& type) {
   type.def(
           "mass",
-          [](const Model& self, const RobotState& state) {
+          [](const Model& self, const State& state) {
             return copy(self.mass(state), Shape::kMass);
           },
           py::arg("state"), "Mass matrix, 7x7 [kg m^2].")
@@ -92,7 +93,7 @@ void bindDynamics(py::class_<Model>& type) {
           py::arg("q"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"), kOfLoad)
       .def(
           "coriolis",
-          [](const Model& self, const RobotState& state) {
+          [](const Model& self, const State& state) {
             return copy(self.coriolis(state), Shape::kVector);
           },
           py::arg("state"), "Coriolis torques C(q, dq) dq, 7 [Nm].")
@@ -111,13 +112,13 @@ void bindDynamics(py::class_<Model>& type) {
           "mass.")
       .def(
           "gravity",
-          [](const Model& self, const RobotState& state) {
+          [](const Model& self, const State& state) {
             return copy(self.gravity(state), Shape::kVector);
           },
           py::arg("state"), "Gravity torques, 7 [Nm].")
       .def(
           "gravity",
-          [](const Model& self, const RobotState& state, const py::object& gravity_earth) {
+          [](const Model& self, const State& state, const py::object& gravity_earth) {
             return copy(self.gravity(state, arrayOf<3>(gravity_earth, "gravity_earth")),
                         Shape::kVector);
           },
@@ -163,8 +164,8 @@ void bindModel(py::module_& module) {
       .value("Stiffness", Frame::kStiffness);
 
   py::class_<franka::Model> model(module, "Model", "The model that the robot brings along.");
-  bindKinematics(model);
-  bindDynamics(model);
+  bindKinematics<RobotState>(model);
+  bindDynamics<RobotState>(model);
 
   py::class_<franka_hw::ModelKDL> kdl(module, "ModelKDL",
                                       "The arm's model on KDL, from a URDF; no robot needed.");
@@ -172,8 +173,14 @@ void bindModel(py::module_& module) {
           "Chain from link `root` to link `tip` of a URDF text. Raises ValueError for a text that "
           "is no "
           "URDF, RuntimeError for a chain that is no arm.");
-  bindKinematics(kdl);
-  bindDynamics(kdl);
+  bindKinematics<RobotState>(kdl);
+  bindDynamics<RobotState>(kdl);
+}
+
+void bindSimModel(py::module_& module) {
+  py::class_<SimModel> model(module, "ArmModel", "The model of a simulated robot's own control.");
+  bindKinematics<franka_core::RobotState>(model);
+  bindDynamics<franka_core::RobotState>(model);
 }
 
 }  // namespace pyfranka

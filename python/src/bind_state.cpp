@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/log.h>
 #include <franka/robot_state.h>
+#include <franka_core/to_franka.h>
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
@@ -16,14 +17,13 @@ namespace {
 using franka::RobotState;
 
 /// A read-only attribute that is a view of the state's field.
-template <std::size_t size>
-void field(py::class_<RobotState>& type, const char* name,
-           std::array<double, size> RobotState::* member, const char* doc,
-           Shape shape = Shape::kVector) {
+template <typename State, std::size_t size>
+void field(py::class_<State>& type, const char* name, std::array<double, size> State::* member,
+           const char* doc, Shape shape = Shape::kVector) {
   type.def_property_readonly(
       name,
       [member, shape](const py::object& self) {
-        return view(self.cast<const RobotState&>().*member, shape, self);
+        return view(self.cast<const State&>().*member, shape, self);
       },
       doc);
 }
@@ -45,66 +45,68 @@ void bindModes(py::module_& module) {
            [](const franka::Errors& errors) { return static_cast<std::string>(errors); });
 }
 
-void bindFrames(py::class_<RobotState>& state) {
-  field(state, "O_T_EE", &RobotState::O_T_EE, "Pose of EE in O, 4x4.", Shape::kMatrix4);
-  field(state, "O_T_EE_d", &RobotState::O_T_EE_d, "Desired pose of EE in O, 4x4.", Shape::kMatrix4);
-  field(state, "O_T_EE_c", &RobotState::O_T_EE_c, "Last commanded pose of EE in O, 4x4.",
+template <typename State>
+void bindFrames(py::class_<State>& state) {
+  field(state, "O_T_EE", &State::O_T_EE, "Pose of EE in O, 4x4.", Shape::kMatrix4);
+  field(state, "O_T_EE_d", &State::O_T_EE_d, "Desired pose of EE in O, 4x4.", Shape::kMatrix4);
+  field(state, "O_T_EE_c", &State::O_T_EE_c, "Last commanded pose of EE in O, 4x4.",
         Shape::kMatrix4);
-  field(state, "F_T_EE", &RobotState::F_T_EE, "Pose of EE in F, 4x4.", Shape::kMatrix4);
-  field(state, "F_T_NE", &RobotState::F_T_NE, "Pose of NE in F, 4x4.", Shape::kMatrix4);
-  field(state, "NE_T_EE", &RobotState::NE_T_EE, "Pose of EE in NE, 4x4.", Shape::kMatrix4);
-  field(state, "EE_T_K", &RobotState::EE_T_K, "Pose of K in EE, 4x4.", Shape::kMatrix4);
-  field(state, "elbow", &RobotState::elbow, "Joint 3 [rad], sign of joint 4.");
-  field(state, "elbow_d", &RobotState::elbow_d, "Desired elbow.");
-  field(state, "elbow_c", &RobotState::elbow_c, "Commanded elbow.");
-  field(state, "delbow_c", &RobotState::delbow_c, "Its velocity [rad/s].");
-  field(state, "ddelbow_c", &RobotState::ddelbow_c, "Its acceleration [rad/s^2].");
-  field(state, "O_dP_EE_d", &RobotState::O_dP_EE_d, "Desired twist of EE in O [m/s, rad/s].");
-  field(state, "O_dP_EE_c", &RobotState::O_dP_EE_c, "Commanded twist of EE in O [m/s, rad/s].");
-  field(state, "O_ddP_EE_c", &RobotState::O_ddP_EE_c,
+  field(state, "F_T_EE", &State::F_T_EE, "Pose of EE in F, 4x4.", Shape::kMatrix4);
+  field(state, "F_T_NE", &State::F_T_NE, "Pose of NE in F, 4x4.", Shape::kMatrix4);
+  field(state, "NE_T_EE", &State::NE_T_EE, "Pose of EE in NE, 4x4.", Shape::kMatrix4);
+  field(state, "EE_T_K", &State::EE_T_K, "Pose of K in EE, 4x4.", Shape::kMatrix4);
+  field(state, "elbow", &State::elbow, "Joint 3 [rad], sign of joint 4.");
+  field(state, "elbow_d", &State::elbow_d, "Desired elbow.");
+  field(state, "elbow_c", &State::elbow_c, "Commanded elbow.");
+  field(state, "delbow_c", &State::delbow_c, "Its velocity [rad/s].");
+  field(state, "ddelbow_c", &State::ddelbow_c, "Its acceleration [rad/s^2].");
+  field(state, "O_dP_EE_d", &State::O_dP_EE_d, "Desired twist of EE in O [m/s, rad/s].");
+  field(state, "O_dP_EE_c", &State::O_dP_EE_c, "Commanded twist of EE in O [m/s, rad/s].");
+  field(state, "O_ddP_EE_c", &State::O_ddP_EE_c,
         "Commanded acceleration of EE in O [m/s^2, rad/s^2].");
 }
 
-void bindLoads(py::class_<RobotState>& state) {
-  state.def_readonly("m_ee", &RobotState::m_ee, "Mass of the end effector [kg].")
-      .def_readonly("m_load", &RobotState::m_load, "Mass of the load [kg].")
-      .def_readonly("m_total", &RobotState::m_total, "Mass of both [kg].");
-  field(state, "I_ee", &RobotState::I_ee, "Inertia of the end effector, 3x3 [kg m^2].",
-        Shape::kMatrix3);
-  field(state, "I_load", &RobotState::I_load, "Inertia of the load, 3x3 [kg m^2].",
-        Shape::kMatrix3);
-  field(state, "I_total", &RobotState::I_total, "Inertia of both, 3x3 [kg m^2].", Shape::kMatrix3);
-  field(state, "F_x_Cee", &RobotState::F_x_Cee, "Centre of mass of the end effector in F [m].");
-  field(state, "F_x_Cload", &RobotState::F_x_Cload, "Centre of mass of the load in F [m].");
-  field(state, "F_x_Ctotal", &RobotState::F_x_Ctotal, "Centre of mass of both in F [m].");
+template <typename State>
+void bindLoads(py::class_<State>& state) {
+  state.def_readonly("m_ee", &State::m_ee, "Mass of the end effector [kg].")
+      .def_readonly("m_load", &State::m_load, "Mass of the load [kg].")
+      .def_readonly("m_total", &State::m_total, "Mass of both [kg].");
+  field(state, "I_ee", &State::I_ee, "Inertia of the end effector, 3x3 [kg m^2].", Shape::kMatrix3);
+  field(state, "I_load", &State::I_load, "Inertia of the load, 3x3 [kg m^2].", Shape::kMatrix3);
+  field(state, "I_total", &State::I_total, "Inertia of both, 3x3 [kg m^2].", Shape::kMatrix3);
+  field(state, "F_x_Cee", &State::F_x_Cee, "Centre of mass of the end effector in F [m].");
+  field(state, "F_x_Cload", &State::F_x_Cload, "Centre of mass of the load in F [m].");
+  field(state, "F_x_Ctotal", &State::F_x_Ctotal, "Centre of mass of both in F [m].");
 }
 
-void bindJoints(py::class_<RobotState>& state) {
-  field(state, "q", &RobotState::q, "Joint positions [rad].");
-  field(state, "q_d", &RobotState::q_d, "Desired joint positions [rad].");
-  field(state, "dq", &RobotState::dq, "Joint velocities [rad/s].");
-  field(state, "dq_d", &RobotState::dq_d, "Desired joint velocities [rad/s].");
-  field(state, "ddq_d", &RobotState::ddq_d, "Desired joint accelerations [rad/s^2].");
-  field(state, "theta", &RobotState::theta, "Motor positions [rad].");
-  field(state, "dtheta", &RobotState::dtheta, "Motor velocities [rad/s].");
-  field(state, "tau_J", &RobotState::tau_J, "Measured torques, gravity included [Nm].");
-  field(state, "tau_J_d", &RobotState::tau_J_d, "Desired torques, without gravity [Nm].");
-  field(state, "dtau_J", &RobotState::dtau_J, "Derivative of the measured torques [Nm/s].");
+template <typename State>
+void bindJoints(py::class_<State>& state) {
+  field(state, "q", &State::q, "Joint positions [rad].");
+  field(state, "q_d", &State::q_d, "Desired joint positions [rad].");
+  field(state, "dq", &State::dq, "Joint velocities [rad/s].");
+  field(state, "dq_d", &State::dq_d, "Desired joint velocities [rad/s].");
+  field(state, "ddq_d", &State::ddq_d, "Desired joint accelerations [rad/s^2].");
+  field(state, "theta", &State::theta, "Motor positions [rad].");
+  field(state, "dtheta", &State::dtheta, "Motor velocities [rad/s].");
+  field(state, "tau_J", &State::tau_J, "Measured torques, gravity included [Nm].");
+  field(state, "tau_J_d", &State::tau_J_d, "Desired torques, without gravity [Nm].");
+  field(state, "dtau_J", &State::dtau_J, "Derivative of the measured torques [Nm/s].");
 }
 
-void bindContacts(py::class_<RobotState>& state) {
-  field(state, "joint_contact", &RobotState::joint_contact, "1 where a joint feels a contact.");
-  field(state, "joint_collision", &RobotState::joint_collision, "1 where a joint collided.");
-  field(state, "cartesian_contact", &RobotState::cartesian_contact,
+template <typename State>
+void bindContacts(py::class_<State>& state) {
+  field(state, "joint_contact", &State::joint_contact, "1 where a joint feels a contact.");
+  field(state, "joint_collision", &State::joint_collision, "1 where a joint collided.");
+  field(state, "cartesian_contact", &State::cartesian_contact,
         "1 along axes with a contact (x, y, z, R, P, Y).");
-  field(state, "cartesian_collision", &RobotState::cartesian_collision,
+  field(state, "cartesian_collision", &State::cartesian_collision,
         "1 along axes with a collision (x, y, z, R, P, Y).");
-  field(state, "tau_ext_hat_filtered", &RobotState::tau_ext_hat_filtered,
+  field(state, "tau_ext_hat_filtered", &State::tau_ext_hat_filtered,
         "Estimated external torques [Nm].");
-  field(state, "O_F_ext_hat_K", &RobotState::O_F_ext_hat_K,
+  field(state, "O_F_ext_hat_K", &State::O_F_ext_hat_K,
         "Estimated external wrench at K, in O [N, Nm]; what the robot exerts is positive.");
-  field(state, "K_F_ext_hat_K", &RobotState::K_F_ext_hat_K, "The same in K.");
-  field(state, "O_ddP_O", &RobotState::O_ddP_O, "Acceleration of the base in O [m/s^2].");
+  field(state, "K_F_ext_hat_K", &State::K_F_ext_hat_K, "The same in K.");
+  field(state, "O_ddP_O", &State::O_ddP_O, "Acceleration of the base in O [m/s^2].");
 }
 
 }  // namespace
@@ -168,6 +170,42 @@ void bindState(py::module_& module) {
           "Torques, 7 [Nm].");
   module.def("log_to_csv", &franka::logToCSV, py::arg("log"),
              "The records of a ControlException as comma separated values.");
+}
+
+void bindSimState(py::module_& module) {
+  using State = franka_core::RobotState;
+  py::class_<State> state(module, "LiveState",
+                          "Present state of a simulated robot, with the attributes of RobotState. "
+                          "Its arrays are numpy views that cannot be written and show each new "
+                          "tick; copy what is to stay.");
+  bindFrames(state);
+  bindLoads(state);
+  bindJoints(state);
+  bindContacts(state);
+  state
+      .def_property_readonly(
+          "current_errors", [](const State& self) { return franka::Errors(self.errors); },
+          "Errors now.")
+      .def_property_readonly(
+          "last_motion_errors",
+          [](const State& self) { return franka::Errors(self.reflex_reason); },
+          "Errors that ended the last motion.")
+      .def_readonly("control_command_success_rate", &State::control_command_success_rate,
+                    "Share of the last 100 commands that arrived; 0 when no motion runs.")
+      .def_property_readonly(
+          "robot_mode", [](const State& self) { return franka_core::toFranka(self.robot_mode); },
+          "What the robot is doing.")
+      .def_property_readonly(
+          "time", [](const State& self) { return 1e-3 * static_cast<double>(self.message_id); },
+          "Since the robot started [s].")
+      .def(
+          "copy",
+          [](const State& self) {
+            RobotState copied;
+            franka_core::toFranka(self, copied);
+            return copied;
+          },
+          "A RobotState that stays as it is.");
 }
 
 }  // namespace pyfranka

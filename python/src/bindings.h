@@ -17,4 +17,9 @@ void bindRobot(py::module_& module);
 void bindGripper(py::module_& module);
 void bindModel(py::module_& module);
 
+/// The parts of its submodule for simulations.
+void bindSimState(py::module_& module);
+void bindSimModel(py::module_& module);
+void bindSimulation(py::module_& module);
+
 }  // namespace pyfranka

@@ -10,4 +10,9 @@ PYBIND11_MODULE(_pyfranka, module) {
   pyfranka::bindMotion(module);
   pyfranka::bindRobot(module);
   pyfranka::bindGripper(module);
+
+  pybind11::module_ sim = module.def_submodule("_sim", "Simulations; import pyfranka.sim instead.");
+  pyfranka::bindSimState(sim);
+  pyfranka::bindSimModel(sim);
+  pyfranka::bindSimulation(sim);
 }

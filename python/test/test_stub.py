@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 import pyfranka
+import pyfranka.sim
 import pytest
 
 STUB = Path(__file__).resolve().parent.parent / "src" / "pyfranka" / "__init__.pyi"
@@ -17,7 +18,12 @@ HELPERS = {"Array", "Command"}  # used only within the stub
 
 
 def public(names):
-    return {name for name in names if not name.startswith("_")}
+    """Public names, without submodules: those carry their types themselves."""
+    return {name for name in names if not name.startswith("_") and not is_submodule(name)}
+
+
+def is_submodule(name):
+    return inspect.ismodule(getattr(pyfranka, name, None))
 
 
 def stub_names(body):
@@ -98,3 +104,16 @@ def test_types_are_installed_with_the_package():
     assert (STUB.parent / "py.typed").exists()
     setup = (STUB.parent.parent.parent / "setup.py").read_text()
     assert "py.typed" in setup and "*.pyi" in setup
+
+
+def test_the_simulation_is_described_and_typed():
+    for name in pyfranka.sim.__all__:
+        value = getattr(pyfranka.sim, name)
+        assert value.__doc__, name
+        if hasattr(value, "__members__"):
+            continue
+        for member, function in vars(value).items():
+            if not member.startswith("_") and inspect.isfunction(function):
+                assert function.__doc__ and "return" in function.__annotations__, f"{name}.{member}"
+            if not member.startswith("_") and isinstance(function, property):
+                assert function.__doc__, f"{name}.{member}"

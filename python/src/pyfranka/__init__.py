@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""libfranka and ModelKDL for Python.
+"""libfranka and ModelKDL for Python; pyfranka.sim has simulations.
 
     import pyfranka
 
