@@ -2,9 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """franka_info record and fit_robot find the figures of simulated robots of the profile recorded."""
 
+import os
 import subprocess
+import sys
+import time
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 
 import numpy as np
+import pyfranka
+import pyfranka.sim
 import pytest
 import yaml
 from fci_session import simulated
@@ -38,11 +45,25 @@ def friction_at(robot, speed):
     return amplitude * (1 / (1 + np.exp(-slope * speed)) - 0.5) + viscous * speed
 
 
+def fit_module():
+    """The script, for its functions."""
+    found = call("rospack", "find", "franka_description").stdout.strip()
+    loader = SourceFileLoader("fit_robot", f"{found}/scripts/fit_robot")
+    module = module_from_spec(spec_from_loader("fit_robot", loader))
+    sys.modules["fit_robot"] = module  # for its dataclasses
+    loader.exec_module(module)
+    return module
+
+
+SEEDS = range(1, 7) if os.environ.get("FRANKA_TEST_LONG") else [5]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("robot, address", [("panda", "127.0.60.1"), ("fr3", "127.0.60.2")])
-def test_the_fit_finds_hidden_friction_and_payload(robot, address, tmp_path):
+def test_the_fit_finds_hidden_friction_and_payload(robot, address, seed, tmp_path):
     hidden, recording, fitted = (tmp_path / name for name in ("hidden.yaml", "recording.csv", "fitted.yaml"))
     hidden.write_text(yaml.safe_dump(HIDDEN))
-    realism = f"recorded,seed=5,file={hidden}"
+    realism = f"recorded,seed={seed},file={hidden}"
     with simulated(robot, address, "lockstep", "--realism", realism):
         recorded = call("franka_info", "record", address, recording, 30, "--move")
         assert recorded.returncode == 0, recorded.stderr
@@ -55,11 +76,22 @@ def test_the_fit_finds_hidden_friction_and_payload(robot, address, tmp_path):
     assert found["friction"]["coulomb"] == pytest.approx(HIDDEN["friction"]["coulomb"], rel=0.1)
     assert found["payload"]["mass"] == pytest.approx(HIDDEN["payload"]["mass"], abs=0.02)
     assert found["payload"]["centre"] == pytest.approx(HIDDEN["payload"]["centre"], abs=0.02)
-    # The links' errors, which the fit does not know, appear as offsets.
+    # What the links' errors cannot explain appears as offsets.
     assert found["torque_offset"] == pytest.approx(HIDDEN["torque_offset"], abs=0.1)
     # The simulation reads the result.
     with simulated(robot, address, "lockstep", "--realism", f"real,file={fitted}") as sim:
         assert sim.ask("state").startswith("Idle")
+
+
+@pytest.mark.parametrize("robot", ["panda", "fr3"])
+def test_the_kinematics_of_the_fit_are_those_of_the_robots_model(robot):
+    kind = {"panda": pyfranka.sim.Panda, "fr3": pyfranka.sim.FR3}[robot]
+    with pyfranka.sim.Simulation(robots=[kind()], seed=3) as sim:
+        sim.reset(q="random")
+        arm = sim[robot]
+        for k, pose in enumerate(fit_module().frames_of(arm.state.q[None])):
+            frame = list(pyfranka.Frame.__members__.values())[k]
+            assert pose[0] == pytest.approx(arm.model.pose(frame, arm.state), abs=1e-9), frame
 
 
 def test_recordings_that_cannot_be_used_are_refused(tmp_path):
@@ -78,6 +110,22 @@ def test_a_recording_at_rest_is_refused(tmp_path):
         assert call("franka_info", "record", address, recording, 10).returncode == 0
     result = fit(recording, tmp_path / "robot.yaml")
     assert result.returncode == 1 and "hardly move" in result.stderr
+
+
+def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
+    address, recording = "127.0.60.6", tmp_path / "recording.csv"
+    command = ["franka_info", "record", address, str(recording), "30", "--move"]
+    with simulated("panda", address, "5") as sim:
+        process = subprocess.Popen(command, text=True, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + 60
+        while "Move" not in sim.ask("state"):
+            assert time.monotonic() < deadline and process.poll() is None
+        time.sleep(0.5)
+        sim.ask("user_stop on")
+        _, said = process.communicate(timeout=60)
+    assert process.returncode != 0 and str(recording) in said and "User" in said
+    rows = recording.read_text().splitlines()
+    assert len(rows) > 10 and len({row.count(",") for row in rows}) == 1
 
 
 def test_a_file_that_cannot_be_written_is_refused_before_the_robot_moves():

@@ -427,6 +427,12 @@ void bindSimulatedRobot(py::module_& module) {
           "hash", [](const Robot& self) { return self.simulated().units().hash(); },
           "Hash of all states since the first command: equal hashes mean equal runs.")
       .def(
+          "check_positions",
+          [](const Robot& self, const py::object& q) {
+            franka_sim::Simulation::checkPositions(self.simulated(), finite<7>(q, "q"));
+          },
+          py::arg("q"), "Raises ValueError if the arm cannot be at joint positions, 7 [rad].")
+      .def(
           "place", [](Robot& self, const py::object& q) { self.place(finite<7>(q, "q")); },
           py::arg("q"), "Puts the arm at joint positions, 7 [rad], at rest.");
   bindCommands(robot);

@@ -168,6 +168,7 @@ def test_what_a_robot_refuses_is_said_and_it_recovers(sim, arm):
 
 
 def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(sim, arm):
+    sim.step(10)
     before = sim.hash(), arm.state.q.copy()
     refused = {
         "torque needs 7 numbers, not 2": lambda: arm.command(torque=[1, 2]),
@@ -184,6 +185,9 @@ def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(sim, arm):
         "Joint 4 of": lambda: sim.reset(q=np.ones(7)),
         "q is 7 numbers or 'random'": lambda: sim.reset(q="anywhere"),
         "no robot 'ur5'": lambda: sim.reset(q={"ur5": "random"}),
+        "no body 'brick'": lambda: sim.reset(objects={"brick": [0, 0, 1]}),
+        "3 or 7 finite numbers": lambda: sim.reset(objects={"world": [0, 0]}),
+        "q needs 7 numbers": lambda: sim.reset(q=[1, 2]),
         "position": lambda: sim.place_body("panda_hand", [1e9, 0, 0]),
         "must be finite": lambda: sim.push("nothing", [math.inf, 0, 0]),
         "10 kg": lambda: arm.set_load(100.0, [0, 0, 0], np.zeros(9)),
@@ -193,7 +197,7 @@ def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(sim, arm):
             call()
         if sentence != "position":  # the Panda has the body, the FR3 has not
             assert sentence in str(caught.value)
-        assert not arm.moving
+        assert not arm.moving and sim.ticks == 10, sentence
     assert sim.hash() == before[0] and (arm.state.q == before[1]).all()
 
 
@@ -210,6 +214,9 @@ def test_robots_and_worlds_that_cannot_be_used_are_refused():
         with pytest.raises((ValueError, RuntimeError, TypeError)) as caught:
             Simulation(**arguments)
         assert sentence in str(caught.value)
+    with Simulation(robots=[]) as empty:
+        empty.step(5)
+        assert not list(empty) and empty.ticks == 5
     with pytest.warns(UserWarning, match="another base"):
         Simulation(robots=[Panda(), FR3()]).close()
 

@@ -380,8 +380,8 @@ class Simulation(Mapping):
     Raises RuntimeError or ValueError with a sentence for a world or a robot that cannot be used.
     """
 
-    def __init__(self, world: str = "", robots: Sequence[_Setup] = (), seed: int = 1):
-        robots, taken = robots or [Panda()], set()
+    def __init__(self, world: str = "", robots: Sequence[_Setup] | None = None, seed: int = 1):
+        robots, taken = [Panda()] if robots is None else robots, set()
         for robot in robots:
             if not isinstance(robot, (Panda, FR3)):
                 raise TypeError(f"robots are Panda(...) and FR3(...), not {type(robot).__name__}.")
@@ -442,32 +442,40 @@ class Simulation(Mapping):
         name. objects: body name -> x, y, z [m] and, optionally, the quaternion w, x, y, z. seed: of the
         random numbers from now on; without one, their sequence goes on.
 
-        Raises ValueError, RuntimeError; the world is then reset, and nothing of what follows the error is
-        placed.
+        Raises ValueError, KeyError, and nothing has changed; RuntimeError where an object cannot be moved or
+        no random pose is free.
         """
-        poses = q if isinstance(q, Mapping) else {name: q for name in self if q is not None}
-        for name in poses:
-            self[name]
+        places = {body: self._checked_place(body, pose) for body, pose in (objects or {}).items()}
+        given = q if isinstance(q, Mapping) else {name: q for name in self if q is not None}
+        poses = {name: self._checked_pose(self[name], pose) for name, pose in given.items()}
         self._native.reset()
         if seed is not None:
             self._random = numpy.random.default_rng(seed)
-        for body, pose in (objects or {}).items():
-            values = numpy.asarray(pose, dtype=float).ravel()
-            if values.size not in (3, 7):
-                raise ValueError(
-                    f"The pose of '{body}' needs 3 or 7 numbers, not {values.size}: x, y, z and w, x, y, z."
-                )
-            self.place_body(body, values[:3], values[3:] if values.size == 7 else NO_TURN)
+        for body, (position, orientation) in places.items():
+            self.place_body(body, position, orientation)
         for name, pose in poses.items():
-            self._place(self[name], pose)
+            if pose is None:
+                self._place_randomly(self[name])
+            else:
+                self[name]._native.place(pose)
 
-    def _place(self, robot: Robot, q: ArrayLike | str) -> None:
-        if not isinstance(q, str):
-            robot._native.place(q)
-        elif q == "random":
-            self._place_randomly(robot)
-        else:
-            raise ValueError(f"q is 7 numbers or 'random', not '{q}'.")
+    def _checked_place(self, body: str, pose: ArrayLike) -> tuple[Array, Array]:
+        values = numpy.asarray(pose, dtype=float).ravel()
+        if body not in self.bodies():
+            raise ValueError(f"There is no body '{body}' in the world.")
+        if values.size not in (3, 7) or not numpy.isfinite(values).all():
+            raise ValueError(f"The pose of '{body}' is 3 or 7 finite numbers: x, y, z, and w, x, y, z.")
+        return values[:3], values[3:] if values.size == 7 else numpy.array(NO_TURN)
+
+    def _checked_pose(self, robot: Robot, q: ArrayLike | str) -> Array | None:
+        """None for a random pose."""
+        if isinstance(q, str):
+            if q != "random":
+                raise ValueError(f"q is 7 numbers or 'random', not '{q}'.")
+            return None
+        values = numpy.asarray(q, dtype=float).ravel()
+        robot._native.check_positions(values)
+        return values
 
     def _place_randomly(self, robot: Robot) -> None:
         lowest, highest = robot.limits

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 #include <vector>
@@ -158,11 +159,18 @@ void record(const RecordingOptions& options) {
   std::ofstream stream(options.file);
   requireGood(stream, options.file);  // before the robot moves
   Recorder recorder(options.seconds);
-  if (options.moves) {
-    swing(robot, options.seconds, recorder);
-  } else {
-    robot.read(
-        [&](const franka::RobotState& state) { return recorder.add(state) < options.seconds; });
+  try {
+    if (options.moves) {
+      swing(robot, options.seconds, recorder);
+    } else {
+      robot.read(
+          [&](const franka::RobotState& state) { return recorder.add(state) < options.seconds; });
+    }
+  } catch (const franka::Exception&) {
+    recorder.write(model, stream);
+    std::fprintf(stderr, "franka_info: what was recorded until the error is in %s.\n",
+                 options.file.c_str());
+    throw;
   }
   recorder.write(model, stream);
   requireGood(stream, options.file);

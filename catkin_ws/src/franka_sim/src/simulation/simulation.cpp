@@ -42,7 +42,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   restartRobots();
 }
 
-void Simulation::place(SimulatedRobot& robot, const std::array<double, 7>& q) {
+void Simulation::checkPositions(const SimulatedRobot& robot, const std::array<double, 7>& q) {
   for (std::size_t i = 0; i < q.size(); i++) {
     const franka_core::JointRange range = robot.units().unit().limits().reach(i);
     if (!(q[i] >= range.lowest && q[i] <= range.highest)) {
@@ -52,6 +52,10 @@ void Simulation::place(SimulatedRobot& robot, const std::array<double, 7>& q) {
           std::to_string(q[i]) + ".");
     }
   }
+}
+
+void Simulation::place(SimulatedRobot& robot, const std::array<double, 7>& q) {
+  checkPositions(robot, q);
   for (std::size_t i = 0; i < q.size(); i++) {
     world_.setJointPosition(robot.setup().arm_id + "_joint" + std::to_string(i + 1), q[i]);
   }

@@ -31,8 +31,10 @@ class Simulation {
   void reset();
   /// Restores a snapshot of the world; the robots hold their poses in it, without a motion.
   void restore(const Snapshot& snapshot);
+  /// @throws std::invalid_argument for joint positions [rad] beyond the robot's limits
+  static void checkPositions(const SimulatedRobot& robot, const std::array<double, 7>& q);
   /// Moves a robot to these joint positions [rad], at rest and without a motion.
-  /// @throws std::invalid_argument if a joint would be beyond its limits
+  /// @throws std::invalid_argument as checkPositions
   void place(SimulatedRobot& robot, const std::array<double, 7>& q);
 
   World& world() noexcept { return world_; }
