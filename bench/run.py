@@ -4,8 +4,8 @@
 """Runs the benchmarks; each prints its figure as a ratio to a reference measured in the same run.
 
 `./franka bench` runs all, `./franka bench NAME...` some of: fci, hardware, micro, tick, arms, cameras,
-memory, start. Exit status 1 if a figure misses its goal. Needs the built workspace's environment, which
-`./franka bench` provides.
+memory, start, python. Exit status 1 if a figure misses its goal. Needs the environment of the built
+workspace, which `./franka bench` provides.
 """
 
 import sys
@@ -13,6 +13,7 @@ import sys
 import hardware
 import micro
 import network
+import python_simulation
 import simulation
 from report import failures
 
@@ -25,6 +26,7 @@ BENCHMARKS = {
     "cameras": simulation.cameras,
     "memory": simulation.memory,
     "start": simulation.start,
+    "python": python_simulation.python,
 }
 
 
