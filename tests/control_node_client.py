@@ -253,10 +253,11 @@ class Topics:
 def idle(robot, operator, services, topics, diagnosis):
     report = {"diagnosis": diagnosis.shows("Robot", "Ready")}
     report["loop"] = diagnosis.shows("Control loop", "The controllers keep time")
+    before = robot.state
     report["bad"] = [
         [name, what, *fastest(services.set, name, **values)] for name, what, values in bad_values()
     ]
-    before = robot.state
+    report["still"] = apart(robot.state.q, before.q)
     report["good"] = {}
     for name, (values, effect) in good_values().items():
         answer = services.set(name, **values)
@@ -266,7 +267,6 @@ def idle(robot, operator, services, topics, diagnosis):
 
         report["good"][name] = [*answer[:2], robot.waits(seen) is not None]
     report["m_total"] = apart(robot.state.m_total, robot.state.m_ee + 0.4)
-    report["still"] = apart(robot.state.q, before.q)
     operator.does(f"push {ARM}_link7 0 0 0 10")  # the world runs: states show the settings
     robot.waits(lambda: shown_pose_is_apart(robot.state) < 1e-5)
     report["topics"] = topics.compare(20)
@@ -299,6 +299,7 @@ def stopped(robot, services):
     """Stops the controller. The states that show it have arrived, so that the next Move is another one."""
     answer = services.switch(stop=[CONTROLLER])
     robot.waits(lambda: robot.state.robot_mode != FrankaState.ROBOT_MODE_MOVE)
+    robot.waits(lambda: abs(robot.state.O_F_ext_hat_K[2]) < 0.1 * abs(PUSH[2]))  # no push is left
     return answer
 
 
