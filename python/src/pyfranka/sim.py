@@ -47,7 +47,9 @@ __all__ = [
 
 Array = NDArray[numpy.float64]
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
-TRIES = 1000  # random poses before giving up; about one in three is free of collisions
+TRIES = 1000  # random poses before giving up (chosen here)
+TRIAL = 20  # ticks after which a pose has shown what it touches (chosen here)
+MOVED = 1e-3  # [rad] by then, of an arm that was pushed away (chosen here)
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class _Setup:
     """A robot to add to a world.
 
     name: prefix of its joints and links (its kind). base: x, y, z [m] and, optionally, the turn about the
-    vertical [rad]. hand: whether it has a Franka hand. load: mass [kg], centre of mass in the flange's frame
+    vertical [rad]. hand: whether its hand is driven. load: mass [kg], centre of mass in the flange's frame
     [m] and, optionally, inertia 3x3 [kg m^2], as entered in Desk; it is not simulated. realism: a profile of
     docs/sim_to_real.md, such as "real,friction=off". urdf: another description of this kind of robot.
     """
@@ -478,10 +480,16 @@ class Simulation(Mapping):
         return values
 
     def _place_randomly(self, robot: Robot) -> None:
-        lowest, highest = robot.limits
+        before = self.snapshot()
         for _ in range(TRIES):
-            robot._native.place(self._random.uniform(lowest, highest))
-            if not robot.state.current_errors and not self._touches(robot):
+            q = self._random.uniform(*robot.limits)
+            robot._native.place(q)
+            self.step(TRIAL)
+            free = not robot.state.current_errors and numpy.abs(robot.state.q - q).max() < MOVED
+            free = free and not self._touches(robot)
+            self.restore(before)
+            if free:
+                robot._native.place(q)
                 return
         raise RuntimeError(f"No random pose of '{robot.name}' is free of contacts ({TRIES} tries).")
 
