@@ -14,14 +14,12 @@ import struct
 import time
 
 import pytest
+from contact_motion import SCENE, TICKS, down_and_back
 from fci_session import go_first, go_with_all, simulated
 from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, REFLEX, Client, command
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 RUNS = 100 if LONG else 5
-TICKS = 10000
-# The table is under this arm's hand; the motion's target is a few millimetres below its top.
-SCENE = ["--world", "stone.xml", "--base", "-0.5,0,0.149"]
 
 
 def at_rest(client):
@@ -57,16 +55,6 @@ def drive(client, ticks, positions, pause=None):
     assert state.mode == IDLE, state.reasons
     assert client.reply()[1][0] == 0
     return states, seen.hexdigest()
-
-
-def down_and_back(first, k):
-    """Joints 2 and 4 move the hand down onto the table and back, twice in ten seconds."""
-    x = math.sin(2 * math.pi * k / TICKS) ** 4
-    q = list(first)
-    q[1] += 0.5 * x
-    q[3] -= 0.2 * x
-    q[0] += 0.05 * math.sin(2 * math.pi * k / TICKS) ** 3
-    return q
 
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"] if LONG else ["panda"])

@@ -83,7 +83,7 @@ class Shared {
   franka_sim::Simulation simulation_;
   std::unique_ptr<franka_sim::Renderer> renderer_;
   std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
-  bool closed_{false};
+  std::atomic<bool> closed_{false};
 };
 
 template <std::size_t size>
@@ -361,18 +361,16 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
       .value("Succeeded", GripperOutcome::kSucceeded)
       .value("Failed", GripperOutcome::kFailed)
       .value("Interrupted", GripperOutcome::kInterrupted);
-  const auto hand = [&robot](const char* name, auto function, const auto&... arguments) {
-    robot.def(name, function, arguments...);
-  };
-  hand("hand_homing",
-       [](Robot& self) { return self.useHand([](GripperUnit& hand) { return hand.homing(); }); });
-  hand(
+  robot.def("hand_homing", [](Robot& self) {
+    return self.useHand([](GripperUnit& hand) { return hand.homing(); });
+  });
+  robot.def(
       "hand_move",
       [](Robot& self, double width, double speed) {
         return self.useHand([&](GripperUnit& hand) { return hand.move(width, speed); });
       },
       py::arg("width"), py::arg("speed"));
-  hand(
+  robot.def(
       "hand_grasp",
       [](Robot& self, double width, double speed, double force, double inner, double outer) {
         return self.useHand(
@@ -380,12 +378,13 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
       },
       py::arg("width"), py::arg("speed"), py::arg("force"), py::arg("epsilon_inner"),
       py::arg("epsilon_outer"));
-  hand("hand_stop",
-       [](Robot& self) { return self.useHand([](GripperUnit& hand) { return hand.stop(); }); });
-  hand("hand_outcome", [](Robot& self, GripperUnit::Ticket ticket) {
+  robot.def("hand_stop", [](Robot& self) {
+    return self.useHand([](GripperUnit& hand) { return hand.stop(); });
+  });
+  robot.def("hand_outcome", [](Robot& self, GripperUnit::Ticket ticket) {
     return self.useHand([&](GripperUnit& hand) { return hand.outcome(ticket); });
   });
-  hand("hand_state", [](Robot& self) {
+  robot.def("hand_state", [](Robot& self) {
     return self.useHand([](GripperUnit& hand) {
       return std::make_tuple(hand.width(), hand.maxWidth(), hand.isGrasped(), hand.temperature());
     });
@@ -403,9 +402,6 @@ void bindSimulatedRobot(py::module_& module) {
             return SimModel(self.simulated().units().unit().configuration().model);
           },
           "The ArmModel of the robot's own control.")
-      .def_property_readonly(
-          "name", [](const Robot& self) { return self.simulated().setup().arm_id; },
-          "Its name, which is the prefix of its joints and links.")
       .def_property_readonly(
           "limits",
           [](const Robot& self) {

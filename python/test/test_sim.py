@@ -8,15 +8,16 @@ import threading
 import time
 from pathlib import Path
 
+import contact_motion
 import numpy as np
 import pyfranka
 import pyfranka.sim
 import pytest
+from contact_motion import SCENE, TICKS, down_and_back
 from fci_session import go_first, go_with_all, simulated
 from fci_wire import JOINT_IMPEDANCE, JOINT_POSITION, Client, command
 from pyfranka.sim import FR3, GripperOutcome, Panda, RequestRefused, Simulation
 
-TICKS = 10000
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
 LOOSE = [100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6
 TORQUES = np.array([0.5, -1.0, 0.3, 0.8, 0.1, -0.2, 0.05])  # [Nm]
@@ -37,24 +38,13 @@ def arm(sim, name):
     return sim[name]
 
 
-def down_and_back(first, k):
-    """Joints 2 and 4 move the hand onto the table and back, as in test_determinism.py."""
-    x = math.sin(2 * math.pi * k / TICKS) ** 4
-    q = list(first)
-    q[1] += 0.5 * x
-    q[3] -= 0.2 * x
-    q[0] += 0.05 * math.sin(2 * math.pi * k / TICKS) ** 3
-    return q
-
-
-def hash_over_fci(name, positions):
+def hash_over_fci(name):
     """The robot's hash of a motion by a client in lock-step, and the joint positions at its start."""
     address = {"panda": "127.0.32.11", "fr3": "127.0.32.12"}[name]
-    scene = ["--world", "stone.xml", "--base", "-0.5,0,0.149"]
     go_first()
     try:
         with (
-            simulated(name, address, "lockstep", *scene) as served,
+            simulated(name, address, "lockstep", *SCENE) as served,
             Client(address, served.version) as client,
         ):
             assert client.connect()[0] == 0
@@ -64,7 +54,7 @@ def hash_over_fci(name, positions):
             first = state.joints("q_d")
             for k in range(TICKS + 1):
                 client.send(
-                    command(client.version, state.message_id, positions(first, k), finished=k == TICKS)
+                    command(client.version, state.message_id, down_and_back(first, k), finished=k == TICKS)
                 )
                 state = client.state()
             assert client.reply()[1][0] == 0
@@ -74,8 +64,8 @@ def hash_over_fci(name, positions):
 
 
 def test_a_motion_has_the_same_hash_in_this_process_and_over_the_network(name):
-    expected, first = hash_over_fci(name, down_and_back)
-    with Simulation("stone.xml", [kind(name)(base=(-0.5, 0, 0.149))]) as sim:
+    expected, first = hash_over_fci(name)
+    with Simulation(contact_motion.WORLD, [kind(name)(base=contact_motion.BASE)]) as sim:
         robot = sim[name]
         robot.set_collision_behavior(*LOOSE)
         pressed = 0.0
@@ -167,6 +157,18 @@ def test_what_a_robot_refuses_is_said_and_it_recovers(sim, arm):
     assert arm.state.robot_mode == pyfranka.RobotMode.Idle and not arm.brakes_closed
 
 
+def test_a_command_to_a_motion_that_ends_is_refused(sim, arm):
+    arm.joint_impedance(arm.state.q)
+    sim.step(5)
+    arm.finish()
+    for call in (lambda: arm.command(torque=TORQUES), lambda: arm.joint_impedance(arm.state.q)):
+        with pytest.raises(RequestRefused, match="is ending"):
+            call()
+    sim.step(500)
+    arm.command(torque=TORQUES)
+    assert arm.moving
+
+
 def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(sim, arm):
     sim.step(10)
     before = sim.hash(), arm.state.q.copy()
@@ -188,15 +190,14 @@ def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(sim, arm):
         "no body 'brick'": lambda: sim.reset(objects={"brick": [0, 0, 1]}),
         "3 or 7 finite numbers": lambda: sim.reset(objects={"world": [0, 0]}),
         "q needs 7 numbers": lambda: sim.reset(q=[1, 2]),
-        "position": lambda: sim.place_body("panda_hand", [1e9, 0, 0]),
+        "is not free to move": lambda: sim.place_body(f"{arm.name}_hand", [0, 0, 1]),
         "must be finite": lambda: sim.push("nothing", [math.inf, 0, 0]),
         "10 kg": lambda: arm.set_load(100.0, [0, 0, 0], np.zeros(9)),
     }
     for sentence, call in refused.items():
         with pytest.raises((ValueError, RuntimeError, KeyError)) as caught:
             call()
-        if sentence != "position":  # the Panda has the body, the FR3 has not
-            assert sentence in str(caught.value)
+        assert sentence in str(caught.value)
         assert not arm.moving and sim.ticks == 10, sentence
     assert sim.hash() == before[0] and (arm.state.q == before[1]).all()
 

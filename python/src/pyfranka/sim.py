@@ -254,8 +254,8 @@ class Robot:
         and the sign of joint 4, with Cartesian commands. controller: the robot's own, "joint_impedance" or
         "cartesian_impedance"; torques go without.
 
-        Raises RequestRefused if the robot cannot start the motion, or if one of another kind runs;
-        ValueError.
+        Raises RequestRefused if the robot cannot start the motion, or if one of another kind runs or one
+        is ending; ValueError.
         """
         values = {
             "torque": torque,
@@ -367,7 +367,7 @@ class Contact(typing.NamedTuple):
 
 
 class Picture(typing.NamedTuple):
-    """rgb: height x width x 3. depth along the viewing axis [m], height x width; none of the free camera."""
+    """rgb: height x width x 3. depth along the viewing axis [m], height x width; None for the free camera."""
 
     rgb: NDArray[numpy.uint8]
     depth: NDArray[numpy.float32] | None

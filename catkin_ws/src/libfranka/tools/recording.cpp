@@ -5,8 +5,8 @@
 #include <franka/exception.h>
 #include <franka/model.h>
 #include <franka/robot.h>
+#include <franka_core/smooth_step.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -25,11 +25,6 @@ constexpr double kSoft = 2.0;           // [s] in which the swing grows, and shr
 /// Angular frequencies of the joints [rad/s]: no two are multiples of each other, so that each
 /// joint is seen in both directions at many poses of the others. At most 0.71 rad/s.
 constexpr std::array<double, 7> kFrequencies{1.51, 1.73, 1.97, 2.17, 2.39, 2.61, 2.83};
-
-double smooth(double fraction) {
-  const double s = std::clamp(fraction, 0.0, 1.0);
-  return s * s * s * (10.0 + s * (6.0 * s - 15.0));
-}
 
 class Recorder {
  public:
@@ -142,7 +137,8 @@ void swing(franka::Robot& robot, double seconds, Recorder& recorder) {
     }
     time += period.toSec();
     recorder.add(state);
-    const double size = kSwing * smooth(time / kSoft) * smooth((seconds - time) / kSoft);
+    const double size = kSwing * franka_core::smoothStep(time / kSoft) *
+                        franka_core::smoothStep((seconds - time) / kSoft);
     franka::JointPositions target(start);
     for (std::size_t i = 0; i < 7; i++) {
       target.q[i] += size * std::sin(kFrequencies[i] * time);

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/rotations.h>
+#include <franka_core/smooth_step.h>
 #include <franka_core/tick.h>
 #include <franka_sim/robot/cartesian_impedance.h>
 #include <franka_sim/robot/joint_impedance.h>
@@ -28,15 +29,12 @@ franka_core::ArmDynamics dynamicsOf(const RobotState& state, const ControlUnitPa
   return dynamics;
 }
 
-}  // namespace
-
-double smoothShare(double time, double duration) noexcept {
-  if (!(time < duration)) {
-    return 1.0;
-  }
-  const double s = std::max(time, 0.0) / duration;
-  return s * s * s * (10.0 + s * (6.0 * s - 15.0));
+// Of a motion of this duration, after this time.
+double shareOf(double time, double duration) {
+  return duration > 0.0 ? franka_core::smoothStep(time / duration) : 1.0;
 }
+
+}  // namespace
 
 JointLaw::JointLaw(const RobotState& state) noexcept
     : stiffness_(kJointSpring), from_(state.q_d), to_(state.q_d), desired_(state.q_d) {}
@@ -51,7 +49,7 @@ void JointLaw::setTarget(const std::array<double, 7>& q, double duration) noexce
 std::array<double, 7> JointLaw::torque(const RobotState& state,
                                        const ControlUnitParameters& unit) noexcept {
   time_ = std::min(time_ + kTick, duration_);
-  const double share = smoothShare(time_, duration_);
+  const double share = shareOf(time_, duration_);
   std::array<double, 7> dq_d;
   for (std::size_t i = 0; i < desired_.size(); i++) {
     const double next = from_[i] + share * (to_[i] - from_[i]);
@@ -80,7 +78,7 @@ void CartesianLaw::setTarget(const std::array<double, 16>& O_T_EE, double durati
 
 void CartesianLaw::advance() noexcept {
   time_ = std::min(time_ + kTick, duration_);
-  const double share = smoothShare(time_, duration_);
+  const double share = shareOf(time_, duration_);
   const Eigen::Map<const Eigen::Matrix4d> from(from_.data()), to(to_.data());
   Eigen::Map<Eigen::Matrix4d> desired(desired_.data());
   const Eigen::Matrix3d turn = from.topLeftCorner<3, 3>().transpose() * to.topLeftCorner<3, 3>();

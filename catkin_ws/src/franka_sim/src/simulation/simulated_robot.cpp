@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/fci/texts.h>
-#include <franka_core/limits.h>
 #include <franka_core/robot_error.h>
 #include <franka_core/tick.h>
 #include <franka_sim/robot/realism.h>
@@ -22,10 +21,13 @@ std::optional<WholeRobot::Hand> handOf(const RobotInWorld& robot, bool driven) {
              : std::nullopt;
 }
 
+constexpr double kShareOfLimit = 0.999;  // chosen here: rounding must not exceed the limit
+
 // Steps of a target or a stiffness become steps of the torque, which the robot would refuse.
-void limitRate(const std::array<double, 7>& before, std::array<double, 7>& tau) noexcept {
+void limitRate(const std::array<double, 7>& before, const std::array<double, 7>& highest_rate,
+               std::array<double, 7>& tau) noexcept {
   for (std::size_t i = 0; i < tau.size(); i++) {
-    const double step = 0.999 * franka_core::kFerLimits.dtau[i] * franka_core::kTick;
+    const double step = kShareOfLimit * highest_rate[i] * franka_core::kTick;
     tau[i] = std::clamp(tau[i], before[i] - step, before[i] + step);
   }
 }
@@ -33,10 +35,12 @@ void limitRate(const std::array<double, 7>& before, std::array<double, 7>& tau) 
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(const RobotSetup& setup, bool hand, World& world)
+    : SimulatedRobot(setup, hand, addRobot(setup, kInProcessProfile, world)) {}
+
+SimulatedRobot::SimulatedRobot(const RobotSetup& setup, bool hand, const RobotInWorld& in_world)
     : setup_(setup),
-      in_world_(addRobot(setup, kInProcessProfile, world)),
-      robot_(in_world_.unit, *in_world_.arm, handOf(in_world_, hand), {},
-             in_world_.physics.command_delay) {}
+      robot_(in_world.unit, *in_world.arm, handOf(in_world, hand), {},
+             in_world.physics.command_delay) {}
 
 void SimulatedRobot::refuse(const std::string& what) const {
   std::string errors;
@@ -54,6 +58,9 @@ void SimulatedRobot::start(const MoveRequest& motion) {
   if (moving() && (motion.controller_mode != motion_.controller_mode ||
                    motion.motion_generator_mode != motion_.motion_generator_mode)) {
     throw RequestRefused("A motion of another kind runs; end it first.");
+  }
+  if (moving() && finishing_) {
+    throw RequestRefused("The motion is ending; step until it has ended, then command again.");
   }
   if (moving()) {
     return;
@@ -147,7 +154,7 @@ const RobotCommand* SimulatedRobot::nextCommand() noexcept {
     auto* joint_law = std::get_if<JointLaw>(&input_);
     sent_.tau_J_d = joint_law != nullptr ? joint_law->torque(state_, unit)
                                          : std::get<CartesianLaw>(input_).torque(state_, unit);
-    limitRate(state_.tau_J_d, sent_.tau_J_d);
+    limitRate(state_.tau_J_d, robot_.unit().limits().arm.dtau, sent_.tau_J_d);
   }
   sent_.message_id = state_.message_id;
   sent_.motion_generation_finished = finishing_;

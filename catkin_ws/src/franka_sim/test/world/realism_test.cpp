@@ -325,7 +325,7 @@ TEST_P(RealismTest, EachPartCanBeChosenAlone) {
   EXPECT_EQ(20u, physicsOf(id(), "real,delay=20").command_delay);
 }
 
-TEST(Realism, WithoutAProfileTheDoorsIsChanged) {
+TEST(Realism, WithoutAProfileTheDefaultIsChanged) {
   EXPECT_FALSE(readRealism("", kInProcessProfile).friction);
   EXPECT_TRUE(readRealism("", kServedProfile).friction);
   const Realism late = readRealism("motors=off,delay=2", kServedProfile);

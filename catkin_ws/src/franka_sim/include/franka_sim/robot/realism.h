@@ -24,15 +24,15 @@ struct Realism {
 /// Longest delay of commands [ms].
 constexpr unsigned kLongestCommandDelay = 20;
 
-/// Profiles of a text that names none: of robots on the network, and of robots that ROS controllers
-/// drive inside the simulation.
+/// Default profiles: of robots on the network, and of robots that are driven by the process that
+/// simulates them.
 constexpr const char* kServedProfile = "real";
 constexpr const char* kInProcessProfile = "ideal";
 
 /// Reads `[PROFILE][,NAME=VALUE]...`: a profile (ideal, real or recorded), then changes of it:
 /// motors, friction, bandwidth, gripper, noise and model_error =on or =off, delay=0 to 20 [ms],
 /// seed=NUMBER, file=NAME.
-/// @param profile of a text that names none @throws std::invalid_argument with a sentence
+/// @param profile if the text names none @throws std::invalid_argument with a sentence
 Realism readRealism(const std::string& text, const char* profile);
 
 }  // namespace franka_sim

@@ -51,7 +51,8 @@ class WholeRobot {
   /// Then call `observe` once: in the next tick, or once more within a tick.
   void restart() noexcept;
   /// As `restart`, with a new control unit of the present configuration: without errors, idle,
-  /// brakes open, at time 0. References to its state become invalid. Not real-time safe.
+  /// brakes open, at time 0, without virtual walls and filters. References to its state become
+  /// invalid. Not real-time safe.
   void renew();
   /// The world has stopped for good: running motions and requests are aborted, and closed brakes
   /// show that no motion is possible until `restart`, which opens them.

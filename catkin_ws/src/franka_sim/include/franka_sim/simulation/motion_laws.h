@@ -14,11 +14,7 @@
 
 namespace franka_sim {
 
-/// Share of a motion of `duration` that is done after `time` [s]: a polynomial of fifth order, so
-/// that velocity and acceleration are zero at both ends. 1 for a duration of zero.
-double smoothShare(double time, double duration) noexcept;
-
-/// A spring and damper at every joint (JointImpedance), whose target moves smoothly.
+/// A spring and damper at every joint (JointImpedance), whose target moves smoothly (smoothStep).
 class JointLaw {
  public:
   /// Begins at the state's desired position.
@@ -38,7 +34,8 @@ class JointLaw {
   double time_{0.0}, duration_{0.0};
 };
 
-/// A spring and damper at the stiffness frame (cartesianImpedance), whose target moves smoothly.
+/// A spring and damper at the stiffness frame (cartesianImpedance), whose target moves smoothly
+/// (smoothStep).
 class CartesianLaw {
  public:
   /// Begins at the state's desired pose.

@@ -30,7 +30,7 @@ struct RobotInWorld {
 };
 
 /// Adds the robot to the world, in the ready pose.
-/// @param profile of a realism that names none
+/// @param profile if the realism names none
 /// @throws std::exception with a sentence for files, descriptions and values that cannot be used;
 /// then the world is unchanged.
 RobotInWorld addRobot(const RobotSetup& setup, const char* profile, World& world);

@@ -36,13 +36,14 @@ class SimulatedRobot {
   const franka_core::RobotState& state() const noexcept { return state_; }
 
   /// Sends this command in each tick from now on. @param motion is started first if none runs
-  /// @throws RequestRefused if it cannot be started, or if a motion of another kind runs
+  /// @throws RequestRefused if it cannot be started, if a motion of another kind runs, or if the
+  /// running one is ending
   void command(const franka_core::fci::MoveRequest& motion,
                const franka_core::RobotCommand& command);
   /// The same for torques, with the request that clients of this robot send.
   void commandTorques(const std::array<double, 7>& tau);
-  /// The law that drives the arm; a torque motion is started if none runs. Its type stays until the
-  /// motion ends. @throws as command
+  /// The law that drives the arm; a torque motion is started if none runs. A law replaces torques
+  /// and the other law, and then begins anew. @throws as command
   JointLaw& jointLaw();
   CartesianLaw& cartesianLaw();
   /// Ends the motion as a client does at the end of its work; the robot brakes. Nothing without
@@ -65,6 +66,7 @@ class SimulatedRobot {
   void restart();
 
  private:
+  SimulatedRobot(const RobotSetup& setup, bool hand, const RobotInWorld& in_world);
   template <typename Law>
   Law& law();
   franka_core::fci::MoveRequest torqueMotion() const noexcept;
@@ -73,7 +75,6 @@ class SimulatedRobot {
   [[noreturn]] void refuse(const std::string& what) const;
 
   RobotSetup setup_;
-  RobotInWorld in_world_;
   WholeRobot robot_;
   franka_core::RobotState state_;         ///< of the unit, at an address that stays
   franka_core::fci::MoveRequest motion_;  ///< the running one

@@ -1,0 +1,20 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Ten seconds in which an arm presses twice on a table: the scenario whose hashes are compared."""
+
+import math
+
+TICKS = 10000
+# The table is under this arm's hand; the motion's target is a few millimetres below its top.
+WORLD, BASE = "stone.xml", (-0.5, 0, 0.149)
+SCENE = ["--world", WORLD, "--base", ",".join(map(str, BASE))]
+
+
+def down_and_back(first, k):
+    """The k-th joint positions: joints 2 and 4 move the hand down onto the table and back, twice."""
+    x = math.sin(2 * math.pi * k / TICKS) ** 4
+    q = list(first)
+    q[1] += 0.5 * x
+    q[3] -= 0.2 * x
+    q[0] += 0.05 * math.sin(2 * math.pi * k / TICKS) ** 3
+    return q
