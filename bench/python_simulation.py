@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """pyfranka.sim: what Python costs beside the tick in C++, whose speed is the reference."""
 
+import os
 import time
 
 import numpy
@@ -11,6 +12,7 @@ from report import figure
 TICKS = 10000
 POLICY = 50  # ticks between the commands of a slow program
 TRIES = 5
+WORLDS, BATCH_STEPS = 16, 20
 STIFFNESS, DAMPING = numpy.array([600.0] * 4 + [250, 150, 50]), numpy.array([50.0] * 4 + [20, 15, 8])
 
 
@@ -48,6 +50,50 @@ def torques_in_python(sim, robot) -> None:
         sim.step()
 
 
+def move_all(batch) -> None:
+    for sim in batch:
+        robot = sim["panda"]
+        robot.joint_impedance(robot.state.q, duration=1e-3 * POLICY)
+    batch.step(POLICY)
+
+
+def batch_speed(batch) -> float:
+    """Simulated over real seconds of all worlds together."""
+    begin = time.perf_counter()
+    for _ in range(BATCH_STEPS):
+        move_all(batch)
+    return 1e-3 * len(batch) * POLICY * BATCH_STEPS / (time.perf_counter() - begin)
+
+
+def batches() -> None:
+    """One thread and two in turns, so that other work on the machine slows both."""
+    with (
+        pyfranka.sim.SimulationBatch(WORLDS, threads=1) as alone,
+        pyfranka.sim.SimulationBatch(WORLDS, threads=2) as both,
+    ):
+        best = {alone: 0.0, both: 0.0}
+        for _ in range(TRIES):
+            for batch in best:
+                best[batch] = max(best[batch], batch_speed(batch))
+    figure(f"batch of {WORLDS} worlds on one thread: sum of times real time", best[alone], "x")
+    figure("on two threads, over one", best[both] / best[alone], "", 1.8, at_least=True)
+
+
+def resident() -> float:
+    """[MB]"""
+    with open("/proc/self/statm") as statm:
+        return int(statm.read().split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6
+
+
+def memory() -> None:
+    with pyfranka.sim.SimulationBatch(1) as first:
+        move_all(first)
+        before = resident()
+        with pyfranka.sim.SimulationBatch(WORLDS) as more:
+            move_all(more)
+            figure("memory of a world more", (resident() - before) / WORLDS, "MB", 8.0)
+
+
 def python() -> None:
     print("Simulated robots in a Python program (pyfranka.sim), arm and hand")
     reference = speed(in_cpp)
@@ -62,3 +108,5 @@ def python() -> None:
     own = speed(torques_in_python)
     figure("torque law in Python (numpy, 1 kHz), over the reference", own / reference, "")
     figure("torque law in Python: times real time", own, "x", 35, at_least=True)
+    memory()
+    batches()

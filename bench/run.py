@@ -8,7 +8,12 @@ memory, start, python. Exit status 1 if a figure misses its goal. Needs the envi
 workspace, which `./franka bench` provides.
 """
 
+# ruff: noqa: E402
 import sys
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parents[1] / "tests"
+sys.path[:0] = [str(TESTS), str(TESTS / "support")]  # simulated robots are described once
 
 import hardware
 import micro

@@ -149,6 +149,17 @@ def test_an_unknown_package_is_refused_with_a_list_of_packages():
     assert "franka_hv" in result.stderr and "franka_hw" in result.stderr
 
 
+def test_benchmarks_find_their_parts():
+    result = subprocess.run(
+        [os.sys.executable, str(TOP / "bench" / "run.py"), "jitter"],
+        text=True,
+        capture_output=True,
+        timeout=60,
+    )
+    assert result.returncode == 2
+    assert "no benchmark jitter" in result.stderr and "python" in result.stderr
+
+
 def test_requested_packages_are_names_only():
     names = in_script("wanted_packages").split()
     assert "libmujoco-dev" in names

@@ -1,13 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Worlds with robots in this process; pyfranka/sim.py gives them their Python interface.
-#include <franka_sim/physics/renderer.h>
+// Worlds with robots in this process; pyfranka/sim gives them their Python interface.
 #include <franka_sim/robot/parameter_checks.h>
-#include <franka_sim/simulation/simulation.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -16,6 +13,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "shared_simulation.h"
 #include "sim_model.h"
 
 namespace pyfranka {
@@ -30,61 +28,6 @@ using franka_sim::GripperUnit;
 using franka_sim::SimulatedRobot;
 using franka_sim::UnitRequest;
 using release = py::gil_scoped_release;
-
-/// A simulation that one thread at a time may use.
-class Shared {
- public:
-  Shared(const std::string& world, const std::vector<franka_sim::Simulation::Robot>& robots)
-      : simulation_(world, robots) {}
-
-  /// Access for the duration of a call.
-  class Use {
-   public:
-    explicit Use(Shared& shared) : busy_(shared.busy_) {
-      if (shared.closed_) {
-        throw std::runtime_error("The simulation is closed.");
-      }
-      if (busy_.test_and_set()) {
-        throw std::runtime_error(
-            "Another thread uses this simulation now; give each thread one of its own.");
-      }
-    }
-    ~Use() { busy_.clear(); }
-    Use(const Use&) = delete;
-    Use& operator=(const Use&) = delete;
-
-   private:
-    std::atomic_flag& busy_;
-  };
-
-  /// Calls a function with the simulation.
-  template <typename Function>
-  auto use(Function function) {
-    const Use use(*this);
-    return function(simulation_);
-  }
-  franka_sim::Picture render(const std::string& camera, int width, int height) {
-    const Use use(*this);
-    if (!renderer_) {
-      renderer_ = std::make_unique<franka_sim::Renderer>();
-    }
-    const franka_sim::Scene scene = franka_sim::captureScene(simulation_.world());
-    return camera.empty() ? renderer_->render(scene, franka_sim::Camera{}, width, height)
-                          : renderer_->render(scene, camera, width, height);
-  }
-  void close() {
-    if (!closed_) {
-      const Use use(*this);
-      closed_ = true;
-    }
-  }
-
- private:
-  franka_sim::Simulation simulation_;
-  std::unique_ptr<franka_sim::Renderer> renderer_;
-  std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
-  std::atomic<bool> closed_{false};
-};
 
 template <std::size_t size>
 std::array<double, size> finite(const py::object& values, const char* name) {
@@ -101,13 +44,6 @@ double durationOf(double seconds) {
                                 std::to_string(seconds) + ".");
   }
   return seconds;
-}
-
-std::uint64_t ticksOf(std::int64_t ticks) {
-  if (ticks < 0) {
-    throw std::invalid_argument("Time goes forwards only: " + std::to_string(ticks) + " ticks.");
-  }
-  return static_cast<std::uint64_t>(ticks);
 }
 
 /// A robot of a simulation, which it keeps alive.
@@ -563,6 +499,7 @@ void bindSimulation(py::module_& module) {
            })
       .def("close", &Shared::close);
   bindWorld(simulation);
+  bindBatch(module);
 }
 
 }  // namespace pyfranka

@@ -21,5 +21,6 @@ void bindModel(py::module_& module);
 void bindSimState(py::module_& module);
 void bindSimModel(py::module_& module);
 void bindSimulation(py::module_& module);
+void bindBatch(py::module_& module);
 
 }  // namespace pyfranka

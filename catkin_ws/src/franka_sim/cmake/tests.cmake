@@ -99,5 +99,6 @@ sim_test(fci_test
     test/fci/vacuum_gripper_test.cpp
   LIBRARIES franka_sim_fci franka_sim_physics Franka::Franka PkgConfig::TINYXML2)
 
-sim_test(simulation_test SOURCES test/simulation/simulation_test.cpp
+sim_test(simulation_test
+  SOURCES test/simulation/batch_test.cpp test/simulation/simulation_test.cpp
   LIBRARIES franka_sim_simulation)

@@ -36,6 +36,7 @@ class WholeRobot {
   CommandLink& link() noexcept { return link_; }
   /// Null if the robot has none.
   GripperUnit* hand() noexcept { return hand_ ? &*hand_ : nullptr; }
+  const GripperUnit* hand() const noexcept { return hand_ ? &*hand_ : nullptr; }
   VacuumGripperUnit* vacuum() noexcept { return vacuum_ ? &*vacuum_ : nullptr; }
 
   /// First half of a tick: measures.

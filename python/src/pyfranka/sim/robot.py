@@ -1,0 +1,249 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A robot of a simulation, and its hand."""
+
+from __future__ import annotations
+
+import numpy
+from _pyfranka import _sim
+from _pyfranka._sim import ArmModel, GripperOutcome, LiveState
+from numpy.typing import ArrayLike, NDArray
+
+from .setups import _Setup
+
+Array = NDArray[numpy.float64]
+
+
+class Action:
+    """A command of the hand, which runs while the simulation steps."""
+
+    def __init__(self, robot: _sim.Robot, ticket: int):
+        self._robot, self._ticket = robot, ticket
+        self._outcome = GripperOutcome.Running if ticket else GripperOutcome.Failed
+
+    @property
+    def outcome(self) -> GripperOutcome:
+        """What has become of it."""
+        if self._outcome == GripperOutcome.Running:
+            self._outcome = self._robot.hand_outcome(self._ticket)
+        return self._outcome
+
+    @property
+    def done(self) -> bool:
+        """Whether it has ended."""
+        return self.outcome != GripperOutcome.Running
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether it has ended with success."""
+        return self.outcome == GripperOutcome.Succeeded
+
+
+class Gripper:
+    """The hand of a robot. Commands return at once with an Action; a new one interrupts the running one."""
+
+    def __init__(self, robot: _sim.Robot):
+        self._robot = robot
+        robot.hand_state()  # raises without a hand
+
+    def homing(self) -> Action:
+        """Closes and opens the fingers fully."""
+        return Action(self._robot, self._robot.hand_homing())
+
+    def move(self, width: float, speed: float = 0.1) -> Action:
+        """Moves the fingers to a width [m] at a speed [m/s]; refused (Failed) for values that no hand has."""
+        return Action(self._robot, self._robot.hand_move(width, speed))
+
+    def grasp(
+        self, width: float, speed: float, force: float, epsilon_inner=0.005, epsilon_outer=0.005
+    ) -> Action:
+        """Closes [m, m/s] and holds with a force [N]. Succeeds if what is held is as wide as asked, within
+        the epsilons [m]."""
+        return Action(self._robot, self._robot.hand_grasp(width, speed, force, epsilon_inner, epsilon_outer))
+
+    def stop(self) -> Action:
+        """Ends the running command and the force of a grasp."""
+        return Action(self._robot, self._robot.hand_stop())
+
+    @property
+    def width(self) -> float:
+        """Between the fingers [m]."""
+        return self._robot.hand_state()[0]
+
+    @property
+    def max_width(self) -> float:
+        """[m]"""
+        return self._robot.hand_state()[1]
+
+    @property
+    def is_grasped(self) -> bool:
+        """Whether an object as wide as asked is held."""
+        return self._robot.hand_state()[2]
+
+    @property
+    def temperature(self) -> float:
+        """[deg C]"""
+        return self._robot.hand_state()[3]
+
+
+class Robot:
+    """A robot of a simulation: `sim["panda"]`."""
+
+    state: LiveState
+    model: ArmModel
+
+    def __init__(self, native: _sim.Robot, setup: _Setup):
+        self._native, self.setup = native, setup
+        self.state, self.model = native.state, native.model
+        self._gripper: Gripper | None = None
+        if setup.load is not None:
+            mass, com, *inertia = setup.load
+            native.set_load(float(mass), com, inertia[0] if inertia else numpy.zeros(9))
+
+    @property
+    def name(self) -> str:
+        """Prefix of its joints and links."""
+        return self.setup.name
+
+    @property
+    def gripper(self) -> Gripper:
+        """Its hand. Raises RuntimeError if it has none."""
+        if self._gripper is None:
+            self._gripper = Gripper(self._native)
+        return self._gripper
+
+    @property
+    def moving(self) -> bool:
+        """Whether a motion runs."""
+        return self._native.moving
+
+    @property
+    def brakes_closed(self) -> bool:
+        """Whether the brakes are closed."""
+        return self._native.brakes_closed
+
+    @property
+    def limits(self) -> tuple[Array, Array]:
+        """Lowest and highest joint positions, 7 [rad] each."""
+        return self._native.limits
+
+    def command(
+        self,
+        *,
+        torque: ArrayLike | None = None,
+        joint_positions: ArrayLike | None = None,
+        joint_velocities: ArrayLike | None = None,
+        cartesian_pose: ArrayLike | None = None,
+        cartesian_velocities: ArrayLike | None = None,
+        elbow: ArrayLike | None = None,
+        controller: str = "joint_impedance",
+    ) -> None:
+        """Commands the arm: exactly one of torque 7 [Nm] (without gravity), joint_positions 7 [rad],
+        joint_velocities 7 [rad/s], cartesian_pose 4x4 (O_T_EE) and cartesian_velocities 6 [m/s, rad/s].
+
+        The first command starts a motion. Each is sent in every tick until the next one, so positions and
+        poses must be commanded tick by tick, as over the FCI; a jump ends the motion. elbow: joint 3 [rad]
+        and the sign of joint 4, with Cartesian commands. controller: the robot's own, "joint_impedance" or
+        "cartesian_impedance"; torques go without.
+
+        Raises RequestRefused if the robot cannot start the motion, or if one of another kind runs or one
+        is ending; ValueError.
+        """
+        values = {
+            "torque": torque,
+            "joint_positions": joint_positions,
+            "joint_velocities": joint_velocities,
+            "cartesian_pose": cartesian_pose,
+            "cartesian_velocities": cartesian_velocities,
+        }
+        given = [name for name, value in values.items() if value is not None]
+        if len(given) != 1:
+            raise ValueError(f"A command is one of {', '.join(values)}; given: {', '.join(given) or 'none'}.")
+        if elbow is not None and not given[0].startswith("cartesian"):
+            raise ValueError("An elbow goes with cartesian_pose and cartesian_velocities only.")
+        if torque is not None:
+            self._native.command_torques(torque)
+        elif joint_positions is not None:
+            self._native.command_joint_positions(joint_positions, controller)
+        elif joint_velocities is not None:
+            self._native.command_joint_velocities(joint_velocities, controller)
+        elif cartesian_pose is not None:
+            self._native.command_cartesian_pose(cartesian_pose, elbow, controller)
+        else:
+            self._native.command_cartesian_velocities(cartesian_velocities, elbow, controller)
+
+    def joint_impedance(
+        self, target: ArrayLike, duration: float = 0.0, stiffness: ArrayLike | None = None
+    ) -> None:
+        """Lets a torque controller in C++ hold the joints by springs and dampers at 1 kHz. target: 7 [rad],
+        reached smoothly within the duration [s]; stiffness: 7 [Nm/rad], which stays until the motion ends.
+
+        Raises as command().
+        """
+        self._native.joint_impedance(target, duration, stiffness)
+
+    def cartesian_impedance(
+        self,
+        target: ArrayLike,
+        duration: float = 0.0,
+        stiffness: ArrayLike | None = None,
+        nullspace_stiffness: float | None = None,
+    ) -> None:
+        """The same for the end effector. target: O_T_EE, 4x4; stiffness: 6 [N/m, Nm/rad] along and about the
+        axes of K; nullspace_stiffness of the joints [Nm/rad]."""
+        self._native.cartesian_impedance(target, duration, stiffness, nullspace_stiffness)
+
+    def finish(self) -> None:
+        """Ends the motion as a client does: the arm brakes, and is idle after some ticks."""
+        self._native.finish()
+
+    def recover(self) -> None:
+        """Starts the recovery from errors, which takes some ticks. Raises RequestRefused."""
+        self._native.recover()
+
+    def set_user_stop(self, pressed: bool) -> None:
+        """Presses or releases the user stop."""
+        self._native.set_user_stop(pressed)
+
+    def set_brakes(self, closed: bool) -> None:
+        """Closes or opens the brakes."""
+        self._native.set_brakes(closed)
+
+    def set_guiding(self, active: bool) -> None:
+        """Begins or ends guiding by hand. Raises RequestRefused."""
+        self._native.set_guiding(active)
+
+    def set_joint_impedance(self, K_theta: ArrayLike) -> None:
+        """Stiffness of the robot's own joint controller, 7 [Nm/rad]. Raises RequestRefused, as all setters
+        do."""
+        self._native.set_joint_impedance(K_theta)
+
+    def set_cartesian_impedance(self, K_x: ArrayLike) -> None:
+        """Stiffness of the robot's own Cartesian controller, 6 [N/m, Nm/rad]."""
+        self._native.set_cartesian_impedance(K_x)
+
+    def set_collision_behavior(
+        self,
+        lower_torque: ArrayLike,
+        upper_torque: ArrayLike,
+        lower_force: ArrayLike,
+        upper_force: ArrayLike,
+    ) -> None:
+        """Thresholds of contact (lower) and collision (upper): 7 [Nm] and 6 [N, Nm]."""
+        self._native.set_collision_behavior(lower_torque, upper_torque, lower_force, upper_force)
+
+    def set_EE(self, NE_T_EE: ArrayLike) -> None:
+        """Pose of the end effector in NE, 4x4."""
+        self._native.set_EE(NE_T_EE)
+
+    def set_K(self, EE_T_K: ArrayLike) -> None:
+        """Pose of the stiffness frame in EE, 4x4."""
+        self._native.set_K(EE_T_K)
+
+    def set_load(self, mass: float, F_x_Cload: ArrayLike, load_inertia: ArrayLike) -> None:
+        """What the robot knows of its load: mass [kg], centre of mass in F, 3 [m], inertia, 3x3 [kg m^2]."""
+        self._native.set_load(mass, F_x_Cload, load_inertia)
+
+    def hash(self) -> int:
+        """Hash of all states since the first command; the control interface's `hash` of a served robot."""
+        return self._native.hash()

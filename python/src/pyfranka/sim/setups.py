@@ -1,0 +1,83 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Robots as they are described before a simulation begins."""
+
+from __future__ import annotations
+
+import typing
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy
+from _pyfranka import _sim
+from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True)
+class _Setup:
+    """A robot to add to a world.
+
+    name: prefix of its joints and links (its kind). base: x, y, z [m] and, optionally, the turn about the
+    vertical [rad]. hand: whether its hand is driven. load: mass [kg], centre of mass in the flange's frame
+    [m] and, optionally, inertia 3x3 [kg m^2], as entered in Desk; it is not simulated. realism: a profile of
+    docs/sim_to_real.md, such as "real,friction=off". urdf: another description of this kind of robot.
+    """
+
+    name: str = ""
+    base: Sequence[float] = (0.0, 0.0, 0.0)
+    hand: bool = True
+    load: Sequence[ArrayLike] | None = None
+    realism: str = ""
+    urdf: str = ""
+
+    kind: typing.ClassVar[str] = ""
+
+    def _named(self, taken: set[str]) -> _Setup:
+        """This, with a name of its own."""
+        name, number = self.name or self.kind, 2
+        while not self.name and name in taken:
+            name, number = f"{self.kind}_{number}", number + 1
+        if name in taken:
+            raise ValueError(f"Two robots have the name '{name}'; each needs one of its own.")
+        taken.add(name)
+        return replace(self, name=name)
+
+    def _seeded(self, seed: int | None) -> _Setup:
+        """This, with a seed where its realism names none."""
+        words = [word for word in self.realism.split(",") if word]
+        if seed is None or any(word.startswith("seed=") for word in words):
+            return self
+        return replace(self, realism=",".join([*words, f"seed={seed}"]))
+
+    def _native(self) -> _sim.RobotSetup:
+        base = numpy.asarray(self.base, dtype=float).ravel()
+        if base.size not in (3, 4):
+            raise ValueError(f"base needs x, y, z and optionally the turn, not {base.size} numbers.")
+        yaw = float(base[3]) if base.size == 4 else 0.0
+        if not numpy.isfinite(yaw):
+            raise ValueError("base must be finite numbers.")
+        return _sim.RobotSetup(
+            robot=self.kind,
+            name=self.name,
+            urdf=self.urdf,
+            base=base[:3],
+            yaw=yaw,
+            realism=self.realism,
+            hand=self.hand,
+        )
+
+
+@dataclass(frozen=True)
+class Panda(_Setup):
+    """A Panda to add to a world."""
+
+    __doc__ += _Setup.__doc__.partition("\n")[2]
+    kind: typing.ClassVar[str] = "panda"
+
+
+@dataclass(frozen=True)
+class FR3(_Setup):
+    """An FR3 to add to a world."""
+
+    __doc__ += _Setup.__doc__.partition("\n")[2]
+    kind: typing.ClassVar[str] = "fr3"
