@@ -27,12 +27,18 @@ class Batch {
                observe ? *observe : franka_sim::Observer::usualNames(worlds_.at(0)->simulation())) {
   }
 
+  /// Calls a function with the batch, without the interpreter's lock.
   template <typename Function>
   void use(Function function) {
     std::deque<Shared::Use> uses;
     for (const std::shared_ptr<Shared>& world : worlds_) {
       uses.emplace_back(*world);
+      if (world->served()) {
+        throw std::runtime_error(
+            "A world of the batch is served on the network; step it by itself.");
+      }
     }
+    const py::gil_scoped_release free;
     function(batch_);
   }
   const franka_sim::SimulationBatch& batch() const noexcept { return batch_; }
@@ -82,13 +88,11 @@ void bindBatch(py::module_& module) {
           "step",
           [](Batch& self, std::int64_t ticks) {
             const std::uint64_t count = ticksOf(ticks);
-            const py::gil_scoped_release free;
             self.use([count](franka_sim::SimulationBatch& batch) { batch.step(count); });
           },
           py::arg("ticks"))
       .def("observe",
            [](Batch& self) {
-             const py::gil_scoped_release free;
              self.use([](franka_sim::SimulationBatch& batch) { batch.observe(); });
            })
       .def_property_readonly("observations", &observations)

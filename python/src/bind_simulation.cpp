@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -447,6 +448,37 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
       });
 }
 
+constexpr std::uint64_t kTicksBetweenSignals = 1000;  // chosen here: some 20 ms
+
+// Ctrl-C ends a long step.
+void step(Shared& self, std::uint64_t ticks) {
+  const Shared::Use use(self);
+  while (ticks > 0) {
+    const std::uint64_t next = std::min(ticks, kTicksBetweenSignals);
+    {
+      const release free;
+      self.step(next);
+    }
+    ticks -= next;
+    if (PyErr_CheckSignals() != 0) {
+      throw py::error_already_set();
+    }
+  }
+}
+
+franka_sim::fci::Pace paceOf(bool real_time, double patience) {
+  constexpr double kLongest = 86400.0;  // [s] chosen here
+  if (!(patience > 0.0 && patience <= kLongest)) {
+    throw std::invalid_argument("patience must be more than 0 and at most 86400 seconds, not " +
+                                std::to_string(patience) + ".");
+  }
+  franka_sim::fci::Pace pace;
+  pace.mode =
+      real_time ? franka_sim::fci::PaceMode::kRealTime : franka_sim::fci::PaceMode::kFreeRunning;
+  pace.patience = std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(1e3 * patience)));
+  return pace;
+}
+
 }  // namespace
 
 void bindSimulation(py::module_& module) {
@@ -472,13 +504,14 @@ void bindSimulation(py::module_& module) {
            }),
            py::arg("world"), py::arg("robots"))
       .def(
-          "step",
-          [](Shared& self, std::int64_t ticks) {
-            const std::uint64_t count = ticksOf(ticks);
-            const release free;
-            self.use([count](Simulation& s) { s.step(count); });
-          },
+          "step", [](Shared& self, std::int64_t ticks) { step(self, ticksOf(ticks)); },
           py::arg("ticks"))
+      .def(
+          "serve",
+          [](Shared& self, const std::string& robot, const std::string& address, bool real_time,
+             double patience) { self.serve(robot, address, paceOf(real_time, patience)); },
+          py::arg("robot"), py::arg("address"), py::arg("real_time"), py::arg("patience"))
+      .def("attend", &Shared::attend)
       .def("reset", [](Shared& self) { self.use([](Simulation& s) { s.reset(); }); })
       .def(
           "snapshot",

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <franka_sim/physics/renderer.h>
-#include <franka_sim/simulation/simulation.h>
+#include <franka_sim/simulation/simulation_server.h>
 
 #include <atomic>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pyfranka {
@@ -55,15 +56,47 @@ class Shared {
     return camera.empty() ? renderer_->render(scene, franka_sim::Camera{}, width, height)
                           : renderer_->render(scene, camera, width, height);
   }
+  bool served() const noexcept { return server_ != nullptr; }
+  /// Puts a robot on the network; the first call chooses the pace of all.
+  void serve(const std::string& robot, const std::string& address,
+             const franka_sim::fci::Pace& pace) {
+    const Use use(*this);
+    franka_sim::SimulatedRobot& served = simulation_.robot(robot);
+    auto server =
+        server_ ? nullptr : std::make_unique<franka_sim::SimulationServer>(simulation_, pace);
+    (server ? *server : *server_).serve(served, address);
+    if (server) {
+      server_ = std::move(server);
+    }
+  }
+  /// Call with a Use.
+  void step(std::uint64_t ticks) {
+    if (server_) {
+      server_->step(ticks);
+    } else {
+      simulation_.step(ticks);
+    }
+  }
+  /// Serves clients while the program does not step. @returns false once it is closed
+  bool attend() {
+    if (!closed_ && server_ && !busy_.test_and_set()) {
+      server_->attend();
+      busy_.clear();
+    }
+    return !closed_;
+  }
+  /// Clients lose their robots.
   void close() {
     if (!closed_) {
       const Use use(*this);
       closed_ = true;
+      server_.reset();
     }
   }
 
  private:
   franka_sim::Simulation simulation_;
+  std::unique_ptr<franka_sim::SimulationServer> server_;
   std::unique_ptr<franka_sim::Renderer> renderer_;
   std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
   std::atomic<bool> closed_{false};

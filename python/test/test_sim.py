@@ -357,12 +357,15 @@ def test_pictures_come_as_arrays(name):
             sim.render("nowhere")
 
 
+@pytest.mark.filterwarnings("error")  # of exceptions in threads
 def test_the_examples_of_the_documentation_run(capsys):
     page = Path(__file__).resolve().parents[2] / "docs" / "python.md"
-    first, batch = (block.partition("```")[0] for block in page.read_text().split("```python\n")[1:3])
+    first, served, batch = (block.partition("```")[0] for block in page.read_text().split("```python\n")[1:4])
     exec(compile(first, str(page), "exec"), {})
     outcome, error, seconds = capsys.readouterr().out.split()
     assert outcome == "GripperOutcome.Succeeded"
     assert abs(float(error)) < 2e-3 and float(seconds) == 4.5
+    exec(compile(served.replace("127.0.0.1", "127.0.33.20"), str(page), "exec"), {})
+    assert capsys.readouterr().out == "RobotMode.Idle\n"
     exec(compile(batch, str(page), "exec"), {})
     assert float(capsys.readouterr().out) < 5e-3

@@ -4,8 +4,11 @@
 
 from __future__ import annotations
 
+import threading
+import time
 import typing
 import warnings
+import weakref
 from collections.abc import Mapping, Sequence
 
 import numpy
@@ -17,6 +20,7 @@ from .robot import Array, Robot
 from .setups import FR3, Panda, _Setup
 
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
+ATTENTION = 0.02  # [s] between looks at the network (chosen here)
 TRIES = 1000  # random poses before giving up (chosen here)
 TRIAL = 20  # ticks after which a pose has shown what it touches (chosen here)
 MOVED = 1e-3  # [rad] by then, of an arm that was pushed away (chosen here)
@@ -38,6 +42,13 @@ class Picture(typing.NamedTuple):
     depth: NDArray[numpy.float32] | None
 
 
+def _attend(simulation: weakref.ref) -> None:
+    """Serves clients until the simulation is closed or forgotten."""
+    while (served := simulation()) is not None and served._native.attend():
+        del served
+        time.sleep(ATTENTION)
+
+
 class Simulation(Mapping):
     """A world with robots, stepped by the program. `sim["panda"]` is a Robot.
 
@@ -55,6 +66,7 @@ class Simulation(Mapping):
         named = [robot._named(taken) for robot in robots]
         setups = [robot._seeded(seed + i) for i, robot in enumerate(named)]
         self._random = numpy.random.default_rng(seed)
+        self._attendant: threading.Thread | None = None
         self._native = _sim.Simulation(world, [setup._native() for setup in setups])
         self._robots = {setup.name: Robot(self._native.robot(setup.name), setup) for setup in setups}
         for name in self:
@@ -79,8 +91,31 @@ class Simulation(Mapping):
         self.close()
 
     def close(self) -> None:
-        """Ends the simulation: all further calls raise RuntimeError."""
+        """Ends the simulation: all further calls raise RuntimeError. Clients lose their robots."""
         self._native.close()
+
+    def serve(self, ip: str, robot: str | None = None, pace: str = "lockstep", patience: float = 30.0):
+        """Puts a robot (the only one) on the network at an address of this machine: clients connect to it as
+        to a real one, and time passes in step() alone.
+
+        pace: "lockstep", a tick waits for the answer of a client in motion, or "realtime", ticks follow the
+        clock. patience: after so many seconds without an answer in lock-step a client counts as lost. Both
+        are those of the first call. A robot moves either for a client or for command(); whoever comes second
+        is refused. While the program does other work, a thread keeps the connections alive.
+
+        Raises ValueError, KeyError; RuntimeError where the address cannot be used.
+        """
+        if robot is None and len(self) != 1:
+            raise ValueError(f"Which robot? There are: {', '.join(self) or 'none'}.")
+        name = self[next(iter(self)) if robot is None else robot].name
+        if pace not in ("lockstep", "realtime"):
+            raise ValueError(f"pace is 'lockstep' or 'realtime', not '{pace}'.")
+        self._native.serve(name, ip, pace == "realtime", patience)
+        if self._attendant is None:
+            self._attendant = threading.Thread(
+                target=_attend, args=(weakref.ref(self),), name="pyfranka.sim clients", daemon=True
+            )
+            self._attendant.start()
 
     @property
     def ticks(self) -> int:

@@ -72,7 +72,7 @@ void SimulatedRobot::start(const MoveRequest& motion) {
   if (status != Status::kMotionStarted) {
     refuse("The motion");
   }
-  state_ = robot_.unit().state();
+  refresh();
   motion_ = motion;
   finishing_ = false;
 }
@@ -119,7 +119,7 @@ void SimulatedRobot::request(const UnitRequest& request, const std::string& what
   if (status && status != Status::kSuccess) {
     refuse(what);
   }
-  state_ = robot_.unit().state();
+  refresh();
 }
 
 void SimulatedRobot::recover() {
@@ -128,24 +128,26 @@ void SimulatedRobot::recover() {
   if (status && status != Status::kSuccess) {
     refuse("The recovery");
   }
-  state_ = robot_.unit().state();
+  recovering_ = !status;
+  refresh();
 }
 
 void SimulatedRobot::observe() noexcept {
   robot_.observe();
-  if (const std::optional<Status> end = robot_.unit().takeAnswer(PendingAnswer::kMotion)) {
-    last_result_ = end;
-    input_ = std::monostate{};
+  // Other answers are for a client on the network.
+  if (moving()) {
+    if (const std::optional<Status> end = robot_.unit().takeAnswer(PendingAnswer::kMotion)) {
+      last_result_ = end;
+      input_ = std::monostate{};
+    }
   }
-  robot_.unit().takeAnswer(PendingAnswer::kStop);
-  robot_.unit().takeAnswer(PendingAnswer::kRecovery);
-  state_ = robot_.unit().state();
+  if (recovering_) {
+    recovering_ = !robot_.unit().takeAnswer(PendingAnswer::kRecovery);
+  }
+  refresh();
 }
 
 const RobotCommand* SimulatedRobot::nextCommand() noexcept {
-  if (!moving()) {
-    return nullptr;
-  }
   if (const auto* command = std::get_if<RobotCommand>(&input_)) {
     sent_ = *command;
   } else {
@@ -162,10 +164,17 @@ const RobotCommand* SimulatedRobot::nextCommand() noexcept {
   return &sent_;
 }
 
-void SimulatedRobot::actuate() noexcept { robot_.actuate(nextCommand()); }
+void SimulatedRobot::actuate(const RobotCommand* command) noexcept {
+  robot_.actuate(moving() ? nextCommand() : command);
+}
 
 void SimulatedRobot::restart() {
-  robot_.renew();
+  if (served_) {
+    robot_.restart();
+  } else {
+    robot_.renew();
+  }
+  recovering_ = false;
   input_ = std::monostate{};
   finishing_ = false;
 }

@@ -25,10 +25,14 @@ void Simulation::step(std::uint64_t ticks) {
     for (SimulatedRobot& robot : robots_) {
       robot.actuate();
     }
-    world_.step();
-    for (SimulatedRobot& robot : robots_) {
-      robot.observe();
-    }
+    advance();
+  }
+}
+
+void Simulation::advance() noexcept {
+  world_.step();
+  for (SimulatedRobot& robot : robots_) {
+    robot.observe();
   }
 }
 

@@ -49,6 +49,7 @@ class SimulatedRobot {
   /// Ends the motion as a client does at the end of its work; the robot brakes. Nothing without
   /// one.
   void finish() noexcept;
+  /// Whether a motion of this process runs.
   bool moving() const noexcept { return !std::holds_alternative<std::monostate>(input_); }
 
   /// Makes a request of the unit. @param what for the message: "The load"
@@ -61,9 +62,14 @@ class SimulatedRobot {
 
   /// The halves of a tick, as those of WholeRobot. Real-time safe.
   void observe() noexcept;
-  void actuate() noexcept;
+  /// @param command of a client on the network, for ticks without a motion of this process
+  void actuate(const franka_core::RobotCommand* command = nullptr) noexcept;
+  /// Shows what requests of clients have changed since observe().
+  void refresh() noexcept { state_ = robot_.unit().state(); }
   /// Call after a reset of the world or a teleport: idle, without errors, in its configuration.
   void restart();
+  /// Whether clients on the network use it too: a restart then keeps what they are to be answered.
+  void setServed(bool served) noexcept { served_ = served; }
 
  private:
   SimulatedRobot(const RobotSetup& setup, bool hand, const RobotInWorld& in_world);
@@ -81,6 +87,8 @@ class SimulatedRobot {
   std::variant<std::monostate, franka_core::RobotCommand, JointLaw, CartesianLaw> input_;
   franka_core::RobotCommand sent_;
   bool finishing_{false};
+  bool recovering_{false};
+  bool served_{false};
   std::optional<Status> last_result_;
 };
 

@@ -27,6 +27,8 @@ class Simulation {
 
   /// Advances by `ticks` milliseconds. @throws std::runtime_error once the physics has diverged
   void step(std::uint64_t ticks);
+  /// The second half of a tick, after the robots have actuated: moves the world and observes.
+  void advance() noexcept;
   /// Resets the world and the robots to how they began.
   void reset();
   /// Restores a snapshot of the world; the robots hold their poses in it, without a motion.
