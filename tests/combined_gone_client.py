@@ -119,7 +119,7 @@ def comes_back_by_itself(node, arm, other):
     report = {
         "back": node.diagnosis.status_when(arm.name, lambda _, v: v.get("Mode") == "Idle")[1] == arm.name
     }
-    waits(lambda: "set_load" in node.offers(arm))
+    waits(lambda: "set_load" in node.offers(arm) and arm.mode == FrankaState.ROBOT_MODE_IDLE)
     time.sleep(1.0)  # in which no arm may move
     report["waits"] = arm.has_error and FrankaState.ROBOT_MODE_MOVE not in (arm.mode, other.mode)
     report["recovery"] = recovery(f"{NODE}/error_recovery")
