@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <stdexcept>
 
 namespace franka_sim {
@@ -112,6 +113,40 @@ void addWorld(LineServer& lines, fci::Host& host, World& world) {
   });
 }
 
+// Lines about time. In lock-step the world otherwise moves only when something happens in it.
+void addTime(LineServer& lines, fci::Host& host, const World& world) {
+  lines.add("time", [&world](const Words&) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.3f", world.time());
+    return std::string(text);
+  });
+  const auto end = std::make_shared<std::uint64_t>(0);  // [ticks] of the host, of the last step
+  lines.add(
+      "step MILLISECONDS",
+      [&host, &world, end](const Words& words) {
+        const std::uint64_t ticks = toTicks(words.at(0));
+        if (world.stopped()) {
+          throw std::invalid_argument(world.fault());
+        }
+        host.advance(ticks);
+        *end = host.ticks() + ticks;
+        return "";
+      },
+      [&host] { return host.settled() || host.inMotion(); },
+      [&host, end] { return host.ticks() >= *end; });
+  lines.add(
+      "wait",
+      [&host](const Words&) {
+        if (!host.atRest()) {
+          throw std::invalid_argument(
+              "The world has not come to rest within 10 s of its time: something keeps an arm "
+              "moving.");
+        }
+        return "";
+      },
+      [&host] { return host.atRest() || host.isRestless(); });
+}
+
 PumpHealth toHealth(const std::string& word) {
   constexpr std::array<const char*, 4> kNames{"green", "yellow", "orange", "red"};
   for (std::size_t i = 0; i < kNames.size(); i++) {
@@ -207,6 +242,7 @@ void addOperatorCommands(fci::LineServer& lines, const Scene& scene) {
   addSwitches(lines, scene.robot, scene.host);
   addLink(lines, scene.robot);
   addWorld(lines, scene.host, scene.world);
+  addTime(lines, scene.host, scene.world);
   addRobot(lines, scene.robot, scene.host, scene.world);
   addWalls(lines, scene.robot);
   if (VacuumGripperUnit* vacuum = scene.robot.vacuum()) {

@@ -101,6 +101,8 @@ void Host::setPace(const Pace& pace) {
 
 void Host::letRun(std::uint64_t ticks) { rolling_ = std::max(rolling_, ticks + kTicksAfterAction); }
 
+void Host::advance(std::uint64_t ticks) { rolling_ = std::max(rolling_, ticks); }
+
 void Host::beginAnew() {
   rolling_ = 0;
   letRun(1);
@@ -205,12 +207,21 @@ bool Host::holdsRequestsBack() const {
          !clientsAreDue() && !clientsAreAtLeisure();
 }
 
-bool Host::settled() const {
+bool Host::settled() const { return !pace_.standsStill() || isRestless() || atRest(); }
+
+bool Host::isRestless() const { return pace_.standsStill() && held_back_ >= kLongestDeferral; }
+
+bool Host::atRest() const {
   const auto moves = [](const Entry& entry) {
     return entry.robot->expectsCommand() || entry.robot->settling() || entry.robot->handBusy();
   };
-  return !pace_.standsStill() || held_back_ >= kLongestDeferral ||
-         (rolling_ == 0 && std::none_of(entries_.begin(), entries_.end(), moves));
+  return (!pace_.standsStill() || rolling_ == 0) &&
+         std::none_of(entries_.begin(), entries_.end(), moves);
+}
+
+bool Host::inMotion() const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.robot->expectsCommand(); });
 }
 
 bool Host::receiveAll() {

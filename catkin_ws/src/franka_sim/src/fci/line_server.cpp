@@ -24,6 +24,11 @@ LineServer::Words split(const std::string& line) {
   return words;
 }
 
+std::string nameIn(const std::string& line) {
+  const LineServer::Words words = split(line);
+  return words.empty() ? "" : words.front();
+}
+
 bool sendLine(Connection& connection, const std::string& text) {
   const std::string line = text + "\n";
   return connection.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
@@ -38,8 +43,9 @@ constexpr int kAcceptedAtOnce = 16;
 
 }  // namespace
 
-void LineServer::add(const std::string& usage, Handler handler, Ready ready) {
-  entries_[usage.substr(0, usage.find(' '))] = {usage, std::move(handler), std::move(ready)};
+void LineServer::add(const std::string& usage, Handler handler, Ready ready, Ready done) {
+  entries_[usage.substr(0, usage.find(' '))] = {usage, std::move(handler), std::move(ready),
+                                                std::move(done)};
 }
 
 std::string LineServer::help() const {
@@ -71,13 +77,14 @@ std::string LineServer::answer(const std::string& line) const {
 }
 
 bool LineServer::isReady(const std::string& line) const {
-  const Words words = split(line);
-  const auto entry = words.empty() ? entries_.end() : entries_.find(words.front());
+  const auto entry = entries_.find(nameIn(line));
   return entry == entries_.end() || entry->second.ready();
 }
 
+bool LineServer::isDone() const { return !done_ || done_(); }
+
 LineServer::~LineServer() {
-  if (client_ && answer_) {
+  if (client_ && answer_ && isDone()) {
     sendLine(*client_, *answer_);
   }
 }
@@ -148,10 +155,16 @@ void LineServer::serveClient() {
   if (!waits_) {
     client_->consume(line.size() + 1);
     answer_ = answer(line);
+    const auto entry = entries_.find(nameIn(line));
+    const bool executed = entry != entries_.end() && answer_->rfind("ok", 0) == 0;
+    done_ = executed ? entry->second.done : Ready();
   }
 }
 
 void LineServer::published() {
+  if (client_ && answer_ && !isDone()) {
+    return;
+  }
   if (client_ && answer_ && !sendLine(*client_, *answer_)) {
     client_.reset();
   }

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,57 @@ TEST_F(LineServerTest, KeepsALineUntilItIsReady) {
   EXPECT_EQ("ok done\n", user.sees());
   tick();
   EXPECT_EQ("ok 1\n", user.sees());
+}
+
+TEST_F(LineServerTest, AnswersOnceTheEffectHasComeAbout) {
+  bool effect = false;
+  server.add(
+      "act", [](const LineServer::Words& words) { return words.at(0); }, [] { return true; },
+      [&effect] { return effect; });
+  Operator user(server);
+  user.type("act now\ncount\n");
+  tick();
+  tick();
+  EXPECT_EQ("(nothing)", user.sees());
+  EXPECT_EQ(0, count) << "the next line waits, too";
+  effect = true;
+  tick();
+  EXPECT_EQ("ok now\n", user.sees());
+  tick();
+  EXPECT_EQ("ok 1\n", user.sees());
+  effect = false;
+  user.type("act\n");
+  tick();
+  EXPECT_EQ("error: Words are missing: act.\n", user.sees()) << "a refused line has no effect";
+}
+
+TEST_F(LineServerTest, AClientThatLeavesBeforeTheEffectMakesRoom) {
+  server.add(
+      "never", [](const LineServer::Words& /*words*/) { return ""; }, [] { return true; },
+      [] { return false; });
+  Operator first(server);
+  first.type("never\n");
+  tick();
+  first.leave();
+  Operator second(server);
+  second.type("count\n");
+  tick();
+  EXPECT_EQ("ok 1\n", second.sees());
+}
+
+TEST(LineServer, GivesNoAnswerWhenItEndsBeforeTheEffect) {
+  for (const bool effect : {true, false}) {
+    std::optional<LineServer> server;
+    server.emplace(kAddress, 0);
+    server->add(
+        "act", [](const LineServer::Words& /*words*/) { return ""; }, [] { return true; },
+        [effect] { return effect; });
+    Operator user(*server);
+    user.type("act\n");
+    server->serve();
+    server.reset();
+    EXPECT_EQ(effect ? "ok\n" : "(end)", user.sees());
+  }
 }
 
 TEST_F(LineServerTest, RefusesASecondClientWithASentence) {

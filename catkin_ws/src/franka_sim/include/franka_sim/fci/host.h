@@ -129,6 +129,8 @@ class Host {
   /// For lock-step: lets this many ticks run without waiting for clients, so that an external
   /// change of the world (a push) can take effect.
   void letRun(std::uint64_t ticks);
+  /// The same for exactly this many ticks, where nothing else makes time go on.
+  void advance(std::uint64_t ticks);
   /// Call after a reset of the world: lets one tick run and cancels ticks of earlier letRun()
   /// calls.
   void beginAnew();
@@ -136,6 +138,13 @@ class Host {
   /// Whether the world has come to rest: in lock-step, that no motion runs and time stands still
   /// (or that it did not come to rest within 10 s of simulated time); otherwise always true.
   bool settled() const;
+  /// Whether no motion runs, nothing stops or recovers and no hand works; in lock-step also that
+  /// time stands still.
+  bool atRest() const;
+  /// Whether, in lock-step, the world has not come to rest within 10 s of simulated time.
+  bool isRestless() const;
+  /// Whether a motion runs for a client.
+  bool inMotion() const;
 
   std::uint64_t ticks() const noexcept { return ticks_; }
 

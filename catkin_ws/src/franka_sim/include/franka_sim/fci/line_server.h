@@ -29,7 +29,7 @@ class LineServer final : public Service {
   /// Gets the words after the command's name; returns the value to answer, or nothing.
   /// @throws std::exception whose text becomes the error.
   using Handler = std::function<std::string(const Words&)>;
-  /// Whether a command can be executed now.
+  /// Whether a command can be executed now, or has taken effect.
   using Ready = std::function<bool()>;
 
   /// @param first_line a client that has sent no line for this time is replaced by a new one
@@ -37,14 +37,18 @@ class LineServer final : public Service {
   LineServer(const std::string& address, std::uint16_t port,
              std::chrono::seconds first_line = std::chrono::seconds(5))
       : listener_(address, port), first_line_(first_line) {}
-  /// Sends the answer that is still due: to the line that ended the host.
+  /// Sends the answer that is still due, to the line that ended the host; none where the effect has
+  /// not come about.
   ~LineServer() override;
 
   std::uint16_t port() const noexcept { return listener_.port(); }
   /// @param usage the command as the user types it, for example "user_stop on|off"; its first word
   /// is the name.
   /// @param ready lines wait until it returns true
-  void add(const std::string& usage, Handler handler, Ready ready = [] { return true; });
+  /// @param done the answer to an executed line waits until it returns true
+  void add(
+      const std::string& usage, Handler handler, Ready ready = [] { return true; },
+      Ready done = [] { return true; });
   /// The answer to one line.
   std::string answer(const std::string& line) const;
 
@@ -58,6 +62,7 @@ class LineServer final : public Service {
     std::string usage;
     Handler handler;
     Ready ready;
+    Ready done;
   };
   /// A refused connection: it is closed once its peer has read the reason.
   struct Leaving {
@@ -68,6 +73,7 @@ class LineServer final : public Service {
   void accept();
   void serveClient();
   bool isReady(const std::string& line) const;
+  bool isDone() const;
   void dismiss(std::unique_ptr<Connection> connection, const std::string& sentence);
   void closeLeaving();
   std::string help() const;
@@ -80,6 +86,7 @@ class LineServer final : public Service {
   bool has_ended_{false};              ///< it sends no more, but may still wait for answers
   bool waits_{false};                  ///< its line cannot be executed yet
   std::optional<std::string> answer_;  ///< to its last line; kept until states have been sent
+  Ready done_;                         ///< of that line; empty: done
   std::vector<Leaving> leaving_;
   std::map<std::string, Entry> entries_;
 };
