@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 TOP = Path(__file__).parent
+pytest_plugins = ["pyfranka.pytest_plugin"]  # which the wheel's entry point names
+
 SHARED = ("tests", "tests/support", "catkin_ws/src/franka_sim_mujoco/src")
 sys.path[:0] = [str(TOP / folder) for folder in SHARED]
 

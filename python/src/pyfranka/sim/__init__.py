@@ -19,6 +19,8 @@ thread at a time may use a simulation.
 
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState, RequestRefused, Snapshot
 
+from pyfranka.remote import LineRefused, Remote, RemoteState
+
 from .batch import SimulationBatch
 from .robot import Action, Gripper, Robot
 from .setups import FR3, Panda
@@ -31,9 +33,12 @@ __all__ = [
     "Contact",
     "Gripper",
     "GripperOutcome",
+    "LineRefused",
     "LiveState",
     "Panda",
     "Picture",
+    "Remote",
+    "RemoteState",
     "RequestRefused",
     "Robot",
     "Simulation",

@@ -1,0 +1,326 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The program franka_sim, run by a Python program: robots on addresses of their own, ended with it.
+
+    from pyfranka.franka_sim import FrankaSim
+
+    with FrankaSim("panda") as sim:
+        robot = sim.robot.connect()
+        print(robot.read_once().q, sim.robot.remote.state().mode)
+
+pyfranka.pytest_plugin has fixtures for it.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import typing
+import weakref
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from ipaddress import IPv4Address
+from pathlib import Path
+
+from pyfranka.remote import PORT, Remote
+
+if typing.TYPE_CHECKING:
+    import pyfranka
+
+__all__ = ["FrankaSim", "FrankaSimError", "ServedRobot", "SimRobot"]
+
+PROGRAM = "franka_sim"
+KINDS = {"panda": 5, "fr3": 10}  # and the newest protocol that each speaks
+TO_START, TO_END = 60.0, 20.0  # [s], on a busy machine (chosen here)
+PAUSE = 0.01  # [s] between two looks (chosen here)
+LAST_LINES = 100  # of a log in a message (chosen here)
+# Chosen here, away from the addresses that people type. All of 127.0.0.0/8 belongs to the machine.
+FIRST_ADDRESS, ADDRESSES = IPv4Address("127.64.0.0"), 1 << 22
+ATTEMPTS = 50  # to find a free one (chosen here)
+TAKEN = "Another simulated robot runs there"
+
+
+class FrankaSimError(RuntimeError):
+    """franka_sim could not be started, ended by itself or did not end; the text is what it has written."""
+
+
+@dataclass(frozen=True)
+class SimRobot:
+    """A robot to serve; the options of franka_sim with these names say more (docs/franka_sim.md).
+
+    kind: "panda" or "fr3". arm_id: prefix of its links and joints (its kind). base: x, y, z [m] and,
+    optionally, the turn about the vertical [rad]. hand: "gripper", "vacuum" or "none". realism: a profile
+    (real). protocol: the only version that it speaks; 0: all of its kind. urdf: another description.
+    address: where it is served; empty: an address of its own. arguments: further options.
+    """
+
+    kind: str = "panda"
+    arm_id: str = ""
+    base: Sequence[float] | None = None
+    hand: str = ""
+    realism: str = ""
+    protocol: int = 0
+    urdf: str = ""
+    address: str = ""
+    arguments: Sequence[str] = ()
+
+    def options(self) -> list[str]:
+        """The words of the command line."""
+        words = [f"--robot={self.kind}", f"--ip={self.address}"]
+        if self.base is not None:
+            words.append("--base=" + ",".join(repr(float(number)) for number in self.base))
+        for name in ("arm_id", "hand", "realism", "protocol", "urdf"):
+            if value := getattr(self, name):
+                words.append(f"--{name.replace('_', '-')}={value}")
+        return words + [str(word) for word in self.arguments]
+
+
+class ServedRobot:
+    """One robot of a running franka_sim."""
+
+    def __init__(self, server: FrankaSim, robot: SimRobot, arm_id: str):
+        self.server, self.kind, self.arm_id, self.address = server, robot.kind, arm_id, robot.address
+        self.protocol = robot.protocol or KINDS[robot.kind]  # the newest version that it speaks
+        self.remote = Remote(robot.address)  # its control interface
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} '{self.arm_id}' at {self.address}>"
+
+    def connect(self) -> pyfranka.Robot:
+        """A connection to the robot that needs no real-time kernel. Raises pyfranka.Exception."""
+        import pyfranka
+
+        return pyfranka.Robot(self.address, pyfranka.RealtimeConfig.Ignore)
+
+    def gripper(self) -> pyfranka.Gripper:
+        """A connection to its hand. Raises pyfranka.Exception."""
+        import pyfranka
+
+        return pyfranka.Gripper(self.address)
+
+
+class FrankaSim:
+    """A running franka_sim: robots in one world. A context manager that ends it.
+
+    robots: SimRobot, or the kind alone ("panda", "fr3"); without one, a panda. world: a scene, MJCF or SDF.
+    pace: lockstep, realtime, patient or a factor. arguments: further options of the program.
+    program: its path; empty: the one of the workspace, of this Python environment or on PATH.
+
+    Raises FrankaSimError with the program's own sentence if it does not start within a minute.
+
+    The program ends with the object, with the interpreter and, if it was started by the main thread, also
+    when this process is killed. Ctrl-C on a terminal does not reach it.
+    """
+
+    _all: typing.ClassVar[weakref.WeakSet[FrankaSim]] = weakref.WeakSet()
+
+    def __init__(
+        self,
+        *robots: SimRobot | str,
+        world: str | os.PathLike = "",
+        pace: str | float = "lockstep",
+        arguments: Sequence[str] = (),
+        program: str = "",
+    ):
+        self._asked = [SimRobot(each) if isinstance(each, str) else each for each in robots or ("panda",)]
+        self._options = [f"--pace={pace}", *([f"--world={world}"] if world else []), *map(str, arguments)]
+        self._program = find_program(program)
+        self._locks: list[socket.socket] = []  # of the addresses
+        self._stopped = False
+        self._start()
+        FrankaSim._all.add(self)
+
+    def __repr__(self) -> str:
+        return f"<franka_sim with {', '.join(map(repr, self.robots))}>"
+
+    def __enter__(self) -> FrankaSim:
+        return self
+
+    def __exit__(self, *error) -> None:
+        self.stop()
+
+    def __getitem__(self, arm_id: str) -> ServedRobot:
+        for robot in self.robots:
+            if robot.arm_id == arm_id:
+                return robot
+        names = ", ".join(robot.arm_id for robot in self.robots)
+        raise KeyError(f"There is no robot '{arm_id}'; there are: {names}.")
+
+    @property
+    def robot(self) -> ServedRobot:
+        """The first robot."""
+        return self.robots[0]
+
+    @property
+    def stopped(self) -> bool:
+        """Whether stop() or kill() was called."""
+        return self._stopped
+
+    @classmethod
+    def known(cls) -> list[FrankaSim]:
+        """Those that this process has started and still uses."""
+        return list(cls._all)
+
+    def log(self, since: int = 0) -> str:
+        """What the program has written on standard output and standard error, from that byte on."""
+        return os.pread(self._log.fileno(), self.log_size() - since, since).decode(errors="replace")
+
+    def log_size(self) -> int:
+        """Bytes of the log."""
+        return os.fstat(self._log.fileno()).st_size
+
+    def status(self) -> str:
+        """A sentence if the program has ended, or nothing."""
+        code = self.process.poll()
+        if code is None:
+            return ""
+        how = f"by signal {signal.Signals(-code).name}" if code < 0 else f"with status {code}"
+        return f"franka_sim has ended {how}."
+
+    def kill(self) -> None:
+        """Ends the program as a crash does, for tests of what its clients do then."""
+        self._stopped = True
+        self._finalizer()
+        self._release()
+
+    def stop(self) -> None:
+        """Ends the program, if it runs. Raises FrankaSimError with its last lines if it has failed, or had to
+        be killed because it did not end within 20 s."""
+        if self._stopped:
+            return
+        self._stopped = True
+        by_itself = self.process.poll() is not None
+        self._end()
+        self._release()
+        if self.process.returncode != 0:
+            when = "by itself" if by_itself else "when it was told to"
+            raise FrankaSimError(
+                f"{self.status()} It ended {when}; its last lines:\n{last_lines(self.log())}"
+            )
+
+    # ---- start and end -----------------------------------------------------------------------------------
+
+    def _start(self) -> None:
+        for _ in range(ATTEMPTS):
+            robots = [replace(each, address=each.address or self._reserve()) for each in self._asked]
+            self._log = tempfile.TemporaryFile(prefix="franka_sim.")
+            words = [word for robot in robots for word in robot.options()]
+            self.process = _started([self._program, *words, *self._options], self._log)
+            # Ends the program when this object or the interpreter ends.
+            self._finalizer = weakref.finalize(self, _kill, self.process, os.getpid())
+            ready = False
+            try:
+                ready = self._wait_until_ready(len(robots))
+            finally:
+                if not ready:
+                    self._end()
+                    self._release()
+            if ready:
+                self.robots = [ServedRobot(self, *each) for each in zip(robots, _names(robots))]
+                return
+            text = self.log().strip() or self.status()
+            # A robot that was not started here may be at an address that seemed free.
+            if TAKEN not in text or all(each.address for each in self._asked):
+                break
+        raise FrankaSimError(text)
+
+    def _wait_until_ready(self, count: int) -> bool:
+        deadline = time.monotonic() + TO_START
+        while time.monotonic() < deadline:
+            ended = self.process.poll() is not None
+            if self.log().count(" waits for clients at ") == count:
+                return not ended
+            if ended:
+                return False
+            time.sleep(PAUSE)
+        os.write(self._log.fileno(), f"franka_sim was not ready within {TO_START:g} s.\n".encode())
+        return False
+
+    def _end(self) -> None:
+        self._finalizer.detach()
+        self.process.terminate()
+        try:
+            self.process.wait(TO_END)
+        except subprocess.TimeoutExpired:
+            _kill(self.process, os.getpid())
+
+    # A free address. It is reserved by a socket, so that no other process takes it in the meantime: UDP,
+    # which nothing of a robot has at this port.
+    def _reserve(self) -> str:
+        for _ in range(ATTEMPTS):
+            address = str(FIRST_ADDRESS + 1 + secrets.randbelow(ADDRESSES - 2))
+            lock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+            try:
+                lock.bind((address, PORT))
+            except OSError:
+                lock.close()
+                continue
+            self._locks.append(lock)
+            return address
+        raise FrankaSimError(f"No free address was found for a robot, UDP port {PORT} ({ATTEMPTS} attempts).")
+
+    def _release(self) -> None:
+        for lock in self._locks:
+            lock.close()
+        self._locks = []
+
+
+def find_program(path: str = "") -> str:
+    """The program franka_sim: that path; or the workspace's, this Python environment's, the one on PATH.
+    Raises FrankaSimError if there is none."""
+    if path:
+        found = shutil.which(path)
+    else:
+        prefixes = [prefix for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":") if prefix]
+        folders = [*(str(Path(prefix) / "bin") for prefix in prefixes), str(Path(sys.executable).parent)]
+        found = shutil.which(PROGRAM, path=":".join([*folders, os.environ.get("PATH", "")]))
+    if found:
+        return found
+    raise FrankaSimError(
+        f"There is no program '{path}'."
+        if path
+        else "There is no franka_sim in this workspace or Python environment, nor on PATH. Build it with "
+        "./franka build, or install the wheel pyfranka."
+    )
+
+
+def last_lines(text: str) -> str:
+    """The end of a log."""
+    return "\n".join(text.splitlines()[-LAST_LINES:]) or "(it has written nothing)"
+
+
+def _started(command: list[str], log: typing.IO) -> subprocess.Popen:
+    # The system ends the program when the thread that started it ends: only the main one lasts.
+    guard = shutil.which("setpriv")
+    if guard and threading.current_thread() is threading.main_thread():
+        command = [guard, "--pdeathsig", "TERM", "--", *command]
+    return subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, process_group=0
+    )
+
+
+# A fork of the process that started it leaves the program alone.
+def _kill(process: subprocess.Popen, owner: int) -> None:
+    if os.getpid() == owner:
+        process.kill()
+        process.wait()
+
+
+# The names that franka_sim gives to its robots.
+def _names(robots: list[SimRobot]) -> list[str]:
+    taken, names = {robot.arm_id for robot in robots}, []
+    for robot in robots:
+        name, number = robot.arm_id or robot.kind, 2
+        while not robot.arm_id and name in taken:
+            name, number = f"{robot.kind}_{number}", number + 1
+        taken.add(name)
+        names.append(name)
+    return names

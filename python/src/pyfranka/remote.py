@@ -1,0 +1,419 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The control interface of a robot that franka_sim serves, which stands for the operator beside it.
+
+    from pyfranka.remote import Remote
+
+    remote = Remote("127.0.0.1")
+    remote.user_stop(True)
+    print(remote.state().mode)
+
+Each line of the interface (docs/franka_sim.md) is a method. It needs sockets and numpy only.
+"""
+
+from __future__ import annotations
+
+import operator
+import re
+import socket
+import threading
+import time
+import typing
+from collections.abc import Callable
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["PORT", "LineRefused", "Remote", "RemoteState"]
+
+Array = NDArray[numpy.float64]
+PORT = 1340
+NO_TURN = (1.0, 0.0, 0.0, 0.0)
+# Chosen here: `hash` and `wait` may take 10 s of simulated time on a busy machine.
+TIME_LIMIT = 60.0  # [s]
+PAUSE = 0.01  # [s] between two looks (chosen here)
+LONGEST_ANSWER = 65536  # [bytes]; the longest one, to `help`, has 700 (chosen here)
+HELD = "error: Another client holds this control interface"
+STATE = re.compile(
+    r"(?P<mode>.+?), client of protocol (?P<protocol>\d+), errors (?P<errors>.*), q(?P<q>(?: \S+){7})"
+    r"(?:; (?P<fault>.*))?"
+)
+ERROR = re.compile(r"(?P<name>\w+)(?: \((?P<detail>[^()]*)\))?")
+
+
+class LineRefused(RuntimeError):
+    """The robot has refused a line; the text is its own sentence, and nothing has changed."""
+
+
+@dataclass(frozen=True, eq=False)
+class RemoteState:
+    """What the line `state` reports.
+
+    mode: such as "Idle", "Move", "Reflex", "User stopped", "Guiding", "Other". protocol: version of the
+    connected client, 0 without one. errors: present errors with their details, which may be empty.
+    q: joint positions, 7 [rad]. fault: why the whole world stands still; empty while it does not.
+    """
+
+    mode: str
+    protocol: int
+    errors: dict[str, str]
+    q: Array
+    fault: str
+
+
+class Remote:
+    """The control interface of one robot. Each robot of one franka_sim has its own, at its own address; lines
+    about the world (push, place, where, time, step, wait, reset, quit) concern all of them.
+
+    address, port: where the robot is. timeout: limit of each call [s], unless the call names another one.
+
+    A method returns after its line has taken effect and states that show it were sent. It raises
+    LineRefused with the robot's sentence; ValueError or TypeError for what cannot be written as a line;
+    ConnectionError where no robot is or where it goes away; TimeoutError where no answer comes in time. After
+    the last two the line may have taken effect. In a motion in lock-step the effect is in the next tick.
+
+    The robot accepts one client at a time. By itself each call is a connection of its own, and waits, within
+    its limit, until no other client is connected. As a context manager a Remote holds one connection, so that
+    no other client gets between its calls. Thread-safe.
+    """
+
+    def __init__(self, address: str, port: int = PORT, timeout: float = TIME_LIMIT):
+        if not address or not isinstance(address, str):
+            raise ValueError("Give the address of the robot, such as 127.0.0.1.")
+        self.address, self.port, self.timeout = address, _whole(port, "The port"), _seconds(timeout)
+        self._connection: _Connection | None = None
+        self._held = False
+        self._lock = threading.RLock()
+
+    def __repr__(self) -> str:
+        return f"Remote({self.address!r}, {self.port})"
+
+    def __enter__(self) -> Remote:
+        with self._locked(self.timeout):
+            self._held = True
+            try:
+                self.time()  # a client that has sent a line is not replaced by another one
+            except BaseException:
+                self.close()
+                raise
+        return self
+
+    def __exit__(self, *error) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the connection that the context manager holds; the robot stays."""
+        self._held = False
+        connection, self._connection = self._connection, None
+        if connection:
+            connection.close()
+
+    def send(self, line: str, timeout: float | None = None) -> str:
+        """Sends a line as it stands, without its end. Returns what follows `ok`, or an empty string."""
+        if "\n" in line:
+            raise ValueError("Send one line at a time, without its end.")
+        limit = self.timeout if timeout is None else _seconds(timeout)
+        with self._locked(limit):
+            answer = self._exchange(line, time.monotonic() + limit, limit)
+        word, _, value = answer.partition(" ")
+        if word == "ok":
+            return value
+        if word == "error:":
+            raise LineRefused(value)
+        raise ConnectionError(
+            f"What answers at {self._place()} is no control interface of franka_sim: '{answer[:80]}'."
+        )
+
+    def help(self, timeout: float | None = None) -> list[str]:
+        """The lines that this robot knows, with their words."""
+        return self.send("help", timeout).split("; ")
+
+    # ---- the robot ---------------------------------------------------------------------------------------
+
+    def user_stop(self, pressed: bool, timeout: float | None = None) -> None:
+        """Presses or releases the user stop, which aborts a motion."""
+        self.send(f"user_stop {_switch(pressed)}", timeout)
+
+    def guiding(self, active: bool, timeout: float | None = None) -> None:
+        """Begins or ends guiding by hand."""
+        self.send(f"guiding {_switch(active)}", timeout)
+
+    def brakes(self, closed: bool, timeout: float | None = None) -> None:
+        """Closes or opens the brakes."""
+        self.send("brakes " + ("close" if _switch(closed) == "on" else "open"), timeout)
+
+    def fci(self, active: bool, timeout: float | None = None) -> None:
+        """Whether clients may connect. Off: a motion is aborted and the client disconnected."""
+        self.send(f"fci {_switch(active)}", timeout)
+
+    def load(self, mass: float, center: ArrayLike = (0, 0, 0), timeout: float | None = None) -> None:
+        """The load that the robot assumes: mass [kg], centre of mass in the flange's frame, 3 [m]."""
+        self.send(_line("load", [mass], _numbers(center, 3, "The centre of mass")), timeout)
+
+    def wall(
+        self,
+        number: int,
+        center: ArrayLike,
+        edges: ArrayLike,
+        orientation: ArrayLike = NO_TURN,
+        timeout: float | None = None,
+    ) -> None:
+        """Sets the virtual wall of that number, 0 to 7: a box. center: 3 [m], edges: 3 [m], orientation:
+        quaternion w, x, y, z, all in the robot's base frame."""
+        words = [_numbers(center, 3, "The centre"), _numbers(edges, 3, "The edges")]
+        words.append(_numbers(orientation, 4, "The orientation"))
+        self.send(_line(f"wall {_whole(number, 'The number of a wall')}", *words), timeout)
+
+    def remove_wall(self, number: int, timeout: float | None = None) -> None:
+        """Removes the virtual wall of that number, 0 to 7."""
+        self.send(f"wall {_whole(number, 'The number of a wall')} off", timeout)
+
+    def part(self, present: bool, timeout: float | None = None) -> None:
+        """Whether a part covers the cup of the vacuum gripper."""
+        self.send(f"part {_switch(present)}", timeout)
+
+    def pump(
+        self, health: typing.Literal["green", "yellow", "orange", "red"], timeout: float | None = None
+    ) -> None:
+        """Health of the vacuum gripper's pump; a red one does not work."""
+        self.send(f"pump {_word(health, 'The health')}", timeout)
+
+    def state(self, timeout: float | None = None) -> RemoteState:
+        """Mode, client, errors and joints."""
+        text = self.send("state", timeout)
+        match = STATE.fullmatch(text)
+        if not match:
+            raise ConnectionError(f"The state of the robot at {self._place()} cannot be read: '{text}'.")
+        errors = {} if match["errors"] == "none" else dict(ERROR.findall(match["errors"]))
+        q = numpy.array(match["q"].split(), dtype=float)
+        return RemoteState(match["mode"], int(match["protocol"]), errors, q, match["fault"] or "")
+
+    def hash(self, timeout: float | None = None) -> int:
+        """Hash of all states since the first command, as pyfranka.sim.Robot.hash(). In lock-step it waits
+        until no motion runs and the world is at rest, at most 10 s of its time."""
+        return int(self.send("hash", timeout), 16)
+
+    # ---- the link to the client --------------------------------------------------------------------------
+
+    def loss(self, probability: float, seed: int = 0, timeout: float | None = None) -> None:
+        """Loses commands with this probability; the same seed, from 0 to 2^64 - 1, loses the same ones."""
+        self.send(_line("loss", [probability]) + f" {_whole(seed, 'A seed')}", timeout)
+
+    def lose(self, commands: int, timeout: float | None = None) -> None:
+        """Loses the next commands, so many."""
+        self.send(f"lose {_whole(commands, 'The number of commands')}", timeout)
+
+    def delay(self, ticks: int, timeout: float | None = None) -> None:
+        """Lets commands arrive 0 to 20 ticks [ms] later."""
+        self.send(f"delay {_whole(ticks, 'A delay')}", timeout)
+
+    # ---- the world ---------------------------------------------------------------------------------------
+
+    def push(self, body: str, force: ArrayLike, ticks: int = 1, timeout: float | None = None) -> None:
+        """A force, 3 [N] in world axes, at a body's origin, for so many milliseconds from now. Returns when
+        it has begun; wait() or step() let it end."""
+        words = _line(f"push {_word(body, 'The name of a body')}", _numbers(force, 3, "The force"))
+        self.send(f"{words} {_whole(ticks, 'The duration')}", timeout)
+
+    def place(
+        self, body: str, position: ArrayLike, orientation: ArrayLike = NO_TURN, timeout: float | None = None
+    ) -> None:
+        """Puts a free body to a position, 3 [m], and a quaternion w, x, y, z of the world, at rest."""
+        pose = [_numbers(position, 3, "The position"), _numbers(orientation, 4, "The orientation")]
+        self.send(_line(f"place {_word(body, 'The name of a body')}", *pose), timeout)
+
+    def where(self, body: str, timeout: float | None = None) -> Array:
+        """Position of a body in the world, 3 [m]."""
+        return numpy.array(self.send(f"where {_word(body, 'The name of a body')}", timeout).split(), float)
+
+    def time(self, timeout: float | None = None) -> float:
+        """Simulated time since the start or the last reset [s]."""
+        return float(self.send("time", timeout))
+
+    def step(self, ticks: int = 1, timeout: float | None = None) -> None:
+        """Returns when so many milliseconds of simulated time have passed.
+
+        In lock-step it first waits until the world is at rest, then lets it run for exactly this time, and
+        longer only if an arm moves at its end; within a motion the client makes time pass. The default limit
+        is longer by the time itself.
+        """
+        ticks = _whole(ticks, "The number of ticks")
+        self.send(f"step {ticks}", self.timeout + 1e-3 * max(0, ticks) if timeout is None else timeout)
+
+    def wait(
+        self, condition: Callable[[RemoteState], bool] | None = None, timeout: float | None = None
+    ) -> RemoteState:
+        """Returns the state once the world is at rest: no motion runs, no arm stops or recovers, no hand
+        works, and in lock-step time stands still. With a condition: once that is true.
+
+        Raises LineRefused if, in lock-step, the world has not come to rest within 10 s of its time.
+        """
+        limit = self.timeout if timeout is None else _seconds(timeout)
+        deadline = time.monotonic() + limit
+        if condition is None:
+            self.send("wait", limit)
+            return self.state(_left(deadline))
+        while not condition(state := self.state(_left(deadline))):
+            if time.monotonic() + PAUSE > deadline:
+                raise TimeoutError(
+                    f"The robot at {self._place()} has not come to the awaited state within {limit:g} s: "
+                    f"{state}."
+                )
+            time.sleep(PAUSE)
+        return state
+
+    def reset(self, timeout: float | None = None) -> None:
+        """Sets the world to its initial state, for all robots; refused within motions. Modes, errors and
+        settings stay."""
+        self.send("reset", timeout)
+
+    def quit(self, timeout: float | None = None) -> None:
+        """Ends the program, with all its robots; returns when nothing listens there."""
+        limit = self.timeout if timeout is None else _seconds(timeout)
+        deadline = time.monotonic() + limit
+        self.send("quit", limit)
+        self.close()
+        while self._listens(deadline):
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"franka_sim at {self._place()} has not ended within {limit:g} s.")
+            time.sleep(PAUSE)
+
+    # ---- the connection ----------------------------------------------------------------------------------
+
+    def _place(self) -> str:
+        return f"{self.address}, port {self.port}"
+
+    @contextmanager
+    def _locked(self, limit: float):
+        if not self._lock.acquire(timeout=limit):
+            raise TimeoutError(f"Another thread has used this Remote for more than {limit:g} s.")
+        try:
+            yield
+        finally:
+            self._lock.release()
+
+    def _listens(self, deadline: float) -> bool:
+        try:
+            socket.create_connection((self.address, self.port), timeout=_left(deadline)).close()
+            return True
+        except OSError:
+            return False
+
+    # The answer to a line. While another client is connected, the line is refused and not executed.
+    def _exchange(self, line: str, deadline: float, limit: float) -> str:
+        while True:
+            connection = self._connection or _Connection(self.address, self.port, deadline, limit)
+            self._connection = None
+            keep = False
+            try:
+                answer = connection.ask(line, deadline, limit)
+                refused = answer.startswith(HELD)
+                keep = self._held and not refused
+            finally:
+                if keep:
+                    self._connection = connection
+                else:
+                    connection.close()
+            if not refused or time.monotonic() + PAUSE > deadline:
+                return answer
+            time.sleep(PAUSE)
+
+
+class _Connection:
+    """One TCP connection, in which lines are answered one after the other."""
+
+    def __init__(self, address: str, port: int, deadline: float, limit: float):
+        self._place = f"{address}, port {port}"
+        try:
+            self._socket = socket.create_connection((address, port), timeout=_left(deadline))
+        except TimeoutError:
+            raise TimeoutError(f"Nothing has answered at {self._place} within {limit:g} s.") from None
+        except OSError as error:
+            raise ConnectionError(
+                f"There is no control interface at {self._place} ({error.strerror or error}). Start "
+                "franka_sim there, without --control-port 0."
+            ) from None
+
+    def close(self) -> None:
+        self._socket.close()
+
+    def ask(self, line: str, deadline: float, limit: float) -> str:
+        try:
+            self._socket.settimeout(_left(deadline))
+            self._socket.sendall(line.encode() + b"\n")
+            return self._answer(deadline).decode(errors="replace")
+        except TimeoutError:
+            raise TimeoutError(
+                f"The robot at {self._place} has not answered '{line}' within {limit:g} s. The line may "
+                "still take effect."
+            ) from None
+        except EOFError:
+            raise ConnectionError(
+                f"The robot at {self._place} went away before it answered '{line}'."
+            ) from None
+        except OSError as error:
+            raise ConnectionError(
+                f"The connection to the robot at {self._place} broke at '{line}': {error.strerror or error}."
+            ) from None
+
+    def _answer(self, deadline: float) -> bytes:
+        data = b""
+        while b"\n" not in data and len(data) < LONGEST_ANSWER:
+            if time.monotonic() > deadline:
+                raise TimeoutError
+            self._socket.settimeout(_left(deadline))
+            part = self._socket.recv(4096)
+            if not part:
+                raise EOFError
+            data += part
+        return data.partition(b"\n")[0].rstrip(b"\r")
+
+
+# ---- words of a line -------------------------------------------------------------------------------------
+
+
+def _left(deadline: float) -> float:
+    """Seconds until the deadline; never zero, which would mean a socket that does not wait."""
+    return max(1e-3, deadline - time.monotonic())
+
+
+def _seconds(limit: float) -> float:
+    if not 0.0 < limit < float(threading.TIMEOUT_MAX):
+        raise ValueError(f"A time limit is a positive number of seconds, not {limit}.")
+    return float(limit)
+
+
+def _switch(on: bool) -> str:
+    if not isinstance(on, (bool, numpy.bool_)):
+        raise TypeError(f"Give True or False, not {on!r}.")
+    return "on" if on else "off"
+
+
+def _whole(number: int, what: str) -> int:
+    try:
+        return operator.index(number)
+    except TypeError:
+        raise TypeError(f"{what} is a whole number, not {number!r}.") from None
+
+
+def _word(text: str, what: str) -> str:
+    if not isinstance(text, str) or text.split() != [text]:
+        raise ValueError(f"{what} is one word, not {text!r}.")
+    return text
+
+
+def _numbers(values: ArrayLike, count: int, what: str) -> Array:
+    try:
+        array = numpy.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{what} has {count} numbers, which {values!r} has not.") from None
+    if array.size != count:
+        raise ValueError(f"{what} has {count} numbers, not {array.size}.")
+    return array.ravel()
+
+
+def _line(name: str, *numbers: ArrayLike) -> str:
+    # repr() of a float is the shortest text that reads as the same number.
+    return " ".join([name, *(repr(float(number)) for each in numbers for number in each)])

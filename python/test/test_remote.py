@@ -1,0 +1,462 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Remote: each line of franka_sim's control port, its effects, refusals and time limits."""
+
+import inspect
+import re
+import signal
+import socket
+import threading
+import time
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import numpy
+import pyfranka
+import pyfranka.sim
+import pytest
+from pyfranka.franka_sim import SimRobot
+from pyfranka.remote import LineRefused, Remote
+
+TOP = Path(__file__).resolve().parents[2]
+PARSER = TOP / "catkin_ws" / "src" / "franka_sim" / "src" / "app" / "operator_commands.cpp"
+PAGE = TOP / "docs" / "franka_sim.md"
+READY = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
+# Methods that are no line of their own.
+HELPERS = {"send", "close", "remove_wall"}
+
+
+@pytest.fixture(scope="module")
+def server(franka_sim_session):
+    """A Panda and an FR3 in one world with a stone, in lock-step and without friction."""
+    robots = [
+        SimRobot("panda", base=(-0.5, 0, 0), realism="ideal"),
+        SimRobot("fr3", arm_id="left", base=(0, 2, 0), realism="ideal", hand="vacuum"),
+    ]
+    server = franka_sim_session(*robots, world="stone.xml", pace="lockstep")
+    yield server
+    server.stop()
+
+
+@pytest.fixture(params=["panda", "left"])
+def robot(server, request):
+    server[request.param].remote.reset()
+    return server[request.param]
+
+
+@pytest.fixture
+def remote(robot):
+    return robot.remote
+
+
+def names(usages):
+    return {usage.split()[0] for usage in usages}
+
+
+# ---- the list of lines -----------------------------------------------------------------------------------
+
+
+def test_each_line_of_the_program_is_a_method_and_each_method_a_line(server):
+    lines = names(server["panda"].remote.help()) | names(server["left"].remote.help()) | {"help"}
+    methods = {name for name, _ in inspect.getmembers(Remote, inspect.isfunction) if not name.startswith("_")}
+    assert methods - HELPERS == lines
+    assert names(re.findall(r'lines\.add\(\s*"([^"]+)"', PARSER.read_text())) | {"help"} == lines
+    table = PAGE.read_text().partition("| line | meaning |")[2].partition("\n\n")[0]
+    assert names(re.findall(r"^\| `([^`]+)`", table, re.MULTILINE)) == lines
+
+
+def test_methods_are_typed_and_take_a_time_limit():
+    for name, method in inspect.getmembers(Remote, inspect.isfunction):
+        if name.startswith("_") or name == "close":
+            continue
+        parameters = inspect.signature(method).parameters
+        assert "return" in method.__annotations__, name
+        assert set(parameters) - {"self"} == set(method.__annotations__) - {"return"}, name
+        assert parameters["timeout"].default is None, name
+        assert method.__doc__, name
+
+
+def test_the_example_of_the_documentation_works(server, capsys):
+    page = (TOP / "docs" / "python.md").read_text().partition("## Control interface")[2]
+    example = page.partition("```python\n")[2].partition("```")[0]
+    assert '"127.0.0.1"' in example
+    exec(example.replace("127.0.0.1", server["panda"].address), {})
+    assert capsys.readouterr().out.startswith("User stopped\n")
+
+
+# ---- what lines do ---------------------------------------------------------------------------------------
+
+
+def test_switches_show_in_the_state_at_once(remote):
+    assert remote.state().mode == "Idle"
+    remote.user_stop(True)
+    assert remote.state().mode == "User stopped"
+    remote.user_stop(False)
+    remote.guiding(True)
+    assert remote.state().mode == "Guiding"
+    remote.guiding(False)
+    remote.brakes(True)
+    assert remote.state().mode == "Other"
+    remote.brakes(False)
+    state = remote.wait()
+    assert state.mode == "Idle" and state.protocol == 0 and state.errors == {} and state.fault == ""
+    assert state.q == pytest.approx(READY, abs=1e-3)
+
+
+def test_a_client_and_the_errors_of_its_motion_are_reported(server):
+    """A push stops a moving arm by a reflex, which the state names with its force."""
+    robot = server["panda"]
+    robot.remote.reset()
+    client = robot.connect()
+    assert robot.remote.state().protocol == 5
+    pushed = []
+
+    def push(state, period):
+        if not pushed:
+            pushed.append(robot.remote.push("panda_hand", (0, 80, 0), 200))
+        return pyfranka.JointPositions(state.q_d)
+
+    with pytest.raises(pyfranka.ControlException, match="reflex"):
+        client.control_joint_positions(push)
+    state = robot.remote.state()
+    assert state.mode == "Reflex"
+    assert any("joint" in name or "cartesian" in name for name in state.errors)
+    assert any(re.search(r"\d (N|Nm)", detail) for detail in state.errors.values()), state.errors
+    client.automatic_error_recovery()
+    assert robot.remote.wait().errors == {}
+
+
+def test_the_interface_for_clients_can_be_switched_off(robot, remote):
+    remote.fci(False)
+    with pytest.raises(pyfranka.NetworkException, match="FCI"):
+        robot.connect()
+    remote.fci(True)
+    assert robot.connect().read_once().robot_mode == pyfranka.RobotMode.Idle
+
+
+def test_load_and_walls(robot, remote):
+    remote.load(0.5, (0, 0, 0.05))
+    client = robot.connect()
+    state = client.read_once()
+    assert state.m_load == pytest.approx(0.5) and state.F_x_Cload == pytest.approx([0, 0, 0.05])
+    remote.load(0)
+    assert client.read_once().m_load == 0
+    remote.wall(2, (0.3, 0, 0.2), (1, 1, 0.5), numpy.array([0, 0, 0, 2.0]))
+    if robot.kind == "panda":  # protocol 10 cannot ask for walls
+        wall = client.get_virtual_wall(2)
+        assert wall.active and wall.object_world_size == pytest.approx([1, 1, 0.5])
+        assert wall.p_frame[:3, 3] == pytest.approx([0.3, 0, 0.2])
+    remote.remove_wall(2)
+    assert robot.kind != "panda" or not client.get_virtual_wall(2).active
+    with pytest.raises(LineRefused, match="negative edge"):
+        remote.wall(2, (0, 0, 0), (1, 1, -1))
+    with pytest.raises(LineRefused, match="'8' is no number of a wall: 0 to 7"):
+        remote.remove_wall(8)
+
+
+def test_lost_and_delayed_commands(server):
+    robot = server["panda"]
+    robot.remote.reset()
+    client = robot.connect()
+    rates, count = [], [0]
+
+    def hold(state, period):
+        count[0] += 1
+        rates.append(state.control_command_success_rate)
+        if count[0] == 150:
+            robot.remote.lose(5)
+        command = pyfranka.JointPositions(state.q_d)
+        return pyfranka.motion_finished(command) if count[0] == 200 else command
+
+    client.control_joint_positions(hold)
+    assert rates[149] == 1.0 and min(rates[150:]) == pytest.approx(0.95, abs=1e-6)
+    robot.remote.loss(0.2, 2**64 - 1)
+    robot.remote.loss(0)
+    robot.remote.delay(3)
+    robot.remote.delay(0)
+    with pytest.raises(LineRefused, match="from 0 to 20"):
+        robot.remote.delay(21)
+    with pytest.raises(LineRefused, match="-1' is no seed"):
+        robot.remote.loss(0, -1)
+
+
+def test_places_and_pushes_in_the_world(server):
+    panda, left = server["panda"], server["left"]
+    panda.remote.reset()
+    assert left.remote.where("left_link0") == pytest.approx([0, 2, 0])
+    panda.remote.place("stone", (0.3, -0.6, 0.5), (0, 1, 0, 0))
+    # A second remote sees the same world. The stone falls to the ground.
+    panda.remote.wait()
+    assert left.remote.where("stone")[:2] == pytest.approx([0.3, -0.6], abs=0.02)
+    assert 0 < left.remote.where("stone")[2] < 0.1
+    before = panda.remote.wait().q
+    panda.remote.push("panda_hand", numpy.array([0, 8.0, 0]), 1000)
+    pushed = panda.remote.wait(lambda state: abs(state.q - before).max() > 1e-4)
+    assert pushed.mode == "Idle"
+    assert panda.remote.wait().q == pytest.approx(before, abs=1e-4)
+    left.remote.reset()
+    left.remote.wait()
+    assert left.remote.where("stone") == pytest.approx(panda.remote.where("stone"))
+
+
+def test_the_vacuum_gripper_has_lines_of_its_own(server):
+    left = server["left"].remote
+    left.part(True)
+    left.pump("orange")
+    left.part(False)
+    left.pump("green")
+    with pytest.raises(LineRefused, match="'blue' is none of green, yellow, orange and red"):
+        left.pump("blue")
+    with pytest.raises(LineRefused, match="There is no command 'part'"):
+        server["panda"].remote.part(True)
+
+
+# ---- time ------------------------------------------------------------------------------------------------
+
+
+def test_steps_are_exact_in_lock_step_and_time_stands_still_between_them(remote):
+    remote.wait()
+    begin = remote.time()
+    for ticks in (1, 7, 250):
+        before = remote.time()
+        remote.step(ticks)
+        assert remote.time() == pytest.approx(before + 1e-3 * ticks, abs=1e-9)
+    assert remote.time() == pytest.approx(begin + 0.258, abs=1e-9)
+    with pytest.raises(LineRefused, match="from 1 to 1000000"):
+        remote.step(0)
+
+
+def test_a_step_comes_after_what_was_begun_before(remote, robot):
+    """The push is over when the step begins: twice the same lines take the same time."""
+    spans = []
+    for _ in range(2):
+        remote.reset()
+        remote.wait()
+        begin = remote.time()
+        remote.push(f"{robot.arm_id}_link7", (0, 5, 0), 300)
+        remote.step(10)
+        spans.append(remote.time() - begin)
+    assert spans[0] == pytest.approx(spans[1], abs=1e-9) and spans[0] > 0.31
+
+
+def test_a_world_that_does_not_come_to_rest_is_reported(server):
+    remote = server["panda"].remote
+    remote.reset()
+    remote.push("panda_hand", (0, 5, 0), 60000)
+    with pytest.raises(LineRefused, match="has not come to rest within 10 s of its time"):
+        remote.wait()
+    before = remote.time()
+    remote.step(100)
+    assert remote.time() >= before + 0.1
+    remote.reset()
+    assert remote.wait().mode == "Idle"
+
+
+def test_a_call_that_was_given_up_does_not_hinder_the_next_one(franka_sim):
+    remote = franka_sim("panda", pace="realtime").robot.remote
+    for _ in range(3):
+        with pytest.raises(TimeoutError, match="'step 600000' within 0.1 s"):
+            remote.step(600000, timeout=0.1)
+        assert remote.state(timeout=20).mode == "Idle"
+
+
+def test_reset_sets_time_to_its_beginning(remote):
+    remote.step(500)
+    remote.reset()
+    assert remote.wait() and remote.time() < 0.5
+
+
+def test_steps_pass_in_real_time_too(franka_sim):
+    remote = franka_sim("panda", pace="realtime").robot.remote
+    before, wall = remote.time(), time.monotonic()
+    remote.step(300)
+    assert remote.time() - before >= 0.3
+    assert time.monotonic() - wall >= 0.25
+    remote.user_stop(True)
+    assert remote.wait().mode == "User stopped"
+
+
+def test_the_hash_waits_until_the_world_is_at_rest_and_repeats(server):
+    robot, ticks = server["panda"], 200
+    robot.remote.reset()
+    assert robot.remote.hash() == 0xCBF29CE484222325  # FNV-1a of nothing
+    client, count = robot.connect(), [0]
+
+    def hold(state, period):
+        count[0] += 1
+        command = pyfranka.JointPositions(state.q_d)
+        return pyfranka.motion_finished(command) if count[0] == ticks else command
+
+    hashes = []
+    for _ in range(2):
+        count[0] = 0
+        robot.remote.reset()
+        client.control_joint_positions(hold)
+        hashes.append(robot.remote.hash())
+    assert hashes[0] == hashes[1] != 0xCBF29CE484222325
+    assert isinstance(hashes[0], int)
+
+
+# ---- bad input -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "call, error, sentence",
+    [
+        (lambda r: r.user_stop("off"), TypeError, "Give True or False, not 'off'"),
+        (lambda r: r.guiding(1), TypeError, "Give True or False"),
+        (lambda r: r.delay(1.5), TypeError, "A delay is a whole number, not 1.5"),
+        (lambda r: r.lose("x"), TypeError, "whole number"),
+        (lambda r: r.push("a b", (0, 0, 1), 1), ValueError, "one word, not 'a b'"),
+        (lambda r: r.push("", (0, 0, 1), 1), ValueError, "one word"),
+        (lambda r: r.where("stone\nquit"), ValueError, "one word"),
+        (lambda r: r.send("state\nquit"), ValueError, "one line at a time"),
+        (lambda r: r.push("stone", (0, 1), 1), ValueError, "The force has 3 numbers, not 2"),
+        (lambda r: r.place("stone", "high"), ValueError, "The position has 3 numbers"),
+        (lambda r: r.place("stone", (0, 0, 1), (1, 0, 0)), ValueError, "The orientation has 4 numbers"),
+        (lambda r: r.push("stone", (0, float("nan"), 1), 1), LineRefused, "'nan' is not a finite number"),
+        (lambda r: r.push("nobody", (0, 0, 1), 1), LineRefused, "nobody"),
+        (lambda r: r.place("stone", (0, 0, 1e11)), LineRefused, " m"),
+        (lambda r: r.place("stone", (0, 0, 1), (0, 0, 0, 0)), LineRefused, "no unit quaternion"),
+        (lambda r: r.load(-1), LineRefused, "The load was refused"),
+        (lambda r: r.loss(2), LineRefused, "from 0 to 1"),
+        (lambda r: r.send("dance"), LineRefused, "There is no command 'dance'"),
+        (lambda r: r.state(timeout=0), ValueError, "positive number of seconds, not 0"),
+        (lambda r: r.state(timeout=float("nan")), ValueError, "positive number"),
+    ],
+)
+def test_bad_input_raises_a_sentence_and_changes_nothing(server, call, error, sentence):
+    remote = server["panda"].remote
+    remote.reset()
+    before = remote.wait().q, remote.where("stone"), remote.time()
+    with pytest.raises(error, match=sentence):
+        call(remote)
+    after = remote.state().q, remote.where("stone"), remote.time()
+    assert all(numpy.array_equal(a, b) for a, b in zip(before, after))
+
+
+def test_an_address_is_needed():
+    with pytest.raises(ValueError, match="Give the address"):
+        Remote("")
+    with pytest.raises(TypeError, match="The port is a whole number"):
+        Remote("127.0.0.1", "1340")
+
+
+# ---- connections -----------------------------------------------------------------------------------------
+
+
+def test_a_connection_of_the_context_manager_keeps_others_out(server):
+    address = server["panda"].address
+    with Remote(address) as first:
+        assert first.state().mode == "Idle"
+        begin = time.monotonic()
+        with pytest.raises(LineRefused, match="Another client holds this control interface"):
+            Remote(address).state(timeout=0.3)
+        assert time.monotonic() - begin >= 0.25, "It has waited for its turn."
+        assert first.state().mode == "Idle"
+    assert Remote(address).state().mode == "Idle"
+    with first:
+        assert first.state().mode == "Idle"
+
+
+def test_a_client_waits_for_its_turn(server):
+    address, answers = server["panda"].address, []
+    with Remote(address):
+        thread = threading.Thread(target=lambda: answers.append(Remote(address).state(timeout=20)))
+        thread.start()
+        time.sleep(0.2)
+        assert answers == []
+    thread.join(20)
+    assert [state.mode for state in answers] == ["Idle"]
+
+
+def test_threads_share_a_remote(server):
+    with server["panda"].remote as remote:
+        bodies = ["stone", "panda_link0"] * 20
+        expected = {body: remote.where(body) for body in set(bodies)}
+        found = {}
+
+        def look(index):
+            found[index] = remote.where(bodies[index])
+
+        threads = [threading.Thread(target=look, args=(index,)) for index in range(len(bodies))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(20)
+    assert len(found) == len(bodies)
+    assert all(numpy.array_equal(found[i], expected[body]) for i, body in enumerate(bodies))
+
+
+def test_no_robot_is_a_sentence():
+    with pytest.raises(
+        ConnectionError, match=r"no control interface at 127.0.32.20, port 1340 .*Start franka_sim"
+    ):
+        Remote("127.0.32.20").state()
+    with pytest.raises(ConnectionError, match="no control interface at no.such.host.invalid"):
+        Remote("no.such.host.invalid").state()
+
+
+def test_a_stopped_robot_times_out_and_works_again(franka_sim):
+    server = franka_sim("panda")
+    remote = server.robot.remote
+    server.process.send_signal(signal.SIGSTOP)
+    begin = time.monotonic()
+    with pytest.raises(TimeoutError, match="has not answered 'state' within 0.3 s. The line may still"):
+        remote.state(timeout=0.3)
+    assert time.monotonic() - begin < 5
+    server.process.send_signal(signal.SIGCONT)
+    assert remote.state().mode == "Idle"
+    with pytest.raises(TimeoutError, match="has not come to the awaited state within 0.3 s"):
+        remote.wait(lambda state: state.mode == "Move", timeout=0.3)
+
+
+def test_a_robot_that_goes_away_is_a_sentence(franka_sim):
+    server = franka_sim("panda", pace="realtime")
+    with server.robot.remote as remote:
+        threading.Timer(0.3, server.process.terminate).start()
+        with pytest.raises(ConnectionError, match="went away before it answered|broke at 'step"):
+            remote.step(60000)
+        with pytest.raises(ConnectionError, match="There is no control interface"):
+            remote.wait(lambda state: False, timeout=20)
+
+
+def test_quit_returns_when_nothing_listens(franka_sim):
+    server = franka_sim("panda")
+    server.robot.remote.quit()
+    with socket.socket() as probe:
+        assert probe.connect_ex((server.robot.address, 1340)) != 0
+    assert server.process.wait(20) == 0
+
+
+@contextmanager
+def answering(text):
+    """Something at a free port that accepts a connection and sends this."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+
+        def serve():
+            client, _ = listener.accept()
+            with client, suppress(ConnectionResetError):
+                client.recv(100)
+                client.sendall(text)
+                client.recv(100)  # until the other side closes
+
+        thread = threading.Thread(target=serve, daemon=True)
+        thread.start()
+        yield Remote("127.0.0.1", listener.getsockname()[1], timeout=1.0)
+        thread.join(20)
+
+
+@pytest.mark.parametrize(
+    "text, error, sentence",
+    [
+        (b"SSH-2.0-server\r\n", ConnectionError, "is no control interface of franka_sim: 'SSH-2.0-server'"),
+        (b"x" * 100000, ConnectionError, "is no control interface"),
+        (b"ok strange\n", ConnectionError, "cannot be read: 'strange'"),
+        (b"ok Idle, cli", TimeoutError, "has not answered 'state' within 1 s"),
+        (b"", TimeoutError, "has not answered 'state' within 1 s"),
+    ],
+)
+def test_other_servers_are_recognized(text, error, sentence):
+    with answering(text) as remote, pytest.raises(error, match=sentence):
+        remote.state()
