@@ -5,7 +5,7 @@
 import json
 import subprocess
 
-from fci_session import simulated
+from fci_session import memory_of, simulated
 from report import TOP, executables, failures, figure, print_stalls
 from stalls import Stalls
 
@@ -56,7 +56,7 @@ def genuine_client(library: str, address: str) -> float | None:
 def fci() -> None:
     print("The simulated robot on the network (franka_sim)")
     for robot, library in (("panda", "panda"), ("fr3", "pylibfranka")):
-        with simulated(robot, "127.0.27.1", "lockstep") as sim:
+        with simulated(robot, "lockstep") as sim:
             runs = [bench_client(sim.address, 20) for _ in range(3)]
             best = max(runs, key=lambda run: run["times_real_time"])
             title = f"{robot} in lock-step"
@@ -70,8 +70,8 @@ def fci() -> None:
                 print(f"  {library} is not installed; ./franka test tests installs it")
             else:
                 figure(f"{title}: times real time, {library}", max(speeds), "x", 10, at_least=True)
-            figure(f"{robot}: resident memory", sim.memory(), "MB", 80)
-    with simulated("panda", "127.0.27.2", "realtime") as sim:
+            figure(f"{robot}: resident memory", memory_of(sim.server.process.pid), "MB", 80)
+    with simulated("panda", "realtime") as sim:
         title = "commands lost in 60 s at 1 kHz"
         with Stalls() as stalls:
             try:

@@ -16,7 +16,8 @@ import rospy_connections
 from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryGoal
 from controller_manager_msgs.srv import SwitchController
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
-from recovery_client import PUSH, Operator
+from pyfranka.remote import Remote
+from recovery_client import PUSH
 from std_msgs.msg import Bool
 from trajectory_msgs.msg import JointTrajectoryPoint
 
@@ -27,7 +28,7 @@ PATIENCE = 15.0  # limit for immediate reactions [s]
 
 class Arm:
     def __init__(self, name, address):
-        self.name, self.operator = name, Operator(address)
+        self.name, self.operator = name, Remote(address)
         self.state, self.has_error = None, None
         states = f"{NODE}/{name}_state_controller/franka_states"
         rospy.Subscriber(states, FrankaState, lambda m: setattr(self, "state", m), queue_size=1)
@@ -93,7 +94,7 @@ def all_move(arms):
 
 def hit(arm, others):
     """Pushes one arm until its reflex; the others must not change."""
-    arm.operator.does(f"push {arm.name}_link7 {PUSH}")
+    arm.operator.push(f"{arm.name}_link7", *PUSH)
     outcome = {"reflex": waits(lambda: arm.mode == FrankaState.ROBOT_MODE_REFLEX and arm.has_error)}
     time.sleep(1.0)
     outcome["others"] = [[other.mode, other.has_error] for other in others]
@@ -119,7 +120,7 @@ def main():
     report["error_again"] = move(arms, -0.05)
 
     for arm in arms:
-        arm.operator.does(f"push {arm.name}_link7 {PUSH}")
+        arm.operator.push(f"{arm.name}_link7", *PUSH)
     report["all_hit"] = waits(lambda: all(arm.has_error for arm in arms))
     report["all_recovered"] = recover(f"{NODE}/error_recovery")
     report["all_move"] = all_move(arms)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Two arms on franka_combined_control_node whose robots are killed in turn; prints a report as JSON.
 
-Run by test_combined_gone.py with ROS's interpreter. Arguments: options of the simulated robots, and the arms
-with their addresses and processes, as panda_1=127.0.0.1=4711. The second arm reconnects automatically.
+Run by test_combined_gone.py with ROS's interpreter. Arguments: the kind of the robots, and the arms with
+their addresses and processes, as panda_1=127.0.0.1=4711. The second arm reconnects automatically.
 """
 
 import json
@@ -11,6 +11,7 @@ import os
 import signal
 import sys
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
@@ -20,9 +21,9 @@ import rospy_connections  # noqa: E402
 from combined_client import CONTROLLER, NODE, Arm, all_move, move, recovery, waits  # noqa: E402
 from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController  # noqa: E402
 from diagnosis import Diagnosis  # noqa: E402
-from fci_session import start, stop  # noqa: E402
 from franka_msgs.msg import FrankaState  # noqa: E402
 from franka_msgs.srv import SetLoad  # noqa: E402
+from pyfranka.franka_sim import FrankaSim, SimRobot  # noqa: E402
 from std_msgs.msg import String  # noqa: E402
 from std_srvs.srv import Trigger  # noqa: E402
 
@@ -130,8 +131,7 @@ def comes_back_by_itself(node, arm, other):
 
 def main():
     rospy_connections.init_node("combined_gone_client", anonymous=True)
-    options = [argument for argument in sys.argv[1:] if "=" not in argument]
-    named = [argument.split("=") for argument in sys.argv[1:] if "=" in argument]
+    kind, *named = sys.argv[1], *(argument.split("=") for argument in sys.argv[2:])
     arms = [Arm(name, address) for name, address, _ in named]
     (_, _, first_pid), (_, _, second_pid) = named
     node = Node()
@@ -141,21 +141,22 @@ def main():
     report["diagnosis"] = {arm.name: node.diagnosis.shows(arm.name, "Ready", Mode="Move") for arm in arms}
     report["diagnosis"]["Control loop"] = node.diagnosis.status_when("Control loop", lambda *_: True)
     first, second = arms
-    started = []
-    try:
+    with ExitStack() as started:
+
+        def restart(address):
+            robot = SimRobot(kind, address=address, hand="none")
+            started.enter_context(FrankaSim(robot, pace="patient"))
+
         kill(int(first_pid))
         report["lost"] = loses(node, first, second)
         report["alone"] = goes_on_alone(node, first, second)
-        started.append(start(*options, "--ip", named[0][1]))
+        restart(named[0][1])
         report["again"] = is_taken_again(node, first, second)
         kill(int(second_pid))
         noticed = waits(lambda: second.has_error and first.mode == FrankaState.ROBOT_MODE_IDLE)
-        started.append(start(*options, "--ip", named[1][1]))
+        restart(named[1][1])
         report["by_itself"] = {"noticed": noticed, **comes_back_by_itself(node, second, first)}
         print(json.dumps(report))
-    finally:
-        for process in started:
-            stop(process)
 
 
 if __name__ == "__main__":

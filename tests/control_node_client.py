@@ -21,7 +21,8 @@ from controller_manager_msgs.srv import SwitchController
 from diagnosis import Diagnosis
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import WrenchStamped
-from recovery_client import PATIENCE, Operator, Robot
+from pyfranka.remote import Remote
+from recovery_client import PATIENCE, Robot
 from sensor_msgs.msg import JointState
 from setters import SETTERS
 from std_msgs.msg import String
@@ -267,10 +268,10 @@ def idle(robot, operator, services, topics, diagnosis):
 
         report["good"][name] = [*answer[:2], robot.waits(seen) is not None]
     report["m_total"] = apart(robot.state.m_total, robot.state.m_ee + 0.4)
-    operator.does(f"push {ARM}_link7 0 0 0 10")  # the world runs: states show the settings
+    operator.push(f"{ARM}_link7", (0, 0, 0), 10)  # the world runs: states show the settings
     robot.waits(lambda: shown_pose_is_apart(robot.state) < 1e-5)
     report["topics"] = topics.compare(20)
-    report["second_source"] = apart(operator.does("state").rsplit(" q ", 1)[1].split(), robot.state.q)
+    report["second_source"] = apart(operator.state().q, robot.state.q)
     report["tree"] = tree(robot)
     # Resets the load to zero.
     services.set("set_load", mass=0.0, F_x_center_load=[0.0] * 3, load_inertia=[0.0] * 9)
@@ -313,7 +314,7 @@ def pushed(robot, operator, topics, settling=SETTLED):
     before = robot.state
     for seconds in (10, 20, 40, 80, 160):
         topics.forget()
-        operator.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {1000 * seconds}")
+        operator.push(f"{ARM}_link7", PUSH, 1000 * seconds)
         felt = states_of_push(topics, seconds)
         # A state of an earlier moment may arrive late, so the last one must show an arm at rest.
         if felt and felt[-1].time - felt[0].time > settling and max(map(abs, felt[-1].dq)) < STILL:
@@ -391,7 +392,7 @@ def reflex(robot, operator, services, diagnosis):
     services.set("set_full_collision_behavior", **thresholds(upper_force=4.0))
     report = {"started": services.switch([CONTROLLER])}
     robot.waits(lambda: robot.state.robot_mode == FrankaState.ROBOT_MODE_MOVE)
-    operator.does(f"push {ARM}_link7 {' '.join(map(str, PUSH))} {BRIEFLY}")
+    operator.push(f"{ARM}_link7", PUSH, BRIEFLY)
     report["reflex"] = robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     report["flagged"] = robot.waits(lambda: robot.state.current_errors.cartesian_reflex) is not None
     report["has_error"] = robot.waits(lambda: robot.has_error) is not None
@@ -453,7 +454,7 @@ def connection(robot, services, diagnosis):
 def main():
     rospy_connections.init_node("control_node_client", anonymous=True)
     topics, diagnosis, services = Topics(), Diagnosis("franka_control"), Services()
-    robot, operator = Robot(), Operator(ADDRESS)
+    robot, operator = Robot(), Remote(ADDRESS)
     robot.waits(lambda: True)
     report = {"idle": idle(robot, operator, services, topics, diagnosis)}
     report["soft_joints"] = soft_joints(robot, operator, services, topics, diagnosis)

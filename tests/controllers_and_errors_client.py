@@ -16,7 +16,8 @@ import rospy
 import rospy_connections
 from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
-from recovery_client import PUSH, Operator
+from pyfranka.remote import Remote
+from recovery_client import PUSH
 from std_msgs.msg import Bool
 
 BEST_EFFORT, STRICT = 1, 2
@@ -34,7 +35,7 @@ def waits(condition):
 
 class Arm:
     def __init__(self, manager, node, arm, address, alone):
-        self.name, self.operator = arm, Operator(address)
+        self.name, self.operator = arm, Remote(address)
         self.state, self.has_error, self.states = None, None, 0
         controller = "franka_state_controller" if alone else f"{arm}_state_controller"
         rospy.Subscriber(f"{manager}{controller}/franka_states", FrankaState, self._store, queue_size=1)
@@ -143,14 +144,14 @@ def stopped_first(node):
     node.start("good", "none")
     report = {"moves": node.all(Arm.moves)}
     one = node.arms[0]
-    one.operator.does(f"push {one.name}_link7 {PUSH}")
+    one.operator.push(f"{one.name}_link7", *PUSH)
     report["hit"] = node.all(lambda arm: arm.has_error)
     report["recovered"] = node.recover()
     report["after_reflex"] = stays_at_rest(node)
     if len(node.arms) == 1:
-        one.operator.does("user_stop on")
+        one.operator.user_stop(True)
         report["stopped"] = waits(lambda: one.has_error)
-        one.operator.does("user_stop off")
+        one.operator.user_stop(False)
         report["after_user_stop"] = stays_at_rest(node)
     return report
 

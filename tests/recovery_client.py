@@ -14,26 +14,15 @@ import actionlib
 import rospy
 import rospy_connections
 from actionlib_msgs.msg import GoalStatus
-from control_interface import ask
 from controller_manager_msgs.srv import ListControllers, SwitchController
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
 from geometry_msgs.msg import PoseStamped
+from pyfranka.remote import Remote
 from std_msgs.msg import Bool, String
 
 CONTROLLER = "cartesian_impedance_example_controller"
 PATIENCE = 15.0  # limit for immediate reactions [s]
-PUSH = "0 0 -220 60"  # far beyond the thresholds [N, ms]
-
-
-class Operator:
-    """The operator: pushes the robot, presses the user stop."""
-
-    def __init__(self, address):
-        self._address = address
-
-    def does(self, line):
-        """Returns what follows `ok`."""
-        return ask(self._address, line)
+PUSH = (0, 0, -220), 60  # far beyond the thresholds [N, ms]
 
 
 class Robot:
@@ -98,7 +87,7 @@ def reflexes(robot, operator, count):
     outcomes = []
     for _ in range(count):
         robot.aborts.clear()
-        operator.does(f"push {sys.argv[1]}_link7 {PUSH}")
+        operator.push(f"{sys.argv[1]}_link7", *PUSH)
         outcome = {"reflex": robot.shows(FrankaState.ROBOT_MODE_REFLEX)}
         outcome["has_error"] = robot.waits(lambda: robot.has_error) is not None
         outcome["reported"] = robot.waits(lambda: bool(robot.aborts)) is not None and robot.aborts[0]
@@ -112,12 +101,12 @@ def reflexes(robot, operator, count):
 
 
 def user_stop(robot, operator):
-    operator.does("user_stop on")
+    operator.user_stop(True)
     report = {"stopped": robot.shows(FrankaState.ROBOT_MODE_USER_STOPPED)}
     report["has_error"] = robot.waits(lambda: robot.has_error) is not None
     report["recovery_while_pressed"] = robot.recover()
     report["still_stopped"] = robot.state.robot_mode == FrankaState.ROBOT_MODE_USER_STOPPED
-    operator.does("user_stop off")
+    operator.user_stop(False)
     report["moves"] = robot.shows(FrankaState.ROBOT_MODE_MOVE)
     report["follows"] = robot.follows()
     return report
@@ -125,14 +114,14 @@ def user_stop(robot, operator):
 
 def main():
     rospy_connections.init_node("recovery_client", anonymous=True)
-    robot, operator = Robot(), Operator(sys.argv[2])
+    robot, operator = Robot(), Remote(sys.argv[2])
     switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
     started = switch(start_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
     report = {"started": started, "moves": robot.shows(FrankaState.ROBOT_MODE_MOVE)}
     report["early"] = robot.recover()
     report["goes_on"] = robot.follows()
     report["reflexes"] = reflexes(robot, operator, int(sys.argv[3]))
-    operator.does(f"push {sys.argv[1]}_link7 {PUSH}")
+    operator.push(f"{sys.argv[1]}_link7", *PUSH)
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     robot.waits(lambda: robot.has_error)
     both = [robot.send_recovery(), robot.send_recovery()]
@@ -141,7 +130,7 @@ def main():
     report["user_stop"] = user_stop(robot, operator)
     report["stopped"] = switch(stop_controllers=[CONTROLLER], strictness=2, timeout=10.0).ok
     report["idle"] = robot.shows(FrankaState.ROBOT_MODE_IDLE)
-    operator.does(f"push {sys.argv[1]}_link7 {PUSH}")
+    operator.push(f"{sys.argv[1]}_link7", *PUSH)
     report["hit_at_rest"] = robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     report["recovered_at_rest"] = [robot.recover()[0], robot.shows(FrankaState.ROBOT_MODE_IDLE)]
     report["succeeded"] = GoalStatus.SUCCEEDED

@@ -17,7 +17,8 @@ import rospy
 import rospy_connections
 from controller_manager_msgs.srv import ListControllers, SwitchController
 from franka_msgs.msg import FrankaState
-from recovery_client import CONTROLLER, PUSH, Operator, Robot
+from pyfranka.remote import Remote
+from recovery_client import CONTROLLER, PUSH, Robot
 from std_srvs.srv import Trigger
 
 GONE = 10.0  # time of one silence of the robot [s]
@@ -88,7 +89,7 @@ def main():
     os.kill(pid, signal.SIGCONT)
     report["after_silence"] = comes_back(robot, reconnects)
 
-    Operator(address).does(f"push {sys.argv[1]}_link7 {PUSH}")
+    Remote(address).push(f"{sys.argv[1]}_link7", *PUSH)
     robot.shows(FrankaState.ROBOT_MODE_REFLEX)
     os.kill(pid, signal.SIGSTOP)
     robot.send_recovery()

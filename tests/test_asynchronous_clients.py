@@ -57,8 +57,7 @@ def command(address: str, way: str, rounds: int) -> list[str]:
 
 @pytest.fixture(scope="module", params=["realtime", "lockstep"])
 def sim(request):
-    address = {"realtime": "127.0.34.1", "lockstep": "127.0.34.2"}[request.param]
-    with simulated("fr3", address, request.param) as sim:
+    with simulated("fr3", request.param) as sim:
         yield sim
 
 
@@ -72,14 +71,14 @@ def test_targets_are_reached_at_any_update_rate(sim, way):
         assert seen["sent"] == 1 if way == "once" else seen["sent"] > 3, seen
     assert len(ways) == 2
     assert end["mode"] == "Idle" and end["off"] < 1e-6, end  # single precision
-    assert "errors none" in sim.ask("state")
+    assert sim.remote.state().errors == {}
 
 
 def test_an_asynchronous_motion_ends_with_its_client(sim):
     client = subprocess.Popen(command(sim.address, "once", 1000000), stdout=subprocess.PIPE, text=True)
     try:
         assert json.loads(client.stdout.readline())["status"] == "kTargetReached"
-        assert sim.ask("state").startswith("Move")
+        assert sim.remote.state().mode == "Move"
     finally:
         client.send_signal(signal.SIGKILL)
         client.wait()

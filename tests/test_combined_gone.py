@@ -3,11 +3,12 @@
 """franka_combined_control_node survives the loss of one robot: reports, the other arm, reconnection."""
 
 import json
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-from fci_session import start
 from franka_sim_mujoco.session import Session
+from pyfranka.franka_sim import FrankaSim, SimRobot
 from test_combined import arguments
 
 HERE = Path(__file__).resolve().parent
@@ -34,11 +35,11 @@ def report(robot, tmp_path_factory):
     ips = next(argument for argument in launch if argument.startswith("robot_ips:="))
     launch[launch.index(ips)] = ips.replace("}", f", {robot}_2/reconnect: true}}")
     launch += ["realtime_config:=ignore", "connect_timeout:=20"]
-    options = ["--robot", robot, "--pace", "patient", "--no-hand", "--ip"]
-    robots = []
-    try:
+    with ExitStack() as stack:
+        robots = []
         for address in arms.values():
-            robots.append(start(*options, address))
+            robots.append(FrankaSim(SimRobot(robot, address=address, hand="none"), pace="patient"))
+            stack.callback(robots[-1].kill)  # the client kills them before
         with Session(*launch, log=folder / "launch.log") as session:
             session.wait_for_master()
             session.environment["ROS_NAMESPACE"] = "combined_panda"
@@ -46,17 +47,14 @@ def report(robot, tmp_path_factory):
             loaded = session.run(*load, check=False, timeout=90)
             assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
             del session.environment["ROS_NAMESPACE"]
-            client = ["/usr/bin/python3", str(HERE / "combined_gone_client.py"), *options[:-1]]
-            client += [f"{arm}={ip}={robot.pid}" for (arm, ip), robot in zip(arms.items(), robots)]
+            client = ["/usr/bin/python3", str(HERE / "combined_gone_client.py"), robot]
+            processes = [each.process.pid for each in robots]
+            client += [f"{arm}={ip}={pid}" for (arm, ip), pid in zip(arms.items(), processes)]
             result = session.run(*client, check=False, timeout=240)
             print(result.stdout, result.stderr, session.tail(80), sep="\n")
             assert result.returncode == 0, f"{result}\n{session.tail(60)}"
             session.check()
             return dict(json.loads(result.stdout.strip().splitlines()[-1]), log=session.log.read_text())
-    finally:
-        for process in robots:
-            process.kill()
-            process.wait()
 
 
 def test_the_diagnostics_report_each_arm(robot, report):

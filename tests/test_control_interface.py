@@ -24,6 +24,7 @@ from fci_wire import (
     connected,
 )
 from genuine_clients import client_python
+from pyfranka.remote import LineRefused
 
 GRAVITY = 9.81
 GUIDING, USER_STOPPED = 3, 5
@@ -41,19 +42,22 @@ def before_other_work():
 
 @pytest.fixture(scope="module", params=["panda", "fr3"])
 def sim(request):
-    address = {"panda": "127.0.32.1", "fr3": "127.0.32.2"}[request.param]
-    with simulated(request.param, address, "lockstep") as sim:
+    with simulated(request.param, "lockstep") as sim:
         yield sim
 
 
 @pytest.fixture
 def client(sim):
-    sim.ask("reset")
-    with Client(sim.address, sim.version) as client:
-        assert client.connect() == (0, sim.version)
+    sim.remote.reset()
+    with Client(sim.address, sim.protocol) as client:
+        assert client.connect() == (0, sim.protocol)
         yield client
-    for line in ("fci on", "user_stop off", "guiding off", "loss 0", "delay 0", "load 0 0 0 0"):
-        sim.ask(line)
+    sim.remote.fci(True)
+    sim.remote.user_stop(False)
+    sim.remote.guiding(False)
+    sim.remote.loss(0)
+    sim.remote.delay(0)
+    sim.remote.load(0)
 
 
 def begin(client):
@@ -107,10 +111,10 @@ def test_loss_lowers_the_success_rate_and_repeats_with_its_seed(sim, client):
         state, first = begin(client)
         state = drive(client, state, hold(first), 150)[-1]
         assert state.rate == 1.0
-        sim.ask(f"loss 0.2 {seed}")
+        sim.remote.loss(0.2, seed)
         states = drive(client, state, hold(first), 2000)
         runs.append([round(100 * s.rate) for s in states])
-        sim.ask("loss 0")
+        sim.remote.loss(0)
         state = drive(client, states[-1], hold(first), 101)[-1]
         assert state.rate == 1.0, "It is over, but the robot still counts it."
         finish(client, state, first)
@@ -125,7 +129,7 @@ def test_loss_lowers_the_success_rate_and_repeats_with_its_seed(sim, client):
 def test_consecutive_losses_lower_the_rate_until_the_motion_ends(sim, client, count):
     state, first = begin(client)
     state = drive(client, state, hold(first), 150)[-1]
-    sim.ask(f"lose {count}")
+    sim.remote.lose(count)
     states = drive(client, state, hold(first), 60)
     lowest = [round(100 * s.rate) for s in states if s.mode == MOVE][: count - 1]
     assert lowest == [100 - i for i in range(1, count)]
@@ -154,8 +158,8 @@ def ramp(first):
 def test_a_delay_shifts_commands_by_whole_cycles(sim, client):
     desired = {}
     for ticks in (0, 1, 2):
-        sim.ask("reset")
-        sim.ask(f"delay {ticks}")
+        sim.remote.reset()
+        sim.remote.delay(ticks)
         state, first = begin(client)
         states = drive(client, state, ramp(first), 600)
         desired[ticks] = [s.joints("q_d")[3] - first[3] for s in states]
@@ -169,13 +173,13 @@ def test_a_delay_shifts_commands_by_whole_cycles(sim, client):
 
 def test_a_wrong_load_appears_as_an_upward_force(sim, client):
     """The arm carries nothing; a robot with a load of 0.8 kg estimates an upward force."""
-    sim.ask("load 0.8 0 0 0.05")
+    sim.remote.load(0.8, (0, 0, 0.05))
     state, first = begin(client)
     states = drive(client, state, hold(first), 1500)
     # The header's sign: forces from the robot on its environment are positive.
     assert force(states[-1]) == pytest.approx([0, 0, -0.8 * GRAVITY], abs=0.05)
-    with pytest.raises(RuntimeError, match="The load was refused"):
-        sim.ask("load 0 0 0 0")
+    with pytest.raises(LineRefused, match="The load was refused"):
+        sim.remote.load(0)
     state = drive(client, states[-1], hold(first), 50)[-1]
     assert force(state)[2] == pytest.approx(-0.8 * GRAVITY, abs=0.05)
     finish(client, state, first)
@@ -187,7 +191,7 @@ def test_a_push_is_estimated_with_its_true_force(sim, client, axis, newtons):
     state = drive(client, state, hold(first), 50)[-1]
     push = [0.0, 0.0, 0.0]
     push[axis] = newtons
-    sim.ask(f"push {sim.robot}_hand {push[0]} {push[1]} {push[2]} 1500")
+    sim.remote.push(f"{sim.arm_id}_hand", push, 1500)
     pressed = drive(client, state, hold(first), 1490)
     felt = force(pressed[-1])
     assert felt == pytest.approx([-f for f in push], abs=0.08)
@@ -202,7 +206,7 @@ def test_a_push_is_estimated_with_its_true_force(sim, client, axis, newtons):
 def test_a_push_above_the_threshold_triggers_a_reflex(sim, client):
     state, first = begin(client)
     state = drive(client, state, hold(first), 50)[-1]
-    sim.ask(f"push {sim.robot}_hand 0 60 0 100")
+    sim.remote.push(f"{sim.arm_id}_hand", (0, 60, 0), 100)
     states = drive(client, state, hold(first), 100)
     assert states[-1].mode == REFLEX and CARTESIAN_REFLEX in states[-1].reasons
     assert len(states) < 50
@@ -214,14 +218,14 @@ def test_the_user_stop_aborts_and_the_brakes_hold(sim, client):
     state, first = begin(client)
     state = drive(client, state, ramp(first), 300)[-1]
     assert max(map(abs, state.joints("dq"))) > 0.1
-    sim.ask("user_stop on")
+    sim.remote.user_stop(True)
     state = drive(client, state, lambda k: ramp(first)(k + 300), 10)[-1]
     assert state.mode == USER_STOPPED
     status = client.reply()[1][0]
     assert status not in (0, LAYOUTS[client.version].reflex)
     stopped = client.state_until(lambda s: max(map(abs, s.joints("dq"))) < 1e-3)
     assert abs(stopped.joints("q")[3] - state.joints("q")[3]) < 0.02
-    sim.ask("user_stop off")
+    sim.remote.user_stop(False)
     client.state_until(lambda s: s.mode == IDLE)
     state, first = begin(client)
     finish(client, state, first)
@@ -230,22 +234,22 @@ def test_the_user_stop_aborts_and_the_brakes_hold(sim, client):
 def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
     state, first = begin(client)
     state = drive(client, state, hold(first), 50)[-1]
-    sim.ask("guiding on")
+    sim.remote.guiding(True)
     state = drive(client, state, hold(first), 10)[-1]
     assert state.mode == GUIDING
     assert client.reply()[1][0] not in (0, LAYOUTS[client.version].reflex)
     before = client.state_until(lambda s: s.mode == GUIDING).joints("q")
-    sim.ask(f"push {sim.robot}_hand 0 5 0 500")
+    sim.remote.push(f"{sim.arm_id}_hand", (0, 5, 0), 500)
     moved = client.state_until(lambda s: max(abs(a - b) for a, b in zip(s.joints("q"), before)) > 0.02)
     assert moved.mode == GUIDING
-    sim.ask("guiding off")
+    sim.remote.guiding(False)
     client.state_until(lambda s: s.mode == IDLE)
 
 
 def test_guiding_does_not_delay_setters(sim, client):
     """No joint is braked then: the pushed arm coasts, so setters must not wait for rest."""
-    sim.ask("guiding on")
-    sim.ask(f"push {sim.robot}_link5 0 8 0 100")
+    sim.remote.guiding(True)
+    sim.remote.push(f"{sim.arm_id}_link5", (0, 8, 0), 100)
     set_load(client)
     assert client.state_until(lambda s: s.mode == GUIDING).mode == GUIDING
 
@@ -259,11 +263,11 @@ GENUINE = {
 def test_a_deactivated_interface_drops_its_client_and_refuses_others(sim, client):
     state, first = begin(client)
     drive(client, state, hold(first), 50)
-    sim.ask("fci off")
+    sim.remote.fci(False)
     aborted = LAYOUTS[client.version].reflex + 3
     assert client.reply()[1][0] == aborted
     assert client.ended()
-    library, program = GENUINE[sim.robot]
+    library, program = GENUINE[sim.kind]
     refused = subprocess.run(
         [client_python(library), "-c", program.format(sim.address)],
         capture_output=True,
@@ -274,7 +278,7 @@ def test_a_deactivated_interface_drops_its_client_and_refuses_others(sim, client
         "libfranka: Connection to FCI refused. Please install FCI feature or enable FCI mode in Desk."
         in refused.stderr
     )
-    sim.ask("fci on")
+    sim.remote.fci(True)
     with connected(sim) as again:
         again.state_until(lambda s: s.mode == IDLE)
         state, first = begin(again)
@@ -283,10 +287,10 @@ def test_a_deactivated_interface_drops_its_client_and_refuses_others(sim, client
 
 def test_losses_repeat_after_a_reset(sim):
     """The loss is set once; each run after a `reset` then loses the same commands."""
-    sim.ask("loss 0.2 3")
+    sim.remote.loss(0.2, 3)
     hashes = []
     for _ in range(10):
-        sim.ask("reset")
+        sim.remote.reset()
         longest = 0.0
         with connected(sim) as client:
             last = time.monotonic()
@@ -300,9 +304,9 @@ def test_losses_repeat_after_a_reset(sim):
             set_load(client)
         # A client that stalls gets the same state again, and this one answers it again: another run.
         if longest < REPEATED_AFTER:
-            hashes.append(sim.ask("hash"))
+            hashes.append(sim.remote.hash())
         if len(hashes) == 2:
             break
-    sim.ask("loss 0")
+    sim.remote.loss(0)
     assert len(hashes) == 2, "The client stalled in nine of ten runs."
     assert hashes[0] == hashes[1]

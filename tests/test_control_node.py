@@ -14,7 +14,6 @@ HERE = Path(__file__).resolve().parent
 
 SUCCEEDED, IDLE, MOVE = 3, 1, 2
 OK, ERROR = 0, 2  # levels of diagnostics
-ADDRESS = "127.0.32.10"
 CONTROLLER = "position_joint_trajectory_controller"
 AT_ONCE = 5.0  # [s] for an answer, on a busy machine
 
@@ -38,17 +37,20 @@ def pid_of(session, node: str) -> int:
 @pytest.fixture(scope="module")
 def report(robot, tmp_path_factory):
     log = tmp_path_factory.mktemp("control") / "launch.log"
-    launch = ["franka_control", "franka_control.launch", f"robot:={robot}", f"robot_ip:={ADDRESS}"]
+    launch = ["franka_control", "franka_control.launch", f"robot:={robot}"]
     launch += ["load_gripper:=false", "realtime_config:=ignore"]
     # Patient, not in lock-step: its time is at most as fast as the clock, so that topics keep up with it.
-    with simulated(robot, ADDRESS, "patient") as simulation, Session(*launch, log=log) as session:
-        all_go_first(simulation.process.pid)
+    with (
+        simulated(robot, "patient") as simulation,
+        Session(*launch, f"robot_ip:={simulation.address}", log=log) as session,
+    ):
+        all_go_first(simulation.server.process.pid)
         session.wait_for_master()
         load = ["rosrun", "controller_manager", "controller_manager", "load", CONTROLLER]
         loaded = session.run(*load, check=False, timeout=60)
         assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
         all_go_first(pid_of(session, "/franka_control"))
-        client = ["/usr/bin/python3", str(HERE / "control_node_client.py"), robot, ADDRESS]
+        client = ["/usr/bin/python3", str(HERE / "control_node_client.py"), robot, simulation.address]
         result = session.run(*client, check=False, timeout=400)
         print(result.stdout, result.stderr, session.tail(60), sep="\n")
         assert result.returncode == 0, result.stderr

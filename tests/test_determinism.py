@@ -60,15 +60,14 @@ def drive(client, ticks, positions, pause=None):
 @pytest.mark.parametrize("robot", ["panda", "fr3"] if LONG else ["panda"])
 def test_lock_step_repeats_bit_for_bit_with_contact(robot):
     """Ten seconds, each time from a reset world; some runs have a slow client."""
-    address = {"panda": "127.0.26.1", "fr3": "127.0.26.2"}[robot]
     hashes = set()
-    with simulated(robot, address, "lockstep", *SCENE) as sim, Client(address, sim.version) as client:
+    with simulated(robot, "lockstep", *SCENE) as sim, Client(sim.address, sim.protocol) as client:
         assert client.connect()[0] == 0
         loose = [100.0] * 28 + [300.0] * 24
-        client.request(4 if sim.version <= 5 else 3, doubles(loose))
+        client.request(4 if sim.protocol <= 5 else 3, doubles(loose))
         assert client.reply()[1][0] == 0
         for run in range(RUNS):
-            sim.ask("reset")
+            sim.remote.reset()
             chance = random.Random(run)
 
             def dawdle(k, run=run, chance=chance):
@@ -77,7 +76,7 @@ def test_lock_step_repeats_bit_for_bit_with_contact(robot):
 
             states, client_hash = drive(client, TICKS, down_and_back, dawdle)
             at_rest(client)
-            hashes.add((client_hash, sim.ask("hash")))
+            hashes.add((client_hash, sim.remote.hash()))
             pressed = max(abs(state.joints("tau_ext")[1]) for state in states)
             assert states[-1].errors == []
             assert pressed > 10.0, f"The arm has touched nothing: {pressed:.1f} Nm at joint 2."
@@ -98,18 +97,18 @@ def doubles(values) -> bytes:
 
 def test_another_command_gives_another_hash():
     """The hash must differ between different runs."""
-    with simulated("panda", "127.0.26.3", "lockstep") as sim, Client(sim.address, 5) as client:
+    with simulated("panda", "lockstep") as sim, Client(sim.address, 5) as client:
         assert client.connect()[0] == 0
         hashes = []
         for change in (0.0, 0.0, 1e-12):
-            sim.ask("reset")
+            sim.remote.reset()
 
             def hold(first, k, change=change):
                 return [q + (change if k == 299 else 0.0) for q in first]
 
             _, seen = drive(client, 300, hold)
             at_rest(client)
-            hashes.append((seen, sim.ask("hash")))
+            hashes.append((seen, sim.remote.hash()))
     assert hashes[0] == hashes[1]
     assert hashes[0][0] != hashes[2][0] and hashes[0][1] != hashes[2][1]
 
@@ -121,12 +120,12 @@ def swing(first, k):
     return q
 
 
-def trajectory(robot, address, pace, dawdle=None):
+def trajectory(robot, pace, dawdle=None):
     """@returns q of each cycle, the smallest success rate, and the motion's wall time [s].
 
     No positions, and a rate of 0, if lost commands have ended the motion.
     """
-    with simulated(robot, address, pace) as sim, Client(address, sim.version) as client:
+    with simulated(robot, pace) as sim, Client(sim.address, sim.protocol) as client:
         assert client.connect()[0] == 0
         # Both must be at rest first; in real time that takes wall time, in lock-step none.
         client.state_until(lambda state: state.mode == IDLE and max(map(abs, state.joints("dq"))) < 1e-12)
@@ -147,10 +146,10 @@ def difference(one, other):
 @pytest.mark.parametrize("robot, within", [("panda", 1e-9), ("fr3", 1e-6)] if LONG else [("panda", 1e-9)])
 def test_the_wall_clock_gives_the_same_trajectory(robot, within):
     """Within 1e-9 rad; an FR3's states are single precision, which is 1e-7 rad of resolution."""
-    stepped, rate, _ = trajectory(robot, "127.0.26.4", "lockstep")
+    stepped, rate, _ = trajectory(robot, "lockstep")
     assert rate == 1.0
     for pace in (["realtime"] if LONG else []) + ["0.25", "0.1", "0.05"]:
-        by_clock, rate, _ = trajectory(robot, "127.0.26.5", pace)
+        by_clock, rate, _ = trajectory(robot, pace)
         if rate == 1.0:
             break  # A busy machine loses commands of a robot in real time.
     assert rate == 1.0, "The robot lost commands at each pace."
@@ -159,13 +158,13 @@ def test_the_wall_clock_gives_the_same_trajectory(robot, within):
 
 @pytest.mark.parametrize("robot, within", [("panda", 1e-9), ("fr3", 1e-6)])
 def test_a_patient_robot_keeps_real_time_and_waits_for_a_late_client(robot, within):
-    stepped, _, _ = trajectory(robot, "127.0.26.6", "lockstep")
+    stepped, _, _ = trajectory(robot, "lockstep")
 
     def dawdle(k):
         if k % 100 == 99:
             time.sleep(0.06)  # far more than twenty cycles
 
-    by_clock, rate, wall = trajectory(robot, "127.0.26.7", "patient", dawdle)
+    by_clock, rate, wall = trajectory(robot, "patient", dawdle)
     assert rate == 1.0
     assert difference(by_clock, stepped) <= within
     assert 1.0 < wall < 2.5

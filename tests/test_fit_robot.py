@@ -59,13 +59,13 @@ SEEDS = range(1, 7) if os.environ.get("FRANKA_TEST_LONG") else [5]
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("robot, address", [("panda", "127.0.60.1"), ("fr3", "127.0.60.2")])
-def test_the_fit_finds_hidden_friction_and_payload(robot, address, seed, tmp_path):
+@pytest.mark.parametrize("robot", ["panda", "fr3"])
+def test_the_fit_finds_hidden_friction_and_payload(robot, seed, tmp_path):
     hidden, recording, fitted = (tmp_path / name for name in ("hidden.yaml", "recording.csv", "fitted.yaml"))
     hidden.write_text(yaml.safe_dump(HIDDEN))
     realism = f"recorded,seed={seed},file={hidden}"
-    with simulated(robot, address, "lockstep", "--realism", realism):
-        recorded = call("franka_info", "record", address, recording, 30, "--move")
+    with simulated(robot, "lockstep", "--realism", realism) as sim:
+        recorded = call("franka_info", "record", sim.address, recording, 30, "--move")
         assert recorded.returncode == 0, recorded.stderr
     result = fit(recording, fitted)
     assert result.returncode == 0, result.stderr
@@ -79,8 +79,8 @@ def test_the_fit_finds_hidden_friction_and_payload(robot, address, seed, tmp_pat
     # What the links' errors cannot explain appears as offsets.
     assert found["torque_offset"] == pytest.approx(HIDDEN["torque_offset"], abs=0.1)
     # The simulation reads the result.
-    with simulated(robot, address, "lockstep", "--realism", f"real,file={fitted}") as sim:
-        assert sim.ask("state").startswith("Idle")
+    with simulated(robot, "lockstep", "--realism", f"real,file={fitted}") as sim:
+        assert sim.remote.state().mode == "Idle"
 
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
@@ -105,23 +105,23 @@ def test_recordings_that_cannot_be_used_are_refused(tmp_path):
 
 
 def test_a_recording_at_rest_is_refused(tmp_path):
-    address, recording = "127.0.60.3", tmp_path / "recording.csv"
-    with simulated("panda", address, "100"):
-        assert call("franka_info", "record", address, recording, 10).returncode == 0
+    recording = tmp_path / "recording.csv"
+    with simulated("panda", "100") as sim:
+        assert call("franka_info", "record", sim.address, recording, 10).returncode == 0
     result = fit(recording, tmp_path / "robot.yaml")
     assert result.returncode == 1 and "hardly move" in result.stderr
 
 
 def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
-    address, recording = "127.0.60.6", tmp_path / "recording.csv"
-    command = ["franka_info", "record", address, str(recording), "30", "--move"]
-    with simulated("panda", address, "5") as sim:
+    recording = tmp_path / "recording.csv"
+    with simulated("panda", "5") as sim:
+        command = ["franka_info", "record", sim.address, str(recording), "30", "--move"]
         process = subprocess.Popen(command, text=True, stderr=subprocess.PIPE)
         deadline = time.monotonic() + 60
-        while "Move" not in sim.ask("state"):
+        while sim.remote.state().mode != "Move":
             assert time.monotonic() < deadline and process.poll() is None
         time.sleep(0.5)
-        sim.ask("user_stop on")
+        sim.remote.user_stop(True)
         _, said = process.communicate(timeout=60)
     assert process.returncode != 0 and str(recording) in said and "User" in said
     rows = recording.read_text().splitlines()
@@ -129,11 +129,11 @@ def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
 
 
 def test_a_file_that_cannot_be_written_is_refused_before_the_robot_moves():
-    with simulated("panda", "127.0.60.5", "lockstep") as sim:
-        before = sim.ask("hash")
-        result = call("franka_info", "record", "127.0.60.5", "/nowhere/recording.csv", 10, "--move")
+    with simulated("panda", "lockstep") as sim:
+        before = sim.remote.hash()
+        result = call("franka_info", "record", sim.address, "/nowhere/recording.csv", 10, "--move")
         assert result.returncode == 1 and "/nowhere/recording.csv cannot be written" in result.stderr
-        assert sim.ask("hash") == before
+        assert sim.remote.hash() == before
 
 
 @pytest.mark.parametrize(

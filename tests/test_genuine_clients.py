@@ -13,9 +13,9 @@ import time
 from pathlib import Path
 
 import pytest
-from control_interface import answer, ask
-from fci_session import running
 from genuine_clients import client_python
+from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.remote import LineRefused
 from stalls import in_time
 
 CLIENTS = Path(__file__).resolve().parent / "support" / "genuine"
@@ -62,22 +62,18 @@ def world(tmp_path_factory) -> str:
 
 @pytest.fixture(scope="module", params=PACES)
 def panda(request, world):
-    address = f"127.0.21.{1 + PACES.index(request.param)}"
-
     def attempt():
-        with running("--robot", "panda", "--ip", address, "--pace", request.param, "--world", world):
-            return run_session("panda", "panda_client.py", address)
+        with FrankaSim("panda", pace=request.param, world=world) as sim:
+            return run_session("panda", "panda_client.py", sim.robot.address)
 
     return dict(in_time(attempt, undisturbed), pace=request.param)
 
 
 @pytest.fixture(scope="module", params=PACES)
 def fr3(request, world):
-    address = f"127.0.21.{11 + PACES.index(request.param)}"
-
     def attempt():
-        with running("--robot", "fr3", "--ip", address, "--pace", request.param, "--world", world):
-            return run_session("pylibfranka", "pylibfranka_client.py", address)
+        with FrankaSim("fr3", pace=request.param, world=world) as sim:
+            return run_session("pylibfranka", "pylibfranka_client.py", sim.robot.address)
 
     return dict(in_time(attempt, undisturbed), pace=request.param)
 
@@ -207,9 +203,9 @@ def test_fr3_gripper(fr3):
 
 
 def test_versions_are_distinguished():
-    with running("--robot", "panda", "--ip", "127.0.21.5"):
+    with FrankaSim("panda", pace="realtime") as sim:
         result = subprocess.run(
-            [client_python("pylibfranka"), CLIENTS / "pylibfranka_client.py", "127.0.21.5"],
+            [client_python("pylibfranka"), CLIENTS / "pylibfranka_client.py", sim.robot.address],
             capture_output=True,
             text=True,
             timeout=60,
@@ -238,14 +234,13 @@ try:
 except Exception as error:
     print(error, flush=True)
 """
-    address = "127.0.21.7"
-    with running("--robot", "panda", "--ip", address, "--pace", "lockstep"):
+    with FrankaSim("panda") as sim:
         client = subprocess.Popen(
-            [client_python("panda"), "-c", script, address], stdout=subprocess.PIPE, text=True
+            [client_python("panda"), "-c", script, sim.robot.address], stdout=subprocess.PIPE, text=True
         )
         try:
             assert client.stdout.readline().strip() == "moving"
-            ask(address, "user_stop on")
+            sim.robot.remote.user_stop(True)
             output, _ = client.communicate(timeout=30)
         finally:
             client.kill()
@@ -277,9 +272,8 @@ except Exception as error:
     robot.automatic_error_recovery()
 print(before, robot.read_once().O_T_EE[14])
 """
-    address = "127.0.21.9"
 
-    def go_down():
+    def go_down(address):
         done = subprocess.run(
             [client_python("panda"), "-c", script, address], capture_output=True, text=True, timeout=60
         )
@@ -287,14 +281,16 @@ print(before, robot.read_once().O_T_EE[14])
         before, after = map(float, done.stdout.split()[-2:])
         return done.stdout, before, after
 
-    with running("--robot", "panda", "--ip", address, "--pace", "lockstep"):
-        ask(address, "wall 2 0.3 0 0.2 1 1 0.5 0 0 0 2")  # rotated by half a turn: the same wall
-        text, before, after = go_down()
+    with FrankaSim("panda") as sim:
+        remote = sim.robot.remote
+        # Rotated by half a turn: the same wall.
+        remote.wall(2, (0.3, 0, 0.2), (1, 1, 0.5), (0, 0, 0, 2))
+        text, before, after = go_down(sim.robot.address)
         assert before > 0.48
         assert '["cartesian_position_limits_violation"]' in text
         assert after == pytest.approx(0.45, abs=0.005)
-        ask(address, "wall 2 off")
-        text, before, after = go_down()
+        remote.remove_wall(2)
+        text, before, after = go_down(sim.robot.address)
         assert "ended well" in text
         assert after == pytest.approx(before - 0.1, abs=1e-3)
         for line, sentence in (
@@ -303,8 +299,8 @@ print(before, robot.read_once().O_T_EE[14])
             ("wall 0 0 0 0 -1 1 1", "negative edge"),
             ("wall 0 1 2 3", "Words are missing"),
         ):
-            refusal = answer(address, line)
-            assert refusal.startswith("error: ") and sentence in refusal
+            with pytest.raises(LineRefused, match=sentence):
+                remote.send(line)
 
 
 def test_a_new_arm_makes_a_very_small_motion():
@@ -315,13 +311,11 @@ import panda_py
 panda = panda_py.Panda(sys.argv[1])
 print(panda.move_to_start(), panda.move_to_start())
 """
-    address = "127.0.21.10"
-    with running("--robot", "panda", "--ip", address, "--pace", "lockstep"):
+    with FrankaSim("panda") as sim:
+        command = [client_python("panda"), "-c", script, sim.robot.address]
         for _ in range(3):
-            ask(address, "reset")
-            done = subprocess.run(
-                [client_python("panda"), "-c", script, address], capture_output=True, text=True, timeout=60
-            )
+            sim.robot.remote.reset()
+            done = subprocess.run(command, capture_output=True, text=True, timeout=60)
             assert done.stdout.split() == ["True", "True"], done.stdout + done.stderr
 
 
@@ -343,17 +337,14 @@ robot.control(callback, True)
 robot.read_once()
 robot.set_load(0.0, [0.0] * 3, [0.0] * 9)
 """
-    address = "127.0.21.8"
     hashes = []
-    stone = ["--world", "stone.xml", "--base", "-0.5,0,0"]
-    with running("--robot", "panda", "--ip", address, "--pace", "lockstep", *stone):
+    with FrankaSim(SimRobot("panda", base=(-0.5, 0, 0)), world="stone.xml") as sim:
+        command = [client_python("panda"), "-c", script, sim.robot.address]
         for _ in range(3):
-            ask(address, "reset")
-            done = subprocess.run(
-                [client_python("panda"), "-c", script, address], capture_output=True, text=True, timeout=60
-            )
+            sim.robot.remote.reset()
+            done = subprocess.run(command, capture_output=True, text=True, timeout=60)
             assert done.returncode == 0, done.stderr
-            hashes.append(ask(address, "hash"))
+            hashes.append(sim.robot.remote.hash())
     assert len(set(hashes)) == 1, hashes
 
 
@@ -380,13 +371,14 @@ robot.automatic_error_recovery()
 print(robot.read_once().robot_mode)
 """
     python = client_python("panda")
-    with running("--robot", "panda", "--ip", "127.0.21.6"):
-        killed = subprocess.run([python, "-c", script, "127.0.21.6"], timeout=60)
+    with FrankaSim("panda", pace="realtime") as sim:
+        address = sim.robot.address
+        killed = subprocess.run([python, "-c", script, address], timeout=60)
         assert killed.returncode == -9
         deadline = time.monotonic() + 10
         while True:
             result = subprocess.run(
-                [python, "-c", after, "127.0.21.6"], capture_output=True, text=True, timeout=60
+                [python, "-c", after, address], capture_output=True, text=True, timeout=60
             )
             if result.returncode == 0 or time.monotonic() > deadline:
                 break

@@ -65,9 +65,9 @@ def all_idle(request):
 def end_motion(fixture):
     """A client after a timeout leaves its robot in Move until the robot's patience ends."""
     deadline = time.monotonic() + 10.0
-    while fixture.sim.ask("state").startswith("Move") and time.monotonic() < deadline:
+    while fixture.sim.remote.state().mode == "Move" and time.monotonic() < deadline:
         time.sleep(0.05)
-    if "Reflex" in fixture.sim.ask("state"):
+    if fixture.sim.remote.state().mode == "Reflex":
         fixture.client.run_task("connect", address=fixture.proxy.address)
         fixture.client.run_task("recover")
 
@@ -134,7 +134,7 @@ def test_the_boundary_is_exact_in_lock_step(stepped, count):
         fixture.client.give("move", seconds=seconds, amplitude=AMPLITUDE, announce=True)
     for fixture in stepped:
         assert fixture.client.line() == "moving"
-        fixture.sim.ask(f"lose {count}")
+        fixture.sim.remote.lose(count)
     results = [fixture.client.result() for fixture in stepped]
     if count < 20:
         assert all(result["outcome"] == "ok" for result in results), results
@@ -243,7 +243,7 @@ def test_our_client_reports_invalid_states(stepped):
         assert result["wall"] < 5.0, result
     finally:
         begin = time.monotonic()
-        while own[0].sim.ask("state").startswith("Move"):
+        while own[0].sim.remote.state().mode == "Move":
             assert time.monotonic() - begin < 5.0, "The motion continues without a client."
         own[0].client.run_task("connect", address=own[0].proxy.address)
         own[0].client.run_task("recover")
@@ -376,9 +376,9 @@ def test_a_killed_client_ends_its_motion_and_frees_the_robot(stepped):
         fixture.client.process.kill()
     for fixture in stepped:
         begin = time.monotonic()
-        while not fixture.sim.ask("state").startswith("Reflex"):
-            assert time.monotonic() - begin < 5.0, fixture.sim.ask("state")
-        assert LOST in fixture.sim.ask("state")
+        while fixture.sim.remote.state().mode != "Reflex":
+            assert time.monotonic() - begin < 5.0, fixture.sim.remote.state()
+        assert LOST in fixture.sim.remote.state().errors
         with connected(fixture.sim) as client:
             assert client.state().reasons == [COMMUNICATION]
             client.recover()

@@ -73,7 +73,7 @@ def prepared(bare, urdf):
 
 @pytest.fixture(scope="module")
 def robot():
-    with simulated("panda", ADDRESS, "realtime", "--no-hand") as robot:
+    with simulated("panda", "realtime", "--no-hand", address=ADDRESS) as robot:
         yield robot
 
 
@@ -169,7 +169,10 @@ def test_a_robot_of_no_known_version_is_refused(master):
 @pytest.mark.parametrize("version", [3, 4])
 def test_an_older_robot_is_accepted(master, version):
     master.set(ONE + "/robot_ip", OTHER)
-    with simulated("panda", OTHER, "realtime", "--no-hand", "--protocol", str(version)), one(master) as node:
+    with (
+        simulated("panda", "realtime", "--no-hand", "--protocol", str(version), address=OTHER),
+        one(master) as node,
+    ):
         assert node.prints("is ready", 20), node.output
         assert node.interrupt() < IN_TIME
 
@@ -197,7 +200,7 @@ def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, de
     master.set(ONE + "/robot_ip", OTHER)
     is_there, is_described = [{"fr3": "an FR3", "panda": "a Panda"}[kind] for kind in (there, described)]
     sentence = f"the robot is {is_there} "
-    with simulated(there, OTHER, "lockstep", "--no-hand") as robot, one(master) as node:
+    with simulated(there, "lockstep", "--no-hand", address=OTHER) as robot, one(master) as node:
         assert node.prints("is ready"), node.output
         assert node.prints(sentence), node.output
         assert node.prints(f"robot_description is {is_described}'s"), node.output
@@ -208,7 +211,7 @@ def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, de
         assert "Started" not in manager(master, "spawn", TRAJECTORY)
         assert node.prints(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
         assert node.output.count(sentence) == 2
-        assert robot.ask("state").startswith("Idle")
+        assert robot.remote.state().mode == "Idle"
         master.set(ONE + "/ignore_robot_mismatch", True)
         assert "Started" in manager(master, "start", TRAJECTORY), node.output
 
@@ -241,7 +244,7 @@ def test_an_arm_with_another_name_is_reported_and_not_commanded(master, robot, u
 def test_one_arm_of_several_with_another_type_is_reported(master, robot, urdf):
     master.set(ALL + "/panda_2/robot_ip", NOBODY)
     master.set(ALL + "/robot_description", urdf.replace("panda_", "panda_2_"))
-    with simulated("fr3", NOBODY, "realtime", "--no-hand"), combined(master) as node:
+    with simulated("fr3", "realtime", "--no-hand", address=NOBODY), combined(master) as node:
         assert node.prints(f"no controller can command 'panda_2' at {NOBODY}"), node.output
         assert node.prints("the robot is an FR3"), node.output
         assert node.prints("'/combined_panda/panda_2/ignore_robot_mismatch' is not true"), node.output
@@ -254,7 +257,7 @@ def test_read_only_nodes_warn_about_another_robot(bare, master):
     bare.set("/arm_looks", dict(looks, joint_names=joints))
     bare.set("/hand_looks", dict(looks, joint_names=fingers))
     bare.set("/hand", dict(looks, joint_names=fingers))
-    with simulated("fr3", OTHER, "realtime"):
+    with simulated("fr3", "realtime", address=OTHER):
         with bare.node("franka_visualization", "robot_joint_state_publisher", "arm_looks") as node:
             assert node.prints("the robot is an FR3"), node.output
             assert node.prints("robot_description is a Panda's"), node.output
@@ -336,7 +339,7 @@ def test_a_node_that_lost_its_robot_exits_on_interrupt(master, reconnect):
     master.set(ONE + "/robot_ip", OTHER)
     master.set(ONE + "/reconnect", reconnect)
     with one_with_robot(master) as (node, robot), woken_at_last(robot):
-        os.kill(robot.process.pid, signal.SIGSTOP)
+        os.kill(robot.server.process.pid, signal.SIGSTOP)
         assert node.prints("the robot is lost"), node.output
         assert node.interrupt() < IN_TIME
 
@@ -345,7 +348,7 @@ def test_a_node_with_a_running_controller_exits_on_interrupt(master):
     with moving(master) as (node, robot):
         assert node.interrupt() < IN_TIME
         assert node.process.returncode == 0
-        assert robot.ask("state").startswith("Idle"), "The motion did not end with the node."
+        assert robot.remote.state().mode == "Idle", "The motion did not end with the node."
 
 
 # Neither root nor a member of the group realtime.
@@ -356,7 +359,7 @@ if os.geteuid() == 0:
 
 def test_a_node_without_privileges_moves_if_real_time_is_not_enforced(master):
     with moving(master, UNPRIVILEGED) as (node, robot):
-        assert robot.ask("state").startswith("Move"), node.output
+        assert robot.remote.state().mode == "Move", node.output
 
 
 def test_a_controller_without_real_time_privileges_is_not_started(master):
@@ -365,7 +368,7 @@ def test_a_controller_without_real_time_privileges_is_not_started(master):
     master.set(ONE + "/robot_ip", OTHER)
     sentence = "Start with realtime_config:=ignore"
     through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with a real robot
-    with simulated("panda", OTHER, "lockstep", "--no-hand") as robot, one(master, through) as node:
+    with simulated("panda", "lockstep", "--no-hand", address=OTHER) as robot, one(master, through) as node:
         assert node.prints("is ready"), node.output
         assert node.prints(sentence), node.output
         for times, order in ((2, "spawn"), (3, "start")):  # at each request
@@ -373,7 +376,7 @@ def test_a_controller_without_real_time_privileges_is_not_started(master):
             assert node.prints(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
             assert node.output.count(sentence) == times
         assert "running" not in manager(master, "list")
-        assert robot.ask("state").startswith("Idle")
+        assert robot.remote.state().mode == "Idle"
         assert node.process.poll() is None
         assert node.interrupt() < IN_TIME
 
@@ -386,7 +389,7 @@ ANYHOW = ("env", "FRANKA_REALTIME=ignore") if HAS_REALTIME else ()
 def test_a_simulated_robot_needs_no_real_time_kernel(master):
     master.set(ONE + "/realtime_config", "enforce")
     with moving(master, (*ANYHOW, *UNPRIVILEGED)) as (node, robot):
-        assert robot.ask("state").startswith("Move"), node.output
+        assert robot.remote.state().mode == "Move", node.output
         said = node.output.count("The running kernel has no real-time support")
         assert said == (0 if HAS_REALTIME else 1), node.output
 
@@ -394,7 +397,7 @@ def test_a_simulated_robot_needs_no_real_time_kernel(master):
 def test_a_node_with_several_simulated_arms_needs_no_real_time_kernel(master, robot):
     master.set(ALL + "/realtime_config", "enforce")
     with (
-        simulated("panda", OTHER, "realtime", "--no-hand"),
+        simulated("panda", "realtime", "--no-hand", address=OTHER),
         combined(master, (*ANYHOW, *UNPRIVILEGED)) as node,
     ):
         assert node.prints("going on without real-time priority"), node.output
@@ -404,20 +407,20 @@ def test_a_node_with_several_simulated_arms_needs_no_real_time_kernel(master, ro
 def test_a_motion_continues_without_the_master(tmp_path, urdf):
     with ros_nodes.master(tmp_path) as own, moving(prepared(own, urdf)) as (node, robot):
         own.stop()
-        before = robot.ask("state")
+        before = robot.remote.state()
         time.sleep(2.0)
-        after = robot.ask("state")
-        assert before.startswith("Move") and after.startswith("Move"), (before, after, node.output)
+        after = robot.remote.state()
+        assert before.mode == after.mode == "Move", (before, after, node.output)
         assert node.process.poll() is None
         assert node.interrupt() < IN_TIME
 
 
 def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
     with moving(master) as (node, robot):
-        robot.ask("push panda_link7 0 0 -220 60")
+        robot.remote.push("panda_link7", (0, 0, -220), 60)
         assert node.prints("reflex"), node.output
         with woken_at_last(robot):
-            asked = master.run("/usr/bin/python3", "-c", ASK_RECOVERY, str(robot.process.pid))
+            asked = master.run("/usr/bin/python3", "-c", ASK_RECOVERY, str(robot.server.process.pid))
             assert asked.returncode == 0, asked
             assert node.prints("recovering") and node.prints("the robot is lost"), node.output
             assert node.interrupt() < IN_TIME
@@ -428,12 +431,12 @@ def woken_at_last(robot):
     try:
         yield
     finally:
-        os.kill(robot.process.pid, signal.SIGCONT)
+        os.kill(robot.server.process.pid, signal.SIGCONT)
 
 
 @contextmanager
 def one_with_robot(master, pace="patient", through=()):
-    with simulated("panda", OTHER, pace, "--no-hand") as robot, one(master, through) as node:
+    with simulated("panda", pace, "--no-hand", address=OTHER) as robot, one(master, through) as node:
         assert node.prints("is ready"), node.output
         yield node, robot
 

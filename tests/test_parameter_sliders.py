@@ -8,9 +8,9 @@ import subprocess
 import time
 
 import pytest
-from fci_session import ask
 from franka_sim_mujoco.session import Session
 from PIL import Image
+from pyfranka.remote import Remote
 from screen import children_of, drag, virtual_screen, window_of
 
 ADDRESS = "127.0.7.21"
@@ -72,12 +72,12 @@ class Robot:
 
     @staticmethod
     def _height():
-        return float(ask(ADDRESS, "where panda_link7").split()[2])
+        return Remote(ADDRESS).where("panda_link7")[2]
 
     @staticmethod
     def push():
         """Pushes straight up along the end effector's axis, for longer than the test."""
-        ask(ADDRESS, f"push panda_link7 0 0 {PUSH} 900000")
+        Remote(ADDRESS).push("panda_link7", (0, 0, PUSH), 900000)
 
     def yields(self, distance):
         """Waits until it rests at the position of a spring under the push."""

@@ -10,7 +10,7 @@ import struct
 import time
 
 import pytest
-from fci_session import simulated
+from fci_session import descriptors_of, memory_of, simulated
 from fci_wire import (
     COMMUNICATION,
     CONNECT,
@@ -38,7 +38,7 @@ def idle(request):
     yield
     for name in ("raw", "slow_raw"):
         sim = request.node.funcargs.get(name)
-        if sim is not None and "Reflex" in sim.ask("state"):
+        if sim is not None and sim.remote.state().mode == "Reflex":
             with connected(sim) as client:
                 client.recover()
 
@@ -46,8 +46,7 @@ def idle(request):
 @pytest.fixture(scope="module", params=["panda", "fr3"])
 def raw(request):
     """A robot in lock-step for clients of fci_wire."""
-    address = {"panda": "127.0.25.1", "fr3": "127.0.25.2"}[request.param]
-    with simulated(request.param, address, "lockstep") as sim:
+    with simulated(request.param, "lockstep") as sim:
         yield sim
 
 
@@ -81,11 +80,11 @@ def test_damaged_numbers_end_the_motion_with_the_generators_error(raw, kind):
         state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
         q = state.joints("q_d")
         state = steps(client, state, 50, q)
-        client.send(command(raw.version, state.message_id, (*q[:3], value, *q[4:])))
+        client.send(command(raw.protocol, state.message_id, (*q[:3], value, *q[4:])))
         state = client.state_until(lambda state: state.mode != MOVE)
         assert state.mode == REFLEX
-        assert state.reasons == expected[raw.version == 10]
-        assert client.reply()[1][0] == LAYOUTS[raw.version].reflex
+        assert state.reasons == expected[raw.protocol == 10]
+        assert client.reply()[1][0] == LAYOUTS[raw.protocol].reflex
         resting = client.recover()
         assert resting.errors == []
         # No part of it has reached the arm.
@@ -94,10 +93,10 @@ def test_damaged_numbers_end_the_motion_with_the_generators_error(raw, kind):
 
 def test_denormal_numbers_are_accepted(raw):
     with connected(raw) as client:
-        state = client.start(EXTERNAL, 1 if raw.version < 10 else 4)
+        state = client.start(EXTERNAL, 1 if raw.protocol < 10 else 4)
         for i in range(100):
             client.send(
-                command(raw.version, state.message_id, (5e-324,) * 7, (-5e-324,) * 7, finished=i == 99)
+                command(raw.protocol, state.message_id, (5e-324,) * 7, (-5e-324,) * 7, finished=i == 99)
             )
             state = client.state()
         assert state.mode == IDLE, state.reasons
@@ -105,7 +104,7 @@ def test_denormal_numbers_are_accepted(raw):
 
 
 def test_commands_of_another_version_are_ignored(raw):
-    other = 5 if raw.version == 10 else 10
+    other = 5 if raw.protocol == 10 else 10
     with connected(raw) as client:
         state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
         q = state.joints("q_d")
@@ -114,24 +113,24 @@ def test_commands_of_another_version_are_ignored(raw):
         wrong[0] += 0.5
         for i in range(30):
             client.send(command(other, state.message_id, wrong))
-            client.send(command(raw.version, state.message_id, q, finished=i == 29))
+            client.send(command(raw.protocol, state.message_id, q, finished=i == 29))
             state = client.state()
         assert state.mode == IDLE, state.reasons
 
 
 def test_other_versions_are_refused_with_the_robots_version(raw):
     foreign = {5: (0, 1, 2, 6, 11, 65535), 10: (0, 1, 2, 4, 5, 11, 65535)}
-    for version in foreign[raw.version]:
-        with Client(raw.address, raw.version) as client:
-            assert client.connect(version) == (1, raw.version), version
+    for version in foreign[raw.protocol]:
+        with Client(raw.address, raw.protocol) as client:
+            assert client.connect(version) == (1, raw.protocol), version
 
 
 def test_requests_may_arrive_byte_by_byte(raw):
-    with Client(raw.address, raw.version) as client:
-        port = struct.pack("<HH", raw.version, client.udp.getsockname()[1])
+    with Client(raw.address, raw.protocol) as client:
+        port = struct.pack("<HH", raw.protocol, client.udp.getsockname()[1])
         for message in (
             client.message(CONNECT, port),
-            client.message(1, move_request(raw.version, JOINT_IMPEDANCE, JOINT_POSITION)),
+            client.message(1, move_request(raw.protocol, JOINT_IMPEDANCE, JOINT_POSITION)),
         ):
             for i in range(len(message)):
                 client.tcp.sendall(message[i : i + 1])
@@ -161,8 +160,8 @@ def test_invalid_requests_end_the_connection_but_not_the_robot(raw, header):
 
 def test_a_crash_during_a_reply_frees_the_robot(raw):
     for _ in range(20):
-        client = Client(raw.address, raw.version)
-        client.request(CONNECT, struct.pack("<HH", raw.version, client.udp.getsockname()[1]))
+        client = Client(raw.address, raw.protocol)
+        client.request(CONNECT, struct.pack("<HH", raw.protocol, client.udp.getsockname()[1]))
         client.reset()
     with connected(raw) as client:
         assert client.state().mode == IDLE
@@ -174,9 +173,9 @@ def test_a_crash_in_a_motion_ends_it(raw):
     steps(client, state, 50, state.joints("q_d"))
     client.reset()
     begin = time.monotonic()
-    while not raw.ask("state").startswith("Reflex"):
-        assert time.monotonic() - begin < 5.0, raw.ask("state")
-    assert LOST in raw.ask("state")
+    while raw.remote.state().mode != "Reflex":
+        assert time.monotonic() - begin < 5.0, raw.remote.state()
+    assert LOST in raw.remote.state().errors
     with connected(raw) as client:
         assert client.state_until(lambda state: True).reasons == [COMMUNICATION]
         client.recover()
@@ -189,8 +188,8 @@ def test_a_second_client_is_refused_without_side_effects(raw):
         for _ in range(10):
             state = steps(client, state, 20, q)
             try:
-                with Client(raw.address, raw.version) as second:
-                    second.request(CONNECT, struct.pack("<HH", raw.version, 1))
+                with Client(raw.address, raw.protocol) as second:
+                    second.request(CONNECT, struct.pack("<HH", raw.protocol, 1))
                     assert second.ended(5.0)
             except ConnectionError:
                 pass  # refused even earlier
@@ -199,9 +198,9 @@ def test_a_second_client_is_refused_without_side_effects(raw):
 
 
 def test_a_silent_connection_frees_the_robot(raw):
-    if raw.robot != "panda" and not LONG:
+    if raw.kind != "panda" and not LONG:
         pytest.skip("The same for every robot; both in the long form.")
-    with Client(raw.address, raw.version) as silent:
+    with Client(raw.address, raw.protocol) as silent:
         assert silent.ended(10.0)
     connected(raw).close()
 
@@ -209,22 +208,23 @@ def test_a_silent_connection_frees_the_robot(raw):
 def test_connecting_again_and_again_leaks_nothing(raw):
     for _ in range(20):
         connected(raw).close()
-    descriptors, memory = raw.descriptors(), raw.memory()
+    pid = raw.server.process.pid
+    descriptors, memory = descriptors_of(pid), memory_of(pid)
     for _ in range(1000 if LONG else 200):
         with connected(raw) as client:
             client.state()
     with connected(raw):
         pass
     begin = time.monotonic()
-    while raw.descriptors() > descriptors:
+    while descriptors_of(pid) > descriptors:
         assert time.monotonic() - begin < 10.0, "Descriptors are left open."
-    assert raw.memory() - memory < 0.5
+    assert memory_of(pid) - memory < 0.5
 
 
 @pytest.fixture(scope="module")
 def slow_raw():
     """A Panda at a tenth of real time, for a slow client."""
-    with simulated("panda", "127.0.25.3", "0.1") as sim:
+    with simulated("panda", "0.1") as sim:
         yield sim
 
 
@@ -254,15 +254,15 @@ def test_resuming_after_a_pause(raw, own):
 
         def step():
             q[5] += v * 1e-3
-            client.send(command(raw.version, state.message_id, q))
+            client.send(command(raw.protocol, state.message_id, q))
             return client.state()
 
         for i in range(ramp + 5):
             v = speed * min(1.0, (i + 1) / ramp)  # 2 rad/s^2
             state = step()
-        raw.ask(f"lose {pause}")
+        raw.remote.lose(pause)
         for _ in range(pause):
-            client.send(command(raw.version, state.message_id, q))
+            client.send(command(raw.protocol, state.message_id, q))
             state = client.state()
         for _ in range(20):
             if not own:
@@ -272,7 +272,7 @@ def test_resuming_after_a_pause(raw, own):
                 break
         if own:
             assert state.mode == REFLEX and set(state.reasons) <= {13, 14, 15}, state.reasons
-            assert client.reply()[1][0] == LAYOUTS[raw.version].reflex
+            assert client.reply()[1][0] == LAYOUTS[raw.protocol].reflex
             client.recover()
         else:
             assert state.mode == MOVE, state.reasons

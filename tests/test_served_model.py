@@ -3,7 +3,6 @@
 """The model that a served robot gives its clients, against the closed form of the published figures."""
 
 import numpy as np
-import pyfranka
 import pytest
 import rigid_arm
 from fci_session import simulated
@@ -16,9 +15,8 @@ SERVED = [("panda", 5), ("fr3", 6), ("fr3", 9), ("fr3", 10)]
 @pytest.fixture(scope="module", params=SERVED, ids=lambda p: f"{p[0]} {p[1]}")
 def served(request):
     robot, version = request.param
-    address = f"127.0.42.{version}"
-    with simulated(robot, address, "patient", "--protocol", str(version)):
-        client = pyfranka.Robot(address, pyfranka.RealtimeConfig.Ignore)
+    with simulated(robot, "patient", "--protocol", str(version)) as sim:
+        client = sim.connect()
         assert client.server_version == version
         yield robot, client.load_model(), client.read_once()
 

@@ -44,7 +44,7 @@ def stop_for_a_while(pid):
 
 def moved(sim, client, torque, stopped=None):
     """One motion from a reset world. @returns the robot's hash."""
-    sim.ask("reset")
+    sim.remote.reset()
     client.give("move", seconds=4.0, amplitude=0.0 if torque else 0.1, torque=torque, announce=True)
     begun = client.line()
     assert begun == "moving", begun
@@ -54,7 +54,7 @@ def moved(sim, client, torque, stopped=None):
     assert result["outcome"] == "ok", result
     assert stopped is None or result["wall"] > STOPPED, "The motion had ended before."
     assert client.run_task("set_load")["outcome"] == "ok"  # answered when the world is at rest
-    return sim.ask("hash")
+    return sim.remote.hash()
 
 
 LIBRARIES = [("pyfranka", "panda"), ("pyfranka", "fr3")]
@@ -62,33 +62,30 @@ LIBRARIES = [("pyfranka", "panda"), ("pyfranka", "fr3")]
 
 @pytest.mark.parametrize("library, robot", LIBRARIES)
 def test_lock_step_waits_for_a_starved_client_and_repeats(library, robot):
-    address = {"panda": "127.0.41.1", "fr3": "127.0.41.2"}[robot]
-    with simulated(robot, address, "lockstep") as sim, client_process(library) as client, busy():
-        assert client.run_task("connect", address=address)["outcome"] == "ok"
+    with simulated(robot, "lockstep") as sim, client_process(library) as client, busy():
+        assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
+        processes = (None, client.process.pid, sim.server.process.pid)
         for torque in (False, True):
-            hashes = [
-                moved(sim, client, torque, stopped) for stopped in (None, client.process.pid, sim.process.pid)
-            ]
+            hashes = [moved(sim, client, torque, stopped) for stopped in processes]
             assert len(set(hashes)) == 1, hashes
-        assert sim.ask("state").startswith("Idle")
+        assert sim.remote.state().mode == "Idle"
 
 
 def test_lock_step_waits_for_a_silent_client_but_not_for_a_dead_one():
-    address = "127.0.41.3"
-    with simulated("panda", address, "lockstep", "--patience", "0.1") as sim:
+    with simulated("panda", "lockstep", "--patience", "0.1") as sim:
         with connected(sim) as client:
             client.start(0, 0)
             client.state_until(lambda state: state.mode != MOVE)  # without an answer
-            assert sim.ask("state").startswith("Reflex")
+            assert sim.remote.state().mode == "Reflex"
             assert client.reply()[1][0] == LAYOUTS[5].reflex
             client.recover()
-    with simulated("panda", address, "lockstep", "--patience", "forever") as sim:
+    with simulated("panda", "lockstep", "--patience", "forever") as sim:
         client = connected(sim)
         client.start(0, 0)
         client.reset()
         begin = time.monotonic()
-        while sim.ask("state").startswith("Move"):
-            assert time.monotonic() - begin < 20.0, sim.ask("state")
+        while sim.remote.state().mode == "Move":
+            assert time.monotonic() - begin < 20.0, sim.remote.state()
         with connected(sim) as client:
             client.recover()
             assert client.state().mode == IDLE

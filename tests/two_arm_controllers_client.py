@@ -13,9 +13,9 @@ import time
 import numpy as np
 import rospy
 import rospy_connections
-from control_interface import ask
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import PoseStamped
+from pyfranka.remote import Remote
 from visualization_msgs.msg import InteractiveMarkerFeedback
 
 LEFT_FROM_RIGHT = np.array([0.0, 1.0, 0.0])  # [m] base of the left arm in the right one's: dual_panda_example
@@ -117,7 +117,7 @@ def teleop(robot, leader_address):
 
     wait_for(lambda: error() < 0.01 and arms.speed() < 1e-2, "Alignment")
     begin = [np.array(arms.last[name].q) for name in arms.names]
-    ask(leader_address, "push leader_link7 0 12 0 300")
+    Remote(leader_address).push("leader_link7", (0, 12, 0), 300)
     moved = lambda: [  # noqa: E731
         float(np.abs(np.array(arms.last[name].q) - q).max()) for name, q in zip(arms.names, begin)
     ]

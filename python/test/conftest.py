@@ -2,29 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulated robots that the tests of pyfranka share."""
 
-from contextlib import ExitStack
-
 import pyfranka
 import pytest
-from fci_session import simulated
-
-ADDRESSES = {"panda": "127.0.32.1", "fr3": "127.0.32.2"}
 
 
 @pytest.fixture(scope="session")
-def addresses():
-    return ADDRESSES
+def served(franka_sim_session):
+    """Robots in lock-step, without friction and latency."""
+    kinds = ("panda", "fr3")
+    return {kind: franka_sim_session(kind, pace="lockstep", realism="ideal").robot for kind in kinds}
 
 
 @pytest.fixture(scope="session")
-def robots():
-    with ExitStack() as stack:
-        for robot in ADDRESSES:
-            stack.enter_context(simulated(robot, ADDRESSES[robot], "lockstep"))
-        yield {
-            name: pyfranka.Robot(address, pyfranka.RealtimeConfig.Ignore)
-            for name, address in ADDRESSES.items()
-        }
+def addresses(served):
+    return {kind: robot.address for kind, robot in served.items()}
+
+
+@pytest.fixture(scope="session")
+def robots(served):
+    return {kind: robot.connect() for kind, robot in served.items()}
 
 
 @pytest.fixture(params=["panda", "fr3"])

@@ -40,15 +40,16 @@ def arm(sim, name):
 
 def hash_over_fci(name):
     """The robot's hash of a motion by a client in lock-step, and the joint positions at its start."""
-    address = {"panda": "127.0.32.11", "fr3": "127.0.32.12"}[name]
     go_first()
     try:
         with (
-            simulated(name, address, "lockstep", *SCENE) as served,
-            Client(address, served.version) as client,
+            simulated(name, "lockstep", *SCENE) as served,
+            Client(served.address, served.protocol) as client,
         ):
             assert client.connect()[0] == 0
-            client.request(4 if served.version <= 5 else 3, struct.pack("<52d", *[100.0] * 28, *[300.0] * 24))
+            client.request(
+                4 if served.protocol <= 5 else 3, struct.pack("<52d", *[100.0] * 28, *[300.0] * 24)
+            )
             assert client.reply()[1][0] == 0
             state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
             first = state.joints("q_d")
@@ -58,7 +59,7 @@ def hash_over_fci(name):
                 )
                 state = client.state()
             assert client.reply()[1][0] == 0
-            return int(served.ask("hash"), 16), first
+            return served.remote.hash(), first
     finally:
         go_with_all()
 

@@ -1,53 +1,18 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Simulated robots without ROS, their control interface, and client processes that execute tasks."""
+"""Simulated robots without ROS, and client processes that execute tasks."""
 
 import json
 import os
-import select
 import subprocess
 import sys
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from control_interface import ask
 from lines import Lines
+from pyfranka.franka_sim import FrankaSim, SimRobot
 
 HERE = Path(__file__).resolve().parent
-VERSIONS = {"panda": 5, "fr3": 10}
-
-
-def program() -> str:
-    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
-        found = Path(prefix) / "bin" / "franka_sim"
-        if found.exists():
-            return str(found)
-    raise FileNotFoundError("There is no franka_sim in the workspace; build it with ./franka build.")
-
-
-def start(*arguments: str) -> subprocess.Popen:
-    """Starts franka_sim and waits until it has opened its ports."""
-    process = subprocess.Popen(
-        [program(), *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
-    ready, _, _ = select.select([process.stdout], [], [], 60)
-    line = process.stdout.readline() if ready else ""
-    if "waits for clients" not in line:
-        process.kill()
-        process.wait()
-        raise AssertionError(line or "franka_sim says nothing.")
-    return process
-
-
-def stop(process: subprocess.Popen) -> None:
-    """Ends a program as Ctrl-C does; fails if it does not end."""
-    process.terminate()
-    try:
-        process.wait(20)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
-        raise
 
 
 def memory_of(pid: int) -> float:
@@ -56,43 +21,18 @@ def memory_of(pid: int) -> float:
     return float(next(line for line in lines if line.startswith("VmRSS")).split()[1]) / 1024
 
 
-class Simulation:
-    """A running franka_sim."""
-
-    def __init__(self, process: subprocess.Popen, robot: str, address: str):
-        self.process, self.robot, self.address = process, robot, address
-        self.version = VERSIONS[robot]
-
-    def ask(self, line: str) -> str:
-        """Sends one line to the control interface; returns the text after `ok`."""
-        return ask(self.address, line)
-
-    def memory(self) -> float:
-        """Resident [MB]."""
-        return memory_of(self.process.pid)
-
-    def descriptors(self) -> int:
-        return len(os.listdir(f"/proc/{self.process.pid}/fd"))
+def descriptors_of(pid: int) -> int:
+    """How many descriptors a process has open."""
+    return len(os.listdir(f"/proc/{pid}/fd"))
 
 
 @contextmanager
-def running(*arguments: str):
-    """Yields a franka_sim that has opened its ports; fails if it ends by itself or does not end."""
-    process = start(*arguments)
-    try:
-        yield process
-        assert process.poll() is None, "The simulation has ended by itself: " + process.stdout.read()
-    finally:
-        stop(process)
-
-
-@contextmanager
-def simulated(robot: str, address: str, pace: str, *arguments: str):
-    """The same for one robot: an ideal one unless the arguments say otherwise, so that no result depends on
-    friction or on the hand's latency."""
-    ideal = ["--realism", "ideal"]
-    with running("--robot", robot, "--ip", address, "--pace", pace, *ideal, *arguments) as process:
-        yield Simulation(process, robot, address)
+def simulated(kind: str, pace: str, *arguments: str, address: str = ""):
+    """A ServedRobot of pyfranka.franka_sim: an ideal one unless the arguments say otherwise, so that no
+    result depends on friction or on the hand's latency."""
+    robot = SimRobot(kind, address=address, realism="ideal", arguments=arguments)
+    with FrankaSim(robot, pace=pace) as server:
+        yield server.robot
 
 
 def go_first(pid: int = 0) -> None:

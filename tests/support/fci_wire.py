@@ -220,6 +220,6 @@ class Client:
 
 def connected(sim) -> Client:
     """A new client of a simulated robot."""
-    client = Client(sim.address, sim.version)
-    assert client.connect() == (0, sim.version)
+    client = Client(sim.address, sim.protocol)
+    assert client.connect() == (0, sim.protocol)
     return client

@@ -39,8 +39,8 @@ def network_fixtures(
             warnings.warn(f"{reason}: tested without this client", stacklevel=2)
             continue
         client = stack.enter_context(client_process(library, python))
-        sim = stack.enter_context(simulated(robot, f"{network}.{2 * i + 1}", pace, *arguments))
-        proxy = stack.enter_context(Proxy(f"{network}.{2 * i + 2}", sim.address, sim.version))
+        sim = stack.enter_context(simulated(robot, pace, *arguments))
+        proxy = stack.enter_context(Proxy(f"{network}.{2 * i + 2}", sim.address, sim.protocol))
         made.append(NetworkFixture(sim, proxy, client))
     for fixture in made:
         fixture.client.give("connect", address=fixture.proxy.address)
@@ -70,9 +70,10 @@ def check_lost(group, results, most_wall):
             assert LOST in result["outcome"], result
             assert "motion aborted by reflex!" in result["outcome"], result
             assert result["wall"] < most_wall, result
-            assert fixture.sim.ask("state").startswith("Reflex"), fixture.sim.ask("state")
+            state = fixture.sim.remote.state()
+            assert state.mode == "Reflex", state
     finally:
-        recover([fixture for fixture in group if "Reflex" in fixture.sim.ask("state")])
+        recover([fixture for fixture in group if fixture.sim.remote.state().mode == "Reflex"])
     for result in run(group, seconds=0.2, amplitude=0.0):
         assert result["outcome"] == "ok", result
 

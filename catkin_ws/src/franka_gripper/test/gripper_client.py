@@ -8,7 +8,6 @@ of the stone between the fingers, the goals of the stream, and which action shal
 
 import json
 import math
-import socket
 import sys
 import threading
 import time
@@ -28,9 +27,10 @@ from franka_gripper.msg import (
     StopAction,
     StopGoal,
 )
+from pyfranka.remote import Remote
 from sensor_msgs.msg import JointState
 
-ADDRESS, PLACE, PAIRS = sys.argv[1], " ".join(sys.argv[2:5]), sys.argv[6:]
+REMOTE, PLACE, PAIRS = Remote(sys.argv[1], timeout=20.0), list(map(float, sys.argv[2:5])), sys.argv[6:]
 KINDS = {
     "homing": HomingAction,
     "stop": StopAction,
@@ -39,15 +39,6 @@ KINDS = {
     "gripper_action": GripperCommandAction,
 }
 TOLERANCE = GraspEpsilon(0.005, 0.005)
-
-
-def send(line):
-    """One command of the simulated robot's control interface."""
-    with socket.create_connection((ADDRESS, 1340), timeout=20) as connection:
-        stream = connection.makefile("rw", newline="\n")
-        stream.write(line + "\n")
-        stream.flush()
-        return stream.readline().strip()
 
 
 class Fingers:
@@ -134,7 +125,7 @@ def stop():
 
 
 def stone(between):
-    send(f"place stone {PLACE}" if between else "place stone 1.0 1.0 0.031")
+    REMOTE.place("stone", PLACE if between else (1.0, 1.0, 0.031))
 
 
 def opened(fingers):
@@ -171,7 +162,7 @@ def with_stone(fingers):
     opened(fingers)
     stone(True)
     report["hold"] = grasp(0.03, force=5.0).result()
-    send("push stone 20 0 0 60")  # out of the fingers, but not out of the world
+    REMOTE.push("stone", (20, 0, 0), 60)  # out of the fingers, but not out of the world
     report["slipped"] = fingers.until(lambda width: width < 0.005)
     opened(fingers)
     stone(False)

@@ -10,9 +10,9 @@ import time
 from pathlib import Path
 
 import pytest
-from fci_session import start
 from franka_sim_mujoco.session import Session
 from lines import Lines
+from pyfranka.franka_sim import FrankaSim, SimRobot
 
 HERE = Path(__file__).resolve().parent
 ADDRESS = "127.0.31.1"
@@ -41,11 +41,11 @@ WORLD = f"""<mujoco><worldbody>
 </worldbody></mujoco>"""
 
 
-def start_hand(world) -> subprocess.Popen:
-    return start("--ip", ADDRESS, "--world", str(world))
+def start_hand(world) -> FrankaSim:
+    return FrankaSim(SimRobot("panda", address=ADDRESS), world=world, pace="realtime")
 
 
-def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
+def talk(client, world, hand) -> tuple[dict, FrankaSim]:
     """Reads the client's output, and ends and starts the hand on request."""
     lines = Lines(client.stdout)
     deadline = time.monotonic() + 600
@@ -55,7 +55,6 @@ def talk(client, world, hand) -> tuple[dict, subprocess.Popen]:
             break
         if line == "kill":
             hand.kill()
-            hand.wait()
         elif line == "restart":
             hand = start_hand(world)
             client.stdin.write("\n")
@@ -119,10 +118,10 @@ def report(tmp_path_factory):
             print(session.tail(80))
             return result
     finally:
-        for process in (client, hand):
-            if process is not None:
-                process.kill()
-                process.wait()
+        hand.kill()
+        if client is not None:
+            client.kill()
+            client.wait()
 
 
 def test_each_action_moves_the_hand(report):

@@ -10,9 +10,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from control_interface import answer
-from fci_session import program, start, stop
 from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, REFLEX, Client
+from pyfranka.franka_sim import FrankaSim, SimRobot, find_program
 
 USER_STOPPED = 5  # robot_mode
 ROBOTS = Path(__file__).resolve().parents[1] / "robots"
@@ -25,15 +24,14 @@ WORLD = """<mujoco><worldbody>
 
 
 def run(*arguments):
-    return subprocess.run([program(), *arguments], capture_output=True, text=True, timeout=30)
+    return subprocess.run([find_program(), *arguments], capture_output=True, text=True, timeout=30)
 
 
 @contextmanager
-def simulated(address, *arguments):
-    """A robot, and a function that sends it a line and returns the answer."""
-    process = start("--ip", address, *arguments)
-    try:
-        with socket.create_connection((address, 1340), timeout=20) as connection:
+def served(*robots, pace="realtime", world="", arguments=()):
+    """Robots, and a function that sends the first one a line as it stands and returns the answer."""
+    with FrankaSim(*robots, pace=pace, world=world, arguments=arguments) as server:
+        with socket.create_connection((server.robot.address, 1340), timeout=20) as connection:
             stream = connection.makefile("rw", newline="\n")
 
             def send(text):
@@ -41,10 +39,12 @@ def simulated(address, *arguments):
                 stream.flush()
                 return stream.readline().rstrip("\n")
 
-            yield send, process
-    finally:
-        stop(process)
-        assert process.returncode == 0
+            yield send, server
+
+
+def simulated(address, *arguments, kind="panda", **options):
+    """The same for one robot with these words of the command line."""
+    return served(SimRobot(kind, address=address), arguments=arguments, **options)
 
 
 def test_help_names_every_option():
@@ -131,7 +131,7 @@ def test_two_robots_need_two_addresses():
         result = run("--ip", "127.0.22.1")
         assert result.returncode == 1
         assert "Another simulated robot runs there" in result.stderr
-        with simulated("127.0.22.2", "--robot", "fr3") as (send, _):
+        with simulated("127.0.22.2", kind="fr3") as (send, _):
             assert send("state").startswith("ok Idle")
 
 
@@ -208,10 +208,8 @@ def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
 
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
 def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
-    arms = "--robot panda"
-    arms += " --robot panda --ip 127.0.22.8 --base 0.5,1,0,1.5708"
-    arms += " --robot fr3 --ip 127.0.22.9 --base 0,-1,0"
-    with simulated("127.0.22.7", "--pace", pace, *arms.split()) as (send, process):
+    turned = SimRobot("panda", base=(0.5, 1, 0, 1.5708))
+    with served("panda", turned, SimRobot("fr3", base=(0, -1, 0)), pace=pace) as (send, server):
         heads = {}
         for name in ("panda", "panda_2", "fr3"):
             heads[name] = [float(word) for word in send(f"where {name}_link0").split()[1:]]
@@ -222,13 +220,14 @@ def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
         first = [float(word) for word in send("where panda_link7").split()[1:]]
         assert hand == pytest.approx([0.5 - first[1], 1 + first[0], first[2]], abs=2e-3)
         # A switch concerns one robot, the world all.
-        assert answer("127.0.22.8", "user_stop on") == "ok"
-        assert answer("127.0.22.8", "state").startswith("ok User stopped")
+        second, third = server["panda_2"].remote, server["fr3"].remote
+        second.user_stop(True)
+        assert second.state().mode == "User stopped"
         assert send("state").startswith("ok Idle")
-        assert answer("127.0.22.9", "state").startswith("ok Idle")
-        assert answer("127.0.22.9", "reset") == "ok"
-        assert answer("127.0.22.9", "quit") == "ok"
-        assert process.wait(10) == 0
+        assert third.state().mode == "Idle"
+        third.reset()
+        third.quit()
+        assert server.process.wait(10) == 0
 
 
 def test_a_vacuum_gripper_replaces_the_gripper():
@@ -246,13 +245,11 @@ def test_a_vacuum_gripper_replaces_the_gripper():
 
 
 def test_every_option_also_takes_its_value_after_an_equals_sign():
-    options = "--robot=fr3 --protocol=10 --base=0,1,0 --arm-id=left --realism=real --hand=none"
-    options += " --control-port=1340 --pace=lockstep --world=stone.xml --linger=0"
-    with simulated("127.0.22.12", *options.split()) as (send, _):
+    robot = SimRobot("fr3", "left", base=(0, 1, 0), hand="none", realism="real", protocol=10)
+    words = [*robot.options(), "--control-port=1340", "--pace=lockstep", "--linger=0"]
+    assert len(words) == 10 and all("=" in word for word in words)
+    with served(robot, pace="lockstep", world="stone.xml", arguments=words[7:]) as (send, _):
         assert send("where left_link0") == "ok 0 1 0"
-    process = start("--ip=127.0.22.12")
-    stop(process)
-    assert process.returncode == 0
 
 
 # Unreasonable values for each line that takes a size: words, and the unit that the error must name.
@@ -293,7 +290,7 @@ FEATHER = """<mujoco><worldbody><body name="feather" pos="5 5 5"><freejoint/>
 def test_a_diverging_world_stops_is_reported_and_can_be_reset(pace, tmp_path):
     world = tmp_path / "feather.xml"
     world.write_text(FEATHER)
-    with simulated("127.0.22.14", "--pace", pace, "--world", str(world)) as (send, process):
+    with simulated("127.0.22.14", "--pace", pace, "--world", str(world)) as (send, server):
         with Client("127.0.22.14", 5) as client:
             client.connect()
             assert send("push feather 1e4 0 0 10") == "ok"
@@ -311,7 +308,7 @@ def test_a_diverging_world_stops_is_reported_and_can_be_reset(pace, tmp_path):
             assert send("state").startswith("ok Idle, client of protocol 5, errors none")
             assert send("place feather 0 1 1") == "ok"
             client.state()
-    assert "franka_sim: The physics diverged: the acceleration of body 'feather'" in process.stdout.read()
+    assert "franka_sim: The physics diverged: the acceleration of body 'feather'" in server.log()
 
 
 def test_a_robot_that_starts_inside_a_body_is_reported():
@@ -319,9 +316,9 @@ def test_a_robot_that_starts_inside_a_body_is_reported():
     example = next(line.split() for line in page.splitlines() if line.startswith("    franka_sim "))
     assert "stone.xml" in example
     for base, within in (([], False), (["--base=0,0,0"], True)):
-        with simulated("127.0.22.15", *example[1:], *base) as (_, process):
+        with simulated("127.0.22.15", *example[3:], *base, kind=example[2]) as (_, server):
             pass
-        assert ("begins within other bodies" in process.stdout.read()) == within
+        assert ("begins within other bodies" in server.log()) == within
 
 
 def test_the_hash_command_waits_for_a_world_at_rest():
@@ -352,17 +349,14 @@ def test_a_slow_control_client_and_a_second_one_get_an_error():
 
 
 def test_a_half_closed_control_connection_is_answered():
-    process = start("--ip=127.0.22.18")
-    try:
+    with FrankaSim("panda", pace="realtime") as server:
         for _ in range(3):
-            with socket.create_connection(("127.0.22.18", 1340), timeout=20) as connection:
+            with socket.create_connection((server.robot.address, 1340), timeout=20) as connection:
                 connection.sendall(b"user_stop on\nstate\nuser_stop off\n")
                 connection.shutdown(socket.SHUT_WR)
                 answers = connection.makefile("r").read().splitlines()
             assert answers[0] == answers[2] == "ok"
             assert answers[1].startswith("ok User stopped")
-    finally:
-        stop(process)
 
 
 def test_commands_are_answered_after_a_state_shows_their_effect():
@@ -403,7 +397,7 @@ def test_the_initial_width_of_a_hand_is_the_same_at_any_pace(pace):
 
 @pytest.mark.parametrize("pace", ["lockstep", "0.5"])
 def test_franka_info_ignores_lateness_of_a_robot_with_another_pace(pace):
-    info = Path(program()).with_name("franka_info")
+    info = Path(find_program()).with_name("franka_info")
     with simulated("127.0.22.22", "--pace", pace):
         result = subprocess.run([str(info), "127.0.22.22", "0.5"], capture_output=True, text=True, timeout=60)
     assert "of the clock's: a simulated robot" in result.stdout
@@ -414,27 +408,26 @@ def test_franka_info_ignores_lateness_of_a_robot_with_another_pace(pace):
 
 
 def test_quit_ends_the_simulation():
-    with simulated("127.0.22.6") as (send, process):
+    with simulated("127.0.22.6") as (send, server):
         assert send("quit") == "ok"
-        assert process.wait(10) == 0
+        assert server.process.wait(10) == 0
 
 
 @pytest.fixture
 def lingering():
     """Starts a robot with a client, signals it to exit, and returns both."""
-    processes = []
+    servers = []
 
     def begin(seconds):
-        processes.append(start("--ip", "127.0.22.10", "--linger", str(seconds)))
-        client = Client("127.0.22.10", 5)
+        servers.append(FrankaSim("panda", pace="realtime", arguments=["--linger", seconds]))
+        client = Client(servers[-1].robot.address, 5)
         assert client.connect() == (0, 5)
-        processes[-1].terminate()
-        return processes[-1], client
+        servers[-1].process.terminate()
+        return servers[-1].process, client
 
     yield begin
-    for process in processes:
-        process.kill()
-        process.wait()
+    for server in servers:
+        server.kill()
 
 
 def test_exit_waits_for_clients(lingering):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from fci_session import simulated, stop
+from fci_session import simulated
 from franka_sim_mujoco.session import Session
 from PIL import Image
 
@@ -26,7 +26,11 @@ def process(*command, **options):
     try:
         yield running
     finally:
-        stop(running)
+        running.terminate()
+        try:
+            running.wait(20)
+        finally:
+            running.kill()
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +79,7 @@ def joint_states(session) -> dict:
 @pytest.mark.parametrize("name", ["panda", "fr3"] if os.environ.get("FRANKA_TEST_LONG") else ["panda"])
 def test_joint_states_hold_arm_and_hand(screen, tmp_path, name):
     rviz = name == "panda"
-    robot = simulated(name, ADDRESS, "realtime")
+    robot = simulated(name, "realtime", address=ADDRESS)
     with robot, launch(tmp_path / "launch.log", name, f"rviz:={str(rviz).lower()}") as session:
         session.wait_for_master()
         states = joint_states(session)
