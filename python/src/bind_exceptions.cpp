@@ -3,6 +3,7 @@
 #include <franka/exception.h>
 
 #include "bindings.h"
+#include "other_names.h"
 
 namespace pyfranka {
 
@@ -32,6 +33,7 @@ void bindExceptions(py::module_& module) {
   const py::object base =
       py::register_exception<franka::Exception>(module, "Exception", PyExc_RuntimeError);
   base.attr("__doc__") = "Base of all errors of a robot; the text is a sentence for the user.";
+  alias(module, {{"Exception", "FrankaException"}});
   bindPlain<franka::ModelException>(module, "ModelException", base, "The model cannot be had.");
   bindPlain<franka::NetworkException>(module, "NetworkException", base,
                                       "The connection cannot be made, or is lost.");

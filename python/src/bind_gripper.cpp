@@ -8,6 +8,8 @@
 #include <string>
 
 #include "bindings.h"
+#include "numbers.h"
+#include "other_names.h"
 
 namespace pyfranka {
 
@@ -15,25 +17,36 @@ namespace {
 
 using release = pybind11::gil_scoped_release;
 
+template <typename Type>
+void bindConnection(py::class_<Type>& type) {
+  withNames(
+      {{{"address", "franka_address"}}},
+      [&](const auto&... extra) { type.def(py::init<const std::string&>(), extra...); },
+      py::call_guard<release>(), py::arg("address"),
+      "Connects. Raises NetworkException, IncompatibleVersionException.");
+  type.def_property_readonly(
+      "server_version", [](const Type& self) { return version(self.serverVersion()); },
+      "Version of the protocol that the hand or gripper speaks, an int.");
+}
+
 void bindHand(py::module_& module) {
   using namespace franka;
   py::class_<GripperState>(module, "GripperState", "State of the Franka Hand.")
-      .def_readonly("width", &GripperState::width, "Between the fingers [m].")
-      .def_readonly("max_width", &GripperState::max_width, "As found by homing [m].")
-      .def_readonly("is_grasped", &GripperState::is_grasped,
-                    "Whether an object as wide as asked is held.")
-      .def_readonly("temperature", &GripperState::temperature, "Of the hand [deg C].")
-      .def_property_readonly(
-          "time", [](const GripperState& state) { return state.time.toSec(); },
+      .def_readwrite("width", &GripperState::width, "Between the fingers [m].")
+      .def_readwrite("max_width", &GripperState::max_width, "As found by homing [m].")
+      .def_readwrite("is_grasped", &GripperState::is_grasped,
+                     "Whether an object as wide as asked is held.")
+      .def_readwrite("temperature", &GripperState::temperature, "Of the hand [deg C].")
+      .def_property(
+          "time", [](const GripperState& state) { return seconds(state.time); },
+          [](GripperState& state, double time) { state.time = durationOf(time); },
           "Since the hand started [s].");
-  py::class_<Gripper>(module, "Gripper",
-                      "The Franka Hand. Commands wait for their end; stop() from another thread "
-                      "interrupts them, which raises CommandException in the one that waits.")
-      .def(py::init<const std::string&>(), py::call_guard<release>(), py::arg("address"),
-           "Connects. Raises NetworkException, IncompatibleVersionException.")
-      .def_property_readonly("server_version", &Gripper::serverVersion,
-                             "Version of the protocol that the hand speaks.")
-      .def("homing", &Gripper::homing, py::call_guard<release>(),
+  py::class_<Gripper> hand(
+      module, "Gripper",
+      "The Franka Hand. Commands wait for their end; stop() from another thread interrupts them, "
+      "which raises CommandException in the one that waits.");
+  bindConnection(hand);
+  hand.def("homing", &Gripper::homing, py::call_guard<release>(),
            "Finds out how far the fingers open. Returns whether it succeeded.\n\nRaises "
            "CommandException when it is refused or ended by another command, NetworkException.")
       .def("grasp", &Gripper::grasp, py::call_guard<release>(), py::arg("width"), py::arg("speed"),
@@ -53,12 +66,12 @@ void bindHand(py::module_& module) {
 
 void bindVacuum(py::module_& module) {
   using namespace franka;
-  py::enum_<VacuumGripperDeviceStatus>(module, "VacuumGripperDeviceStatus",
-                                       "How well the gripper is.")
-      .value("Green", VacuumGripperDeviceStatus::kGreen)
-      .value("Yellow", VacuumGripperDeviceStatus::kYellow)
-      .value("Orange", VacuumGripperDeviceStatus::kOrange)
-      .value("Red", VacuumGripperDeviceStatus::kRed);
+  aliasAsInCpp(py::enum_<VacuumGripperDeviceStatus>(module, "VacuumGripperDeviceStatus",
+                                                    "How well the gripper is.")
+                   .value("Green", VacuumGripperDeviceStatus::kGreen)
+                   .value("Yellow", VacuumGripperDeviceStatus::kYellow)
+                   .value("Orange", VacuumGripperDeviceStatus::kOrange)
+                   .value("Red", VacuumGripperDeviceStatus::kRed));
   py::class_<VacuumGripperState>(module, "VacuumGripperState", "State of the vacuum gripper.")
       .def_readonly("in_control_range", &VacuumGripperState::in_control_range,
                     "Whether the vacuum is within its bounds.")
@@ -70,21 +83,19 @@ void bindVacuum(py::module_& module) {
       .def_readonly("actual_power", &VacuumGripperState::actual_power, "Of the pump [%].")
       .def_readonly("vacuum", &VacuumGripperState::vacuum, "At the cups [mbar].")
       .def_property_readonly(
-          "time", [](const VacuumGripperState& state) { return state.time.toSec(); },
+          "time", [](const VacuumGripperState& state) { return seconds(state.time); },
           "Since the gripper started [s].");
 
   py::class_<VacuumGripper> gripper(module, "VacuumGripper", "The vacuum gripper.");
-  py::enum_<VacuumGripper::ProductionSetupProfile>(gripper, "ProductionSetupProfile",
-                                                   "One of four sets of bounds of the gripper.")
-      .value("P0", VacuumGripper::ProductionSetupProfile::kP0)
-      .value("P1", VacuumGripper::ProductionSetupProfile::kP1)
-      .value("P2", VacuumGripper::ProductionSetupProfile::kP2)
-      .value("P3", VacuumGripper::ProductionSetupProfile::kP3);
+  aliasAsInCpp(py::enum_<VacuumGripper::ProductionSetupProfile>(
+                   gripper, "ProductionSetupProfile", "One of four sets of bounds of the gripper.")
+                   .value("P0", VacuumGripper::ProductionSetupProfile::kP0)
+                   .value("P1", VacuumGripper::ProductionSetupProfile::kP1)
+                   .value("P2", VacuumGripper::ProductionSetupProfile::kP2)
+                   .value("P3", VacuumGripper::ProductionSetupProfile::kP3));
+  module.attr("VacuumGripperProductionSetupProfile") = gripper.attr("ProductionSetupProfile");
+  bindConnection(gripper);
   gripper
-      .def(py::init<const std::string&>(), py::call_guard<release>(), py::arg("address"),
-           "Connects. Raises NetworkException, IncompatibleVersionException.")
-      .def_property_readonly("server_version", &VacuumGripper::serverVersion,
-                             "Version of the protocol that the gripper speaks.")
       .def("vacuum", &VacuumGripper::vacuum, py::call_guard<release>(), py::arg("vacuum"),
            py::arg("timeout"), py::arg("profile") = VacuumGripper::ProductionSetupProfile::kP0,
            "Vacuums an object [10 mbar] within a time (timedelta). Returns whether it is held.\n\n"

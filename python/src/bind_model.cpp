@@ -8,8 +8,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bindings.h"
+#include "other_names.h"
 #include "sim_model.h"
 
 namespace pyfranka {
@@ -19,6 +21,9 @@ namespace {
 using franka::Frame;
 using franka::RobotState;
 
+/// panda-python's name of the argument.
+const std::vector<Names> kOfState = {{{"state", "robot_state"}}};
+
 constexpr const char* kOfPositions =
     "The same for joint positions, 7 [rad], and the poses of EE in F and K in EE, 4x4.";
 constexpr const char* kOfLoad =
@@ -27,116 +32,117 @@ constexpr const char* kOfLoad =
 
 template <typename State, typename Model>
 void bindKinematics(py::class_<Model>& type) {
+  defNamed(
+      type, "pose", kOfState,
+      [](const Model& self, Frame frame, const State& state) {
+        return copy(self.pose(frame, state), Shape::kMatrix4);
+      },
+      py::arg("frame"), py::arg("state"), "Pose of a frame in O, 4x4.");
   type.def(
-          "pose",
-          [](const Model& self, Frame frame, const State& state) {
-            return copy(self.pose(frame, state), Shape::kMatrix4);
-          },
-          py::arg("frame"), py::arg("state"), "Pose of a frame in O, 4x4.")
-      .def(
-          "pose",
-          [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-             const py::object& EE_T_K) {
-            return copy(self.pose(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
-                                  arrayOf<16>(EE_T_K, "EE_T_K")),
-                        Shape::kMatrix4);
-          },
-          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions)
-      .def(
-          "zero_jacobian",
-          [](const Model& self, Frame frame, const State& state) {
-            return copy(self.zeroJacobian(frame, state), Shape::kJacobian);
-          },
-          py::arg("frame"), py::arg("state"), "Jacobian of a frame in O, 6x7, linear rows first.")
-      .def(
-          "zero_jacobian",
-          [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-             const py::object& EE_T_K) {
-            return copy(self.zeroJacobian(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
-                                          arrayOf<16>(EE_T_K, "EE_T_K")),
-                        Shape::kJacobian);
-          },
-          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions)
-      .def(
-          "body_jacobian",
-          [](const Model& self, Frame frame, const State& state) {
-            return copy(self.bodyJacobian(frame, state), Shape::kJacobian);
-          },
-          py::arg("frame"), py::arg("state"), "Jacobian of a frame in its own axes, 6x7.")
-      .def(
-          "body_jacobian",
-          [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-             const py::object& EE_T_K) {
-            return copy(self.bodyJacobian(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
-                                          arrayOf<16>(EE_T_K, "EE_T_K")),
-                        Shape::kJacobian);
-          },
-          py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
+      "pose",
+      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+         const py::object& EE_T_K) {
+        return copy(self.pose(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
+                              arrayOf<16>(EE_T_K, "EE_T_K")),
+                    Shape::kMatrix4);
+      },
+      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
+  defNamed(
+      type, "zero_jacobian", kOfState,
+      [](const Model& self, Frame frame, const State& state) {
+        return copy(self.zeroJacobian(frame, state), Shape::kJacobian);
+      },
+      py::arg("frame"), py::arg("state"), "Jacobian of a frame in O, 6x7, linear rows first.");
+  defNamed(
+      type, "zero_jacobian", kOfState,
+      [](const Model& self, const State& state) {
+        return copy(self.zeroJacobian(Frame::kEndEffector, state), Shape::kJacobian);
+      },
+      py::arg("state"), "The same of the end effector.");
+  type.def(
+      "zero_jacobian",
+      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+         const py::object& EE_T_K) {
+        return copy(self.zeroJacobian(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
+                                      arrayOf<16>(EE_T_K, "EE_T_K")),
+                    Shape::kJacobian);
+      },
+      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
+  defNamed(
+      type, "body_jacobian", kOfState,
+      [](const Model& self, Frame frame, const State& state) {
+        return copy(self.bodyJacobian(frame, state), Shape::kJacobian);
+      },
+      py::arg("frame"), py::arg("state"), "Jacobian of a frame in its own axes, 6x7.");
+  type.def(
+      "body_jacobian",
+      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+         const py::object& EE_T_K) {
+        return copy(self.bodyJacobian(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
+                                      arrayOf<16>(EE_T_K, "EE_T_K")),
+                    Shape::kJacobian);
+      },
+      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
 }
 
 template <typename State, typename Model>
 void bindDynamics(py::class_<Model>& type) {
+  defNamed(
+      type, "mass", kOfState,
+      [](const Model& self, const State& state) { return copy(self.mass(state), Shape::kMass); },
+      py::arg("state"), "Mass matrix, 7x7 [kg m^2].");
   type.def(
-          "mass",
-          [](const Model& self, const State& state) {
-            return copy(self.mass(state), Shape::kMass);
-          },
-          py::arg("state"), "Mass matrix, 7x7 [kg m^2].")
-      .def(
-          "mass",
-          [](const Model& self, const py::object& q, const py::object& I_total, double m_total,
-             const py::object& F_x_Ctotal) {
-            return copy(self.mass(arrayOf<7>(q, "q"), arrayOf<9>(I_total, "I_total"), m_total,
-                                  arrayOf<3>(F_x_Ctotal, "F_x_Ctotal")),
-                        Shape::kMass);
-          },
-          py::arg("q"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"), kOfLoad)
-      .def(
-          "coriolis",
-          [](const Model& self, const State& state) {
-            return copy(self.coriolis(state), Shape::kVector);
-          },
-          py::arg("state"), "Coriolis torques C(q, dq) dq, 7 [Nm].")
-      .def(
-          "coriolis",
-          [](const Model& self, const py::object& q, const py::object& dq,
-             const py::object& I_total, double m_total, const py::object& F_x_Ctotal) {
-            return copy(self.coriolis(arrayOf<7>(q, "q"), arrayOf<7>(dq, "dq"),
-                                      arrayOf<9>(I_total, "I_total"), m_total,
-                                      arrayOf<3>(F_x_Ctotal, "F_x_Ctotal")),
-                        Shape::kVector);
-          },
-          py::arg("q"), py::arg("dq"), py::arg("I_total"), py::arg("m_total"),
-          py::arg("F_x_Ctotal"),
-          "The same for joint positions, 7 [rad], joint velocities, 7 [rad/s], and a load as for "
-          "mass.")
-      .def(
-          "gravity",
-          [](const Model& self, const State& state) {
-            return copy(self.gravity(state), Shape::kVector);
-          },
-          py::arg("state"), "Gravity torques, 7 [Nm].")
-      .def(
-          "gravity",
-          [](const Model& self, const State& state, const py::object& gravity_earth) {
-            return copy(self.gravity(state, arrayOf<3>(gravity_earth, "gravity_earth")),
-                        Shape::kVector);
-          },
-          py::arg("state"), py::arg("gravity_earth"),
-          "The same with another gravity in O, 3 [m/s^2].")
-      .def(
-          "gravity",
-          [](const Model& self, const py::object& q, double m_total, const py::object& F_x_Ctotal,
-             const py::object& gravity_earth) {
-            return copy(
-                self.gravity(arrayOf<7>(q, "q"), m_total, arrayOf<3>(F_x_Ctotal, "F_x_Ctotal"),
-                             arrayOf<3>(gravity_earth, "gravity_earth")),
-                Shape::kVector);
-          },
-          py::arg("q"), py::arg("m_total"), py::arg("F_x_Ctotal"),
-          py::arg("gravity_earth") = py::make_tuple(0.0, 0.0, -9.81),
-          "The same for joint positions, 7 [rad], and what hangs on the flange: mass [kg], centre "
-          "of mass in F, 3 [m].");
+      "mass",
+      [](const Model& self, const py::object& q, const py::object& I_total, double m_total,
+         const py::object& F_x_Ctotal) {
+        return copy(self.mass(arrayOf<7>(q, "q"), arrayOf<9>(I_total, "I_total"), m_total,
+                              arrayOf<3>(F_x_Ctotal, "F_x_Ctotal")),
+                    Shape::kMass);
+      },
+      py::arg("q"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"), kOfLoad);
+  defNamed(
+      type, "coriolis", kOfState,
+      [](const Model& self, const State& state) {
+        return copy(self.coriolis(state), Shape::kVector);
+      },
+      py::arg("state"), "Coriolis torques C(q, dq) dq, 7 [Nm].");
+  type.def(
+      "coriolis",
+      [](const Model& self, const py::object& q, const py::object& dq, const py::object& I_total,
+         double m_total, const py::object& F_x_Ctotal) {
+        return copy(
+            self.coriolis(arrayOf<7>(q, "q"), arrayOf<7>(dq, "dq"), arrayOf<9>(I_total, "I_total"),
+                          m_total, arrayOf<3>(F_x_Ctotal, "F_x_Ctotal")),
+            Shape::kVector);
+      },
+      py::arg("q"), py::arg("dq"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"),
+      "The same for joint positions, 7 [rad], joint velocities, 7 [rad/s], and a load as for "
+      "mass.");
+  defNamed(
+      type, "gravity", kOfState,
+      [](const Model& self, const State& state) {
+        return copy(self.gravity(state), Shape::kVector);
+      },
+      py::arg("state"), "Gravity torques, 7 [Nm].");
+  defNamed(
+      type, "gravity", kOfState,
+      [](const Model& self, const State& state, const py::object& gravity_earth) {
+        return copy(self.gravity(state, arrayOf<3>(gravity_earth, "gravity_earth")),
+                    Shape::kVector);
+      },
+      py::arg("state"), py::arg("gravity_earth"), "The same with another gravity in O, 3 [m/s^2].");
+  type.def(
+      "gravity",
+      [](const Model& self, const py::object& q, double m_total, const py::object& F_x_Ctotal,
+         const py::object& gravity_earth) {
+        return copy(self.gravity(arrayOf<7>(q, "q"), m_total, arrayOf<3>(F_x_Ctotal, "F_x_Ctotal"),
+                                 arrayOf<3>(gravity_earth, "gravity_earth")),
+                    Shape::kVector);
+      },
+      py::arg("q"), py::arg("m_total"), py::arg("F_x_Ctotal"),
+      py::arg("gravity_earth") = py::make_tuple(0.0, 0.0, -9.81),
+      "The same for joint positions, 7 [rad], and what hangs on the flange: mass [kg], centre "
+      "of mass in F, 3 [m].");
 }
 
 std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, const std::string& root,
@@ -151,17 +157,17 @@ std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, cons
 }  // namespace
 
 void bindModel(py::module_& module) {
-  py::enum_<Frame>(module, "Frame", "Frames of the arm, from the base to the tip.")
-      .value("Joint1", Frame::kJoint1)
-      .value("Joint2", Frame::kJoint2)
-      .value("Joint3", Frame::kJoint3)
-      .value("Joint4", Frame::kJoint4)
-      .value("Joint5", Frame::kJoint5)
-      .value("Joint6", Frame::kJoint6)
-      .value("Joint7", Frame::kJoint7)
-      .value("Flange", Frame::kFlange)
-      .value("EndEffector", Frame::kEndEffector)
-      .value("Stiffness", Frame::kStiffness);
+  aliasAsInCpp(py::enum_<Frame>(module, "Frame", "Frames of the arm, from the base to the tip.")
+                   .value("Joint1", Frame::kJoint1)
+                   .value("Joint2", Frame::kJoint2)
+                   .value("Joint3", Frame::kJoint3)
+                   .value("Joint4", Frame::kJoint4)
+                   .value("Joint5", Frame::kJoint5)
+                   .value("Joint6", Frame::kJoint6)
+                   .value("Joint7", Frame::kJoint7)
+                   .value("Flange", Frame::kFlange)
+                   .value("EndEffector", Frame::kEndEffector)
+                   .value("Stiffness", Frame::kStiffness));
 
   py::class_<franka::Model> model(module, "Model", "The model that the robot brings along.");
   bindKinematics<RobotState>(model);

@@ -1,16 +1,21 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Commands, and motions under active control.
+// Commands, functions that check them, and motions under active control.
+#include <franka/control_tools.h>
 #include <franka/control_types.h>
+#include <franka/rate_limiting.h>
 #include <pybind11/stl.h>
 
 #include <optional>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 
 #include "bindings.h"
 #include "motion.h"
+#include "numbers.h"
+#include "other_names.h"
 
 namespace pyfranka {
 
@@ -23,38 +28,55 @@ Command cartesian(const py::object& values, const py::object& elbow, const char*
   return elbow.is_none() ? Command(command) : Command(command, arrayOf<2>(elbow, "elbow"));
 }
 
+/// @param other_name what panda-python calls the constructor's argument
 template <typename Command, typename Member>
-void bindCommand(py::module_& module, const char* name, const char* field, Member member,
-                 Shape shape, const char* doc) {
+void bindCommand(py::module_& module, const char* name, const char* field, const char* other_name,
+                 Member member, Shape shape, const char* doc) {
   auto type = py::class_<Command>(module, name, doc);
-  type.def_property_readonly(
+  constexpr std::size_t kSize =
+      std::tuple_size<std::remove_reference_t<decltype(std::declval<Command>().*member)>>::value;
+  type.def_property(
           field,
           [member, shape](const py::object& self) {
             return view(self.cast<const Command&>().*member, shape, self);
           },
+          [member, field](Command& self, const py::object& values) {
+            self.*member = arrayOf<kSize>(values, field);
+          },
           doc)
       .def_readwrite("motion_finished", &Command::motion_finished,
                      "Whether this is the last command of its motion.")
+      .def(py::init<const Command&>(), py::arg("command"), "Another one, equal.")
       .def("__copy__", [](const Command& self) { return Command(self); }, "Another one, equal.");
-  constexpr std::size_t kSize =
-      std::tuple_size<std::remove_reference_t<decltype(std::declval<Command>().*member)>>::value;
+  const std::vector<Names> others = {{{"values", other_name}}};
   if constexpr (std::is_constructible_v<Command, std::array<double, kSize>,
                                         std::array<double, 2>>) {
-    type.def(py::init([name](const py::object& values, const py::object& elbow) {
-               return cartesian<Command, kSize>(values, elbow, name);
-             }),
-             py::arg("values"), py::arg("elbow") = py::none(), doc)
-        .def_property_readonly(
-            "elbow",
-            [](const py::object& self) {
-              return view(self.cast<const Command&>().elbow, Shape::kVector, self);
-            },
-            "Joint 3 [rad], sign of joint 4; zeros when not commanded.");
+    withNames(
+        others,
+        [&](const auto&... extra) {
+          type.def(py::init([name](const py::object& values, const py::object& elbow) {
+                     return cartesian<Command, kSize>(values, elbow, name);
+                   }),
+                   extra...);
+        },
+        py::arg("values"), py::arg("elbow") = py::none(), doc);
+    type.def_property(
+        "elbow",
+        [](const py::object& self) {
+          return view(self.cast<const Command&>().elbow, Shape::kVector, self);
+        },
+        [](Command& self, const py::object& values) { self.elbow = arrayOf<2>(values, "elbow"); },
+        "Joint 3 [rad], sign of joint 4; zeros when not commanded.");
   } else {
-    type.def(py::init([name](const py::object& values) {
-               return Command(arrayOf<kSize>(values, name));
-             }),
-             py::arg("values"), doc);
+    withNames(
+        others,
+        [&](const auto&... extra) {
+          type.def(py::init([name](const py::object& values) {
+                     return Command(arrayOf<kSize>(values, name));
+                   }),
+                   extra...);
+        },
+        py::arg("values"), doc);
   }
 }
 
@@ -73,24 +95,62 @@ void bindWrite(py::class_<Motion>& type) {
       "The same with a motion, which torques may go along with, 7 [Nm].");
 }
 
+void bindTools(py::module_& module) {
+  module.attr("MAX_TORQUE_RATE") = py::cast(franka::kMaxTorqueRate);
+  module.def(
+      "limit_rate",
+      [](const py::object& max_derivatives, const py::object& commanded, const py::object& last) {
+        return copy(franka::limitRate(arrayOf<7>(max_derivatives, "max_derivatives"),
+                                      arrayOf<7>(commanded, "commanded_values"),
+                                      arrayOf<7>(last, "last_commanded_values")),
+                    Shape::kVector);
+      },
+      py::arg("max_derivatives"), py::arg("commanded_values"), py::arg("last_commanded_values"),
+      "The 7 commanded values, at most as far from the last ones as max_derivatives allow in a "
+      "millisecond: torques with MAX_TORQUE_RATE [Nm/s]. Raises ValueError if one is not finite.");
+  module.def(
+      "is_valid_elbow",
+      [](const py::object& elbow) { return franka::isValidElbow(arrayOf<2>(elbow, "elbow")); },
+      py::arg("elbow"), "Whether the sign of joint 4, the second number, is exactly +1 or -1.");
+  module.def(
+      "is_homogeneous_transformation",
+      [](const py::object& transform) {
+        return franka::isHomogeneousTransformation(arrayOf<16>(transform, "transform"));
+      },
+      py::arg("transform"),
+      "Whether a 4x4 matrix is one: last row (0, 0, 0, 1); rows, columns of length 1 within 1e-5.");
+  module.def("has_realtime_kernel", &franka::hasRealtimeKernel,
+             "Whether the kernel is one for real time (PREEMPT_RT).");
+  module.def(
+      "set_current_thread_to_highest_scheduler_priority",
+      [](const std::string& /* error_message */) {
+        return franka::setCurrentThreadToHighestSchedulerPriority(nullptr);
+      },
+      py::arg("error_message") = "",
+      "Gives this thread the highest real-time priority. Returns whether the system allowed it. "
+      "The argument has no effect.");
+}
+
 }  // namespace
 
 void bindMotion(py::module_& module) {
   using namespace franka;
-  py::enum_<ControllerMode>(module, "ControllerMode", "The robot's own controller under a motion.")
-      .value("JointImpedance", ControllerMode::kJointImpedance)
-      .value("CartesianImpedance", ControllerMode::kCartesianImpedance);
-  bindCommand<Torques>(module, "Torques", "tau_J", &Torques::tau_J, Shape::kVector,
+  aliasAsInCpp(py::enum_<ControllerMode>(module, "ControllerMode",
+                                         "The robot's own controller under a motion.")
+                   .value("JointImpedance", ControllerMode::kJointImpedance)
+                   .value("CartesianImpedance", ControllerMode::kCartesianImpedance));
+  bindCommand<Torques>(module, "Torques", "tau_J", "torques", &Torques::tau_J, Shape::kVector,
                        "Torques without gravity, 7 [Nm].");
-  bindCommand<JointPositions>(module, "JointPositions", "q", &JointPositions::q, Shape::kVector,
-                              "Joint positions, 7 [rad].");
-  bindCommand<JointVelocities>(module, "JointVelocities", "dq", &JointVelocities::dq,
-                               Shape::kVector, "Joint velocities, 7 [rad/s].");
-  bindCommand<CartesianPose>(module, "CartesianPose", "O_T_EE", &CartesianPose::O_T_EE,
-                             Shape::kMatrix4,
+  bindCommand<JointPositions>(module, "JointPositions", "q", "joint_positions", &JointPositions::q,
+                              Shape::kVector, "Joint positions, 7 [rad].");
+  bindCommand<JointVelocities>(module, "JointVelocities", "dq", "joint_velocities",
+                               &JointVelocities::dq, Shape::kVector,
+                               "Joint velocities, 7 [rad/s].");
+  bindCommand<CartesianPose>(module, "CartesianPose", "O_T_EE", "cartesian_pose",
+                             &CartesianPose::O_T_EE, Shape::kMatrix4,
                              "Pose of EE in O: 4x4, or 16 numbers column by column; with an elbow "
                              "(joint 3 [rad], sign of joint 4) if given.");
-  bindCommand<CartesianVelocities>(module, "CartesianVelocities", "O_dP_EE",
+  bindCommand<CartesianVelocities>(module, "CartesianVelocities", "O_dP_EE", "cartesian_velocities",
                                    &CartesianVelocities::O_dP_EE, Shape::kVector,
                                    "Twist of EE in O, 6 [m/s, rad/s]; with an elbow if given.");
 
@@ -116,9 +176,10 @@ void bindMotion(py::module_& module) {
               const py::gil_scoped_release release;
               read = self.get().readOnce();
             }
-            return py::make_tuple(read.first, read.second.toSec());
+            return py::make_tuple(read.first, seconds(read.second));
           },
-          "Waits for the next state. Returns it and the time since the one before [s].\n\n"
+          "Waits for the next state. Returns it and the time since the one before, a Duration "
+          "[s].\n\n"
           "Raises ControlException when the motion was aborted.")
       .def("close", &Motion::close, py::call_guard<py::gil_scoped_release>(),
            "Ends the motion; the robot brakes if it still moves. Never raises.")
@@ -139,6 +200,9 @@ void bindMotion(py::module_& module) {
   bindWrite<JointVelocities>(motion);
   bindWrite<CartesianPose>(motion);
   bindWrite<CartesianVelocities>(motion);
+  alias(motion, {{"read_once", "readOnce"}, {"write_once", "writeOnce"}});
+  alias(module, {{"ActiveControl", "ActiveControlBase"}});
+  bindTools(module);
 }
 
 }  // namespace pyfranka

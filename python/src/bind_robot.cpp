@@ -7,12 +7,15 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bindings.h"
 #include "motion.h"
+#include "numbers.h"
+#include "other_names.h"
 
 namespace pyfranka {
 
@@ -32,7 +35,7 @@ std::function<Command(const RobotState&, Duration)> callback(py::function functi
                                        });
   return [shared](const RobotState& state, Duration period) {
     const py::gil_scoped_acquire acquire;
-    const py::object result = (*shared)(state, period.toSec());
+    const py::object result = (*shared)(state, seconds(period));
     try {
       return result.cast<Command>();
     } catch (const py::cast_error&) {
@@ -44,24 +47,51 @@ std::function<Command(const RobotState&, Duration)> callback(py::function functi
 }
 
 template <typename Command>
-void bindGenerator(py::class_<Robot>& robot, const char* name, const char* doc) {
+void runMotion(Robot& robot, const py::function& motion_callback, ControllerMode controller_mode,
+               bool limit_rate, double cutoff_frequency) {
+  const auto motion = callback<Command>(motion_callback);
+  const py::gil_scoped_release release;
+  robot.control(motion, controller_mode, limit_rate, cutoff_frequency);
+}
+
+template <typename Command>
+void runMotionWithTorques(Robot& robot, const py::function& torque_callback,
+                          const py::function& motion_callback, bool limit_rate,
+                          double cutoff_frequency) {
+  const auto torques = callback<Torques>(torque_callback);
+  const auto motion = callback<Command>(motion_callback);
+  const py::gil_scoped_release release;
+  robot.control(torques, motion, limit_rate, cutoff_frequency);
+}
+
+/// @param other_name what panda-python calls the kind of motion, which has other arguments there
+template <typename Command>
+void bindGenerator(py::class_<Robot>& robot, const std::string& name, const std::string& other_name,
+                   const char* doc) {
+  const auto limit_rate = py::arg("limit_rate") = true;
+  const auto cutoff_frequency = py::arg("cutoff_frequency") = kDefaultCutoffFrequency;
+  const auto controller_mode = py::arg("controller_mode") = ControllerMode::kJointImpedance;
   robot.def(
-      name,
-      [](Robot& self, const py::function& motion_callback, const py::object& torque_callback,
-         ControllerMode controller_mode, bool limit_rate, double cutoff_frequency) {
-        const auto motion = callback<Command>(motion_callback);
-        if (torque_callback.is_none()) {
-          const py::gil_scoped_release release;
-          self.control(motion, controller_mode, limit_rate, cutoff_frequency);
+      ("control_" + name).c_str(),
+      [](Robot& self, const py::function& motion_callback,
+         const std::optional<py::function>& torque_callback, ControllerMode mode, bool limit,
+         double cutoff) {
+        if (torque_callback) {
+          runMotionWithTorques<Command>(self, *torque_callback, motion_callback, limit, cutoff);
         } else {
-          const auto torques = callback<Torques>(py::function(torque_callback));
-          const py::gil_scoped_release release;
-          self.control(torques, motion, limit_rate, cutoff_frequency);
+          runMotion<Command>(self, motion_callback, mode, limit, cutoff);
         }
       },
-      py::arg("callback"), py::arg("torque_callback") = py::none(),
-      py::arg("controller_mode") = ControllerMode::kJointImpedance, py::arg("limit_rate") = true,
-      py::arg("cutoff_frequency") = kDefaultCutoffFrequency, doc);
+      py::arg("callback"), py::arg("torque_callback") = py::none(), controller_mode, limit_rate,
+      cutoff_frequency, doc);
+  robot.def(("control_" + name).c_str(), &runMotion<Command>, py::arg("motion_generator_callback"),
+            controller_mode, limit_rate, cutoff_frequency,
+            "The same with the arguments of panda-python.");
+  robot.attr(("control_" + other_name).c_str()) = robot.attr(("control_" + name).c_str());
+  robot.def(("control_torque_" + other_name).c_str(), &runMotionWithTorques<Command>,
+            py::arg("control_callback"), py::arg("motion_generator_callback"), limit_rate,
+            cutoff_frequency,
+            "The same with torques of the first callback in place of the robot's controller.");
 }
 
 MoveMode moveMode(ControllerMode mode) {
@@ -78,8 +108,8 @@ void bindStart(py::class_<Robot>& robot, const char* name) {
 }
 
 void bindControl(py::class_<Robot>& robot) {
-  robot.def(
-      "control_torques",
+  defNamed(
+      robot, "control_torques", {{{"callback", "control_callback"}}},
       [](Robot& self, const py::function& function, bool limit_rate, double cutoff_frequency) {
         const auto torques = callback<Torques>(function);
         const py::gil_scoped_release release;
@@ -89,15 +119,16 @@ void bindControl(py::class_<Robot>& robot) {
       py::arg("cutoff_frequency") = kDefaultCutoffFrequency,
       "Controls the torques: callback(state, period) -> Torques once a millisecond, until it "
       "returns motion_finished(Torques).\n\nRaises ControlException when the motion is aborted.");
-  bindGenerator<JointPositions>(robot, "control_joint_positions",
+  bindGenerator<JointPositions>(robot, "joint_positions", "joint_position",
                                 "callback(state, period) -> JointPositions once a millisecond.");
-  bindGenerator<JointVelocities>(robot, "control_joint_velocities",
+  bindGenerator<JointVelocities>(robot, "joint_velocities", "joint_velocity",
                                  "callback(state, period) -> JointVelocities once a millisecond.");
-  bindGenerator<CartesianPose>(robot, "control_cartesian_pose",
+  bindGenerator<CartesianPose>(robot, "cartesian_pose", "cartesian_pose",
                                "callback(state, period) -> CartesianPose once a millisecond.");
   bindGenerator<CartesianVelocities>(
-      robot, "control_cartesian_velocities",
+      robot, "cartesian_velocities", "cartesian_velocity",
       "callback(state, period) -> CartesianVelocities once a millisecond.");
+  alias(robot, {{"control_torques", "control"}});
 
   robot.def(
       "start_torque_control", [](Robot& self) { return Motion(self.startTorqueControl()); },
@@ -118,46 +149,61 @@ void bindControl(py::class_<Robot>& robot) {
       "come every millisecond.\n\nRaises CommandException where the robot has no such motion.");
 }
 
+/// The thresholds of contact and collision; in pylibfranka and panda-python "threshold" is a part
+/// of their names.
+const Names kThresholds = {{"lower_torque", "lower_torque_thresholds"},
+                           {"upper_torque", "upper_torque_thresholds"},
+                           {"lower_force", "lower_force_thresholds"},
+                           {"upper_force", "upper_force_thresholds"},
+                           {"lower_torque_acceleration", "lower_torque_thresholds_acceleration"},
+                           {"upper_torque_acceleration", "upper_torque_thresholds_acceleration"},
+                           {"lower_torque_nominal", "lower_torque_thresholds_nominal"},
+                           {"upper_torque_nominal", "upper_torque_thresholds_nominal"},
+                           {"lower_force_acceleration", "lower_force_thresholds_acceleration"},
+                           {"upper_force_acceleration", "upper_force_thresholds_acceleration"},
+                           {"lower_force_nominal", "lower_force_thresholds_nominal"},
+                           {"upper_force_nominal", "upper_force_thresholds_nominal"}};
+
 void bindSetters(py::class_<Robot>& robot) {
   using release = py::gil_scoped_release;
+  defNamed(
+      robot, "set_collision_behavior", {kThresholds},
+      [](Robot& self, const py::object& lower_torque, const py::object& upper_torque,
+         const py::object& lower_force, const py::object& upper_force) {
+        const auto a = arrayOf<7>(lower_torque, "lower_torque");
+        const auto b = arrayOf<7>(upper_torque, "upper_torque");
+        const auto c = arrayOf<6>(lower_force, "lower_force");
+        const auto d = arrayOf<6>(upper_force, "upper_force");
+        const release free;
+        self.setCollisionBehavior(a, b, c, d);
+      },
+      py::arg("lower_torque"), py::arg("upper_torque"), py::arg("lower_force"),
+      py::arg("upper_force"),
+      "Thresholds of contact (lower) and collision (upper): 7 [Nm] and 6 [N, Nm].");
+  defNamed(
+      robot, "set_collision_behavior", {kThresholds},
+      [](Robot& self, const py::object& lower_torque_acceleration,
+         const py::object& upper_torque_acceleration, const py::object& lower_torque_nominal,
+         const py::object& upper_torque_nominal, const py::object& lower_force_acceleration,
+         const py::object& upper_force_acceleration, const py::object& lower_force_nominal,
+         const py::object& upper_force_nominal) {
+        const auto a = arrayOf<7>(lower_torque_acceleration, "lower_torque_acceleration");
+        const auto b = arrayOf<7>(upper_torque_acceleration, "upper_torque_acceleration");
+        const auto c = arrayOf<7>(lower_torque_nominal, "lower_torque_nominal");
+        const auto d = arrayOf<7>(upper_torque_nominal, "upper_torque_nominal");
+        const auto e = arrayOf<6>(lower_force_acceleration, "lower_force_acceleration");
+        const auto f = arrayOf<6>(upper_force_acceleration, "upper_force_acceleration");
+        const auto g = arrayOf<6>(lower_force_nominal, "lower_force_nominal");
+        const auto h = arrayOf<6>(upper_force_nominal, "upper_force_nominal");
+        const release free;
+        self.setCollisionBehavior(a, b, c, d, e, f, g, h);
+      },
+      py::arg("lower_torque_acceleration"), py::arg("upper_torque_acceleration"),
+      py::arg("lower_torque_nominal"), py::arg("upper_torque_nominal"),
+      py::arg("lower_force_acceleration"), py::arg("upper_force_acceleration"),
+      py::arg("lower_force_nominal"), py::arg("upper_force_nominal"),
+      "The same, apart for phases of acceleration and for all others (nominal).");
   robot
-      .def(
-          "set_collision_behavior",
-          [](Robot& self, const py::object& lower_torque, const py::object& upper_torque,
-             const py::object& lower_force, const py::object& upper_force) {
-            const auto a = arrayOf<7>(lower_torque, "lower_torque");
-            const auto b = arrayOf<7>(upper_torque, "upper_torque");
-            const auto c = arrayOf<6>(lower_force, "lower_force");
-            const auto d = arrayOf<6>(upper_force, "upper_force");
-            const release free;
-            self.setCollisionBehavior(a, b, c, d);
-          },
-          py::arg("lower_torque"), py::arg("upper_torque"), py::arg("lower_force"),
-          py::arg("upper_force"),
-          "Thresholds of contact (lower) and collision (upper): 7 [Nm] and 6 [N, Nm].")
-      .def(
-          "set_collision_behavior",
-          [](Robot& self, const py::object& lower_torque_acceleration,
-             const py::object& upper_torque_acceleration, const py::object& lower_torque_nominal,
-             const py::object& upper_torque_nominal, const py::object& lower_force_acceleration,
-             const py::object& upper_force_acceleration, const py::object& lower_force_nominal,
-             const py::object& upper_force_nominal) {
-            const auto a = arrayOf<7>(lower_torque_acceleration, "lower_torque_acceleration");
-            const auto b = arrayOf<7>(upper_torque_acceleration, "upper_torque_acceleration");
-            const auto c = arrayOf<7>(lower_torque_nominal, "lower_torque_nominal");
-            const auto d = arrayOf<7>(upper_torque_nominal, "upper_torque_nominal");
-            const auto e = arrayOf<6>(lower_force_acceleration, "lower_force_acceleration");
-            const auto f = arrayOf<6>(upper_force_acceleration, "upper_force_acceleration");
-            const auto g = arrayOf<6>(lower_force_nominal, "lower_force_nominal");
-            const auto h = arrayOf<6>(upper_force_nominal, "upper_force_nominal");
-            const release free;
-            self.setCollisionBehavior(a, b, c, d, e, f, g, h);
-          },
-          py::arg("lower_torque_acceleration"), py::arg("upper_torque_acceleration"),
-          py::arg("lower_torque_nominal"), py::arg("upper_torque_nominal"),
-          py::arg("lower_force_acceleration"), py::arg("upper_force_acceleration"),
-          py::arg("lower_force_nominal"), py::arg("upper_force_nominal"),
-          "The same, apart for phases of acceleration and for all others (nominal).")
       .def(
           "set_joint_impedance",
           [](Robot& self, const py::object& K_theta) {
@@ -192,35 +238,37 @@ void bindSetters(py::class_<Robot>& robot) {
             const release free;
             self.setEE(pose);
           },
-          py::arg("NE_T_EE"), "Pose of the end effector in NE, 4x4.")
-      .def(
-          "set_load",
-          [](Robot& self, double mass, const py::object& F_x_Cload, const py::object& inertia) {
-            const auto com = arrayOf<3>(F_x_Cload, "F_x_Cload");
-            const auto load_inertia = arrayOf<9>(inertia, "load_inertia");
-            const release free;
-            self.setLoad(mass, com, load_inertia);
-          },
-          py::arg("mass"), py::arg("F_x_Cload"), py::arg("load_inertia"),
-          "Mass [kg], centre of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.")
-      .def("set_filters", &Robot::setFilters, py::call_guard<release>(),
-           py::arg("joint_position_filter_frequency"), py::arg("joint_velocity_filter_frequency"),
-           py::arg("cartesian_position_filter_frequency"),
-           py::arg("cartesian_velocity_filter_frequency"), py::arg("controller_filter_frequency"),
-           "The robot's own filters of commands, each 1 to 1000 [Hz], where 1000 means none "
-           "(Panda only).");
+          py::arg("NE_T_EE"), "Pose of the end effector in NE, 4x4.");
+  defNamed(
+      robot, "set_load", {{{"mass", "load_mass"}}},
+      [](Robot& self, double mass, const py::object& F_x_Cload, const py::object& inertia) {
+        const auto com = arrayOf<3>(F_x_Cload, "F_x_Cload");
+        const auto load_inertia = arrayOf<9>(inertia, "load_inertia");
+        const release free;
+        self.setLoad(mass, com, load_inertia);
+      },
+      py::arg("mass"), py::arg("F_x_Cload"), py::arg("load_inertia"),
+      "Mass [kg], centre of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.");
+  robot.def("set_filters", &Robot::setFilters, py::call_guard<release>(),
+            py::arg("joint_position_filter_frequency"), py::arg("joint_velocity_filter_frequency"),
+            py::arg("cartesian_position_filter_frequency"),
+            py::arg("cartesian_velocity_filter_frequency"), py::arg("controller_filter_frequency"),
+            "The robot's own filters of commands, each 1 to 1000 [Hz], where 1000 means none "
+            "(Panda only).");
+  alias(robot, {{"set_EE", "set_ee"}, {"set_K", "set_k"}});
 }
 
 void bindControlOptions(py::module_& module, py::class_<Robot>& robot) {
-  py::enum_<CallbackOrder>(module, "CallbackOrder",
-                           "Which callback of a motion with torques is called first in a cycle.")
-      .value("MotionFirst", CallbackOrder::kMotionFirst)
-      .value("ControlFirst", CallbackOrder::kControlFirst);
-  py::enum_<FirstCycleReference>(
-      module, "FirstCycleReference",
-      "What the first position or pose of a motion is filtered and limited against.")
-      .value("RobotState", FirstCycleReference::kRobotState)
-      .value("Command", FirstCycleReference::kCommand);
+  aliasAsInCpp(py::enum_<CallbackOrder>(
+                   module, "CallbackOrder",
+                   "Which callback of a motion with torques is called first in a cycle.")
+                   .value("MotionFirst", CallbackOrder::kMotionFirst)
+                   .value("ControlFirst", CallbackOrder::kControlFirst));
+  aliasAsInCpp(py::enum_<FirstCycleReference>(
+                   module, "FirstCycleReference",
+                   "What the first position or pose of a motion is filtered and limited against.")
+                   .value("RobotState", FirstCycleReference::kRobotState)
+                   .value("Command", FirstCycleReference::kCommand));
   robot.def(
       "set_control_options",
       [](Robot& self, CallbackOrder order, FirstCycleReference reference) {
@@ -271,21 +319,27 @@ void bindReading(py::module_& module, py::class_<Robot>& robot) {
 
 void bindRobot(py::module_& module) {
   using release = py::gil_scoped_release;
-  py::enum_<RealtimeConfig>(module, "RealtimeConfig",
-                            "Whether a program without real-time priority may control the robot.")
-      .value("Enforce", RealtimeConfig::kEnforce)
-      .value("Ignore", RealtimeConfig::kIgnore);
+  aliasAsInCpp(py::enum_<RealtimeConfig>(
+                   module, "RealtimeConfig",
+                   "Whether a program without real-time priority may control the robot.")
+                   .value("Enforce", RealtimeConfig::kEnforce)
+                   .value("Ignore", RealtimeConfig::kIgnore));
 
   py::class_<Robot> robot(module, "Robot",
                           "A connection to a robot. Waiting calls let other Python threads run; "
                           "one operation at a time, but stop() from any thread.");
+  withNames(
+      {{{"address", "franka_address"}}, {{"address", "robot_ip_address"}}},
+      [&](const auto&... extra) {
+        robot.def(py::init<const std::string&, RealtimeConfig, size_t>(), extra...);
+      },
+      py::call_guard<release>(), py::arg("address"),
+      py::arg("realtime_config") = RealtimeConfig::kEnforce, py::arg("log_size") = 50,
+      "Connects. Raises NetworkException, IncompatibleVersionException.");
   robot
-      .def(py::init<const std::string&, RealtimeConfig, size_t>(), py::call_guard<release>(),
-           py::arg("address"), py::arg("realtime_config") = RealtimeConfig::kEnforce,
-           py::arg("log_size") = 50,
-           "Connects. Raises NetworkException, IncompatibleVersionException.")
-      .def_property_readonly("server_version", &Robot::serverVersion,
-                             "Version of the protocol that the robot speaks.")
+      .def_property_readonly(
+          "server_version", [](const Robot& self) { return version(self.serverVersion()); },
+          "Version of the protocol that the robot speaks, an int.")
       .def("read_once", &Robot::readOnce, py::call_guard<release>(),
            "Waits for the next RobotState.")
       .def(

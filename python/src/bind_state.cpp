@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/log.h>
 #include <franka/robot_state.h>
+#include <franka_core/robot_error.h>
 #include <franka_core/to_franka.h>
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
 #include <sstream>
+#include <string>
+#include <type_traits>
 
 #include "bindings.h"
+#include "numbers.h"
+#include "other_names.h"
 
 namespace pyfranka {
 
@@ -16,33 +21,67 @@ namespace {
 
 using franka::RobotState;
 
-/// A read-only attribute that is a view of the state's field.
+/// An attribute that is a view of the state's field; a RobotState's can be assigned.
 template <typename State, std::size_t size>
 void field(py::class_<State>& type, const char* name, std::array<double, size> State::* member,
            const char* doc, Shape shape = Shape::kVector) {
-  type.def_property_readonly(
-      name,
-      [member, shape](const py::object& self) {
-        return view(self.cast<const State&>().*member, shape, self);
-      },
-      doc);
+  const auto get = [member, shape](const py::object& self) {
+    return view(self.cast<const State&>().*member, shape, self);
+  };
+  if constexpr (std::is_same_v<State, RobotState>) {
+    type.def_property(
+        name, get,
+        [member, name](State& self, const py::object& values) {
+          self.*member = arrayOf<size>(values, name);
+        },
+        doc);
+  } else {
+    type.def_property_readonly(name, get, doc);
+  }
+}
+
+/// The same for a single value.
+template <typename State, typename Value>
+void field(py::class_<State>& type, const char* name, Value State::* member, const char* doc) {
+  if constexpr (std::is_same_v<State, RobotState>) {
+    type.def_readwrite(name, member, doc);
+  } else {
+    type.def_readonly(name, member, doc);
+  }
+}
+
+/// The name of a flag of franka::Errors, which differs from that in logs in two cases.
+std::string flagOf(const std::string& error) {
+  if (error == "cartesian_position_motion_generator_invalid_frame_flag") {
+    return "cartesian_position_motion_generator_invalid_frame";
+  }
+  return error == "tau_J_range_violation" ? "tau_j_range_violation" : error;
+}
+
+void bindErrors(py::module_& module) {
+  py::class_<franka::Errors> errors(module, "Errors", "Errors of the robot; true if there is one.");
+  errors.def(py::init<>(), "No error.")
+      .def("__bool__", [](const franka::Errors& self) { return static_cast<bool>(self); })
+      .def("__str__", [](const franka::Errors& self) { return static_cast<std::string>(self); })
+      .def("__repr__", [](const franka::Errors& self) { return static_cast<std::string>(self); });
+  for (std::size_t i = 0; i < franka_core::kErrorCount; i++) {
+    // C++ has no pointers to members that are references, as these are: to items of one array.
+    errors.def_property_readonly(
+        flagOf(franka_core::kErrorNames.at(i)).c_str(),
+        [i](const franka::Errors& self) { return *(&self.joint_position_limits_violation + i); },
+        "Whether there is this error.");
+  }
 }
 
 void bindModes(py::module_& module) {
-  py::enum_<franka::RobotMode>(module, "RobotMode", "What the robot is doing.")
-      .value("Other", franka::RobotMode::kOther)
-      .value("Idle", franka::RobotMode::kIdle)
-      .value("Move", franka::RobotMode::kMove)
-      .value("Guiding", franka::RobotMode::kGuiding)
-      .value("Reflex", franka::RobotMode::kReflex)
-      .value("UserStopped", franka::RobotMode::kUserStopped)
-      .value("AutomaticErrorRecovery", franka::RobotMode::kAutomaticErrorRecovery);
-
-  py::class_<franka::Errors>(module, "Errors", "Errors of the robot; true if there is one.")
-      .def("__bool__", [](const franka::Errors& errors) { return static_cast<bool>(errors); })
-      .def("__str__", [](const franka::Errors& errors) { return static_cast<std::string>(errors); })
-      .def("__repr__",
-           [](const franka::Errors& errors) { return static_cast<std::string>(errors); });
+  aliasAsInCpp(py::enum_<franka::RobotMode>(module, "RobotMode", "What the robot is doing.")
+                   .value("Other", franka::RobotMode::kOther)
+                   .value("Idle", franka::RobotMode::kIdle)
+                   .value("Move", franka::RobotMode::kMove)
+                   .value("Guiding", franka::RobotMode::kGuiding)
+                   .value("Reflex", franka::RobotMode::kReflex)
+                   .value("UserStopped", franka::RobotMode::kUserStopped)
+                   .value("AutomaticErrorRecovery", franka::RobotMode::kAutomaticErrorRecovery));
 }
 
 template <typename State>
@@ -68,9 +107,9 @@ void bindFrames(py::class_<State>& state) {
 
 template <typename State>
 void bindLoads(py::class_<State>& state) {
-  state.def_readonly("m_ee", &State::m_ee, "Mass of the end effector [kg].")
-      .def_readonly("m_load", &State::m_load, "Mass of the load [kg].")
-      .def_readonly("m_total", &State::m_total, "Mass of both [kg].");
+  field(state, "m_ee", &State::m_ee, "Mass of the end effector [kg].");
+  field(state, "m_load", &State::m_load, "Mass of the load [kg].");
+  field(state, "m_total", &State::m_total, "Mass of both [kg].");
   field(state, "I_ee", &State::I_ee, "Inertia of the end effector, 3x3 [kg m^2].", Shape::kMatrix3);
   field(state, "I_load", &State::I_load, "Inertia of the load, 3x3 [kg m^2].", Shape::kMatrix3);
   field(state, "I_total", &State::I_total, "Inertia of both, 3x3 [kg m^2].", Shape::kMatrix3);
@@ -112,24 +151,30 @@ void bindContacts(py::class_<State>& state) {
 }  // namespace
 
 void bindState(py::module_& module) {
+  bindErrors(module);
   bindModes(module);
-  py::class_<RobotState> state(module, "RobotState",
-                               "State of a robot. Arrays are numpy views of it that cannot be "
-                               "written; matrices have two dimensions.");
-  state.def(py::init<>(), "All zero, poses the identity; for models without a robot.");
+  py::class_<RobotState> state(
+      module, "RobotState",
+      "State of a robot. Arrays are numpy views of it that cannot be written, but attributes can "
+      "be "
+      "assigned, which earlier views show, too; matrices have two dimensions.");
+  state.def(py::init<>(), "All zero, poses the identity; for models without a robot.")
+      .def(py::init<const RobotState&>(), py::arg("state"), "A copy.");
   bindFrames(state);
   bindLoads(state);
   bindJoints(state);
   bindContacts(state);
-  state.def_readonly("current_errors", &RobotState::current_errors, "Errors now.")
-      .def_readonly("last_motion_errors", &RobotState::last_motion_errors,
-                    "Errors that ended the last motion.")
-      .def_readonly("control_command_success_rate", &RobotState::control_command_success_rate,
-                    "Share of the last 100 commands that arrived; 0 when no motion runs.")
-      .def_readonly("robot_mode", &RobotState::robot_mode, "What the robot is doing.")
-      .def_property_readonly(
-          "time", [](const RobotState& self) { return self.time.toSec(); },
-          "Since the robot started [s].")
+  field(state, "current_errors", &RobotState::current_errors, "Errors now.");
+  field(state, "last_motion_errors", &RobotState::last_motion_errors,
+        "Errors that ended the last motion.");
+  field(state, "control_command_success_rate", &RobotState::control_command_success_rate,
+        "Share of the last 100 commands that arrived; 0 when no motion runs.");
+  field(state, "robot_mode", &RobotState::robot_mode, "What the robot is doing.");
+  state
+      .def_property(
+          "time", [](const RobotState& self) { return seconds(self.time); },
+          [](RobotState& self, double time) { self.time = durationOf(time); },
+          "Since the robot started, a Duration [s].")
       .def("__repr__", [](const RobotState& self) {
         std::ostringstream text;
         text << self;
@@ -196,8 +241,8 @@ void bindSimState(py::module_& module) {
           "robot_mode", [](const State& self) { return franka_core::toFranka(self.robot_mode); },
           "What the robot is doing.")
       .def_property_readonly(
-          "time", [](const State& self) { return 1e-3 * static_cast<double>(self.message_id); },
-          "Since the robot started [s].")
+          "time", [](const State& self) { return seconds(franka::Duration(self.message_id)); },
+          "Since the robot started, a Duration [s].")
       .def(
           "copy",
           [](const State& self) {

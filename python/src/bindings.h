@@ -11,9 +11,11 @@
 namespace pyfranka {
 
 void bindExceptions(py::module_& module);
+void bindNumbers(py::module_& module);
 void bindState(py::module_& module);
 void bindMotion(py::module_& module);
 void bindRobot(py::module_& module);
+void bindAsync(py::module_& module);
 void bindGripper(py::module_& module);
 void bindModel(py::module_& module);
 

@@ -5,10 +5,12 @@
 PYBIND11_MODULE(_pyfranka, module) {
   module.doc() = "libfranka and ModelKDL; import pyfranka instead.";
   pyfranka::bindExceptions(module);
+  pyfranka::bindNumbers(module);
   pyfranka::bindState(module);
   pyfranka::bindModel(module);
   pyfranka::bindMotion(module);
   pyfranka::bindRobot(module);
+  pyfranka::bindAsync(module);
   pyfranka::bindGripper(module);
 
   pybind11::module_ sim = module.def_submodule("_sim", "Simulations; import pyfranka.sim instead.");

@@ -44,7 +44,8 @@ TREE = stub_names(ast.parse(STUB.read_text()).body)
 
 def classes(owner=pyfranka, path=()):
     for name, value in vars(owner).items():
-        if inspect.isclass(value) and not name.startswith("_"):
+        # A class stands under its own name; others are aliases.
+        if inspect.isclass(value) and not name.startswith("_") and name == value.__name__:
             yield (*path, name), value
             yield from classes(value, (*path, name))
 
