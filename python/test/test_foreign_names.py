@@ -1,13 +1,18 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The names of pylibfranka and panda-python's libfranka in pyfranka."""
+"""The names of pylibfranka and panda-python's libfranka in pyfranka, and scripts that were written for these
+packages, with each package and with pyfranka, on equal robots."""
 
 import copy
 import datetime
+import functools
 import inspect
+import json
+import os
 import pickle
 import re
 import subprocess
+import sys
 from collections import namedtuple
 from pathlib import Path
 
@@ -15,11 +20,14 @@ import names_of_package
 import numpy as np
 import pyfranka
 import pytest
+from fci_session import simulated
 from genuine_clients import client_python
+from pyfranka import libfranka
 
 HERE = Path(__file__).resolve().parent
 SCRIPTS = HERE / "other_packages"
 PACKAGES = {"panda": "panda_py.libfranka", "pylibfranka": "pylibfranka"}
+ROBOTS = {"panda": ("panda", "127.0.57.1"), "pylibfranka": ("fr3", "127.0.57.2")}
 
 # Differences that stay (docs/python.md): where the packages contradict pyfranka, pyfranka's API stays.
 OTHER_DEFAULTS = {("constructor Robot", "realtime_config", "RealtimeConfig.kIgnore")}
@@ -38,6 +46,7 @@ def entries():
 
 
 ENTRIES = list(entries())
+NAMES = "pyfranka", "libfranka"
 
 
 def lookup(module, path):
@@ -102,11 +111,12 @@ def test_the_list_is_that_of_the_package(package, module):
     assert printed == (SCRIPTS / f"{package}_names.txt").read_text()
 
 
-def test_every_name_exists():
+@pytest.mark.parametrize("module", [pyfranka, libfranka], ids=NAMES)
+def test_every_name_exists(module):
     missing = []
     for entry in ENTRIES:
         try:
-            lookup(pyfranka, entry.path)
+            lookup(module, entry.path)
         except AttributeError:
             missing.append(entry)
     assert missing == []
@@ -185,7 +195,96 @@ def test_attributes_can_be_assigned():
         command.O_T_EE = np.eye(3)
 
 
+def test_lists_are_flat_and_may_be_changed():
+    state = libfranka.RobotState(pyfranka.RobotState())
+    state.O_T_EE = [float(i) for i in range(16)]
+    pose = state.O_T_EE
+    assert pose == [float(i) for i in range(16)]
+    pose[14] = 9.0
+    assert state.O_T_EE[14] == 14.0
+    command = libfranka.motion_finished(libfranka.CartesianPose(pose))
+    assert command.O_T_EE == pose and command.motion_finished
+    assert type(copy.copy(command)) is libfranka.CartesianPose
+    limited = libfranka.limit_rate(libfranka.MAX_TORQUE_RATE, [5.0] * 7, [0.0] * 7)
+    assert type(limited) is list and limited == pytest.approx([0.999999] * 7)
+
+
 def test_enumerations_keep_their_names():
     assert pyfranka.RobotMode.kIdle == pyfranka.RobotMode.Idle
     assert pyfranka.RobotMode.kIdle.name == "Idle"
     assert "kIdle" not in pyfranka.RobotMode.__members__
+
+
+# --- scripts ----------------------------------------------------------------------------------------------
+
+IMPORTS = {
+    "pyfranka": {
+        "from panda_py import libfranka": "import pyfranka as libfranka",
+        "from pylibfranka import": "from pyfranka import",
+        "import pylibfranka as franka": "import pyfranka as franka",
+        "import pylibfranka\n": "import pyfranka as pylibfranka\n",
+    },
+    "libfranka": {
+        "from panda_py import libfranka": "from pyfranka import libfranka",
+        "from pylibfranka import": "from pyfranka.libfranka import",
+        "import pylibfranka as franka": "from pyfranka import libfranka as franka",
+        "import pylibfranka\n": "from pyfranka import libfranka as pylibfranka\n",
+    },
+}
+# They index flat matrices, so that pyfranka's own arrays do not serve them.
+FLAT = {"panda_poses", "pylibfranka_poses"}
+# The number of its states depends on the program's speed, so their hash does, too.
+UNREPEATABLE = {"pylibfranka_planned_motion"}
+CASES = [
+    (script.stem.partition("_")[0], script.stem, name)
+    for script in sorted(SCRIPTS.glob("*.py"))
+    for name in NAMES
+    if not (name == "pyfranka" and script.stem in FLAT)
+]
+
+
+@pytest.fixture(scope="module")
+def robot(request):
+    """The robot that a package can connect to; `genuine` runs a script with the package, once."""
+    kind, address = ROBOTS[request.param]
+    python = client_python(request.param)
+    with simulated(kind, address, "lockstep") as sim:
+        sim.genuine = functools.cache(lambda script: run(sim, python, script))
+        yield sim
+
+
+def run(sim, python, script, imports=None):
+    """Runs a script from the robot's initial pose. @returns its report and the robot's hash."""
+    text = (SCRIPTS / f"{script}.py").read_text()
+    replaced = 0
+    for theirs, ours in (imports or {}).items():
+        replaced += text.count(theirs)
+        text = text.replace(theirs, ours)
+    assert imports is None or replaced == 1, "one line of a script changes"
+    sim.ask("reset")
+    environment = dict(os.environ) if imports else {"PATH": os.environ["PATH"]}
+    done = subprocess.run(
+        [python, "-c", text, sim.address], capture_output=True, text=True, timeout=120, env=environment
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return json.loads(done.stdout.splitlines()[-1]), sim.ask("hash")
+
+
+def same(mine, theirs):
+    """Compares reports: texts, flags and whole numbers exactly, others within the rounding of two models."""
+    if isinstance(theirs, dict):
+        assert mine.keys() == theirs.keys()
+        return all(same(mine[key], theirs[key]) for key in theirs)
+    if isinstance(theirs, list):
+        return len(mine) == len(theirs) and all(map(same, mine, theirs))
+    if isinstance(theirs, float):
+        return mine == pytest.approx(theirs, abs=1e-4)
+    return mine == theirs
+
+
+@pytest.mark.parametrize("robot, script, name", CASES, indirect=["robot"])
+def test_a_script_needs_another_import_only(robot, script, name):
+    theirs, their_hash = robot.genuine(script)
+    mine, my_hash = run(robot, sys.executable, script, IMPORTS[name])
+    assert same(mine, theirs), (mine, theirs)
+    assert my_hash == their_hash or script in UNREPEATABLE
