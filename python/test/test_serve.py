@@ -3,7 +3,6 @@
 """Simulation.serve: a program owns the world while clients on the network drive its robots."""
 
 import os
-import struct
 import threading
 import time
 
@@ -11,9 +10,8 @@ import contact_motion
 import numpy as np
 import pyfranka
 import pytest
-from contact_motion import SCENE, TICKS, down_and_back
-from fci_session import VERSIONS, simulated
-from fci_wire import JOINT_IMPEDANCE, JOINT_POSITION, Client, command
+from contact_motion import SCENE, press
+from fci_session import simulated
 from pyfranka.sim import FR3, Panda, RequestRefused, Simulation, SimulationBatch
 
 ADDRESSES = {"panda": "127.0.33.11", "fr3": "127.0.33.12"}
@@ -81,28 +79,15 @@ def move_joint(robot, joint, way, seconds):
     robot.control_joint_positions(positions)
 
 
-def contact_hash(address, version):
-    """Ten seconds with contact, by a raw client; returns nothing, the robot keeps its hash."""
-    with Client(address, version) as client:
-        assert client.connect()[0] == 0
-        client.request(4 if version <= 5 else 3, struct.pack("<52d", *[100.0] * 28, *[300.0] * 24))
-        assert client.reply()[1][0] == 0
-        state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
-        first = state.joints("q_d")
-        for k in range(TICKS + 1):
-            client.send(command(version, state.message_id, down_and_back(first, k), finished=k == TICKS))
-            state = client.state()
-        assert client.reply()[1][0] == 0
-
-
 def test_a_client_drives_a_robot_of_the_program_with_the_bits_of_a_served_one(name):
-    with simulated(name, "127.0.33.13", "lockstep", *SCENE) as served:
-        contact_hash("127.0.33.13", served.version)
-        expected = int(served.ask("hash"), 16)
+    with simulated(name, "lockstep", *SCENE) as served:
+        press(served.address, served.protocol)
+        expected = served.remote.hash()
+        protocol = served.protocol
     with Simulation(contact_motion.WORLD, [kind(name)(base=contact_motion.BASE)]) as sim:
         robot = sim[name]
         sim.serve(ADDRESSES[name])
-        client = threading.Thread(target=contact_hash, args=(ADDRESSES[name], VERSIONS[name]))
+        client = threading.Thread(target=press, args=(ADDRESSES[name], protocol))
         client.start()
         wait_for(lambda: robot.state.robot_mode == pyfranka.RobotMode.Move)  # no tick before the motion
         pressed = 0.0

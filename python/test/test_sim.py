@@ -3,7 +3,6 @@
 """pyfranka.sim: robots that a Python program steps in its own process."""
 
 import math
-import struct
 import threading
 import time
 from pathlib import Path
@@ -13,9 +12,8 @@ import numpy as np
 import pyfranka
 import pyfranka.sim
 import pytest
-from contact_motion import SCENE, TICKS, down_and_back
+from contact_motion import SCENE, TICKS, down_and_back, press
 from fci_session import go_first, go_with_all, simulated
-from fci_wire import JOINT_IMPEDANCE, JOINT_POSITION, Client, command
 from pyfranka.sim import FR3, GripperOutcome, Panda, RequestRefused, Simulation
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
@@ -42,23 +40,8 @@ def hash_over_fci(name):
     """The robot's hash of a motion by a client in lock-step, and the joint positions at its start."""
     go_first()
     try:
-        with (
-            simulated(name, "lockstep", *SCENE) as served,
-            Client(served.address, served.protocol) as client,
-        ):
-            assert client.connect()[0] == 0
-            client.request(
-                4 if served.protocol <= 5 else 3, struct.pack("<52d", *[100.0] * 28, *[300.0] * 24)
-            )
-            assert client.reply()[1][0] == 0
-            state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
-            first = state.joints("q_d")
-            for k in range(TICKS + 1):
-                client.send(
-                    command(client.version, state.message_id, down_and_back(first, k), finished=k == TICKS)
-                )
-                state = client.state()
-            assert client.reply()[1][0] == 0
+        with simulated(name, "lockstep", *SCENE) as served:
+            first = press(served.address, served.protocol)
             return served.remote.hash(), first
     finally:
         go_with_all()

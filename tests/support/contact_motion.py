@@ -3,6 +3,9 @@
 """Ten seconds in which an arm presses twice on a table: the scenario whose hashes are compared."""
 
 import math
+import struct
+
+from fci_wire import JOINT_IMPEDANCE, JOINT_POSITION, Client, command
 
 TICKS = 10000
 # The table is under this arm's hand; the motion's target is a few millimetres below its top.
@@ -18,3 +21,20 @@ def down_and_back(first, k):
     q[3] -= 0.2 * x
     q[0] += 0.05 * math.sin(2 * math.pi * k / TICKS) ** 3
     return q
+
+
+def press(address, protocol):
+    """The motion by a client of a robot at an address; returns the joint positions at its start."""
+    with Client(address, protocol) as client:
+        assert client.connect()[0] == 0
+        set_collision_behavior = 4 if protocol <= 5 else 3
+        client.request(set_collision_behavior, struct.pack("<52d", *[100.0] * 28, *[300.0] * 24))
+        assert client.reply()[1][0] == 0
+        state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
+        first = state.joints("q_d")
+        for k in range(TICKS + 1):
+            positions = down_and_back(first, k)
+            client.send(command(protocol, state.message_id, positions, finished=k == TICKS))
+            state = client.state()
+        assert client.reply()[1][0] == 0
+    return first
