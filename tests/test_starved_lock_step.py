@@ -7,15 +7,15 @@ processors (the long form: eight for each).
 """
 
 import os
-import signal
 import subprocess
 import sys
 import time
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 
 import pytest
 from fci_session import client_process, simulated
 from fci_wire import IDLE, LAYOUTS, MOVE, connected
+from lock_step import moved
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 SPINNERS = (8 if LONG else 1) * os.cpu_count()
@@ -33,30 +33,6 @@ def busy():
             spinner.wait()
 
 
-def stop_for_a_while(pid):
-    os.kill(pid, signal.SIGSTOP)
-    try:
-        time.sleep(STOPPED)  # the fault itself
-    finally:
-        with suppress(ProcessLookupError):
-            os.kill(pid, signal.SIGCONT)
-
-
-def moved(sim, client, torque, stopped=None):
-    """One motion from a reset world. @returns the robot's hash."""
-    sim.remote.reset()
-    client.give("move", seconds=4.0, amplitude=0.0 if torque else 0.1, torque=torque, announce=True)
-    begun = client.line()
-    assert begun == "moving", begun
-    if stopped is not None:
-        stop_for_a_while(stopped)
-    result = client.result()
-    assert result["outcome"] == "ok", result
-    assert stopped is None or result["wall"] > STOPPED, "The motion had ended before."
-    assert client.run_task("set_load")["outcome"] == "ok"  # answered when the world is at rest
-    return sim.remote.hash()
-
-
 LIBRARIES = [("pyfranka", "panda"), ("pyfranka", "fr3")]
 
 
@@ -64,9 +40,12 @@ LIBRARIES = [("pyfranka", "panda"), ("pyfranka", "fr3")]
 def test_lock_step_waits_for_a_starved_client_and_repeats(library, robot):
     with simulated(robot, "lockstep") as sim, client_process(library) as client, busy():
         assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
-        processes = (None, client.process.pid, sim.server.process.pid)
         for torque in (False, True):
-            hashes = [moved(sim, client, torque, stopped) for stopped in processes]
+            hashes = [
+                moved(sim, client, torque),
+                moved(sim, client, torque, client.process, STOPPED),
+                moved(sim, client, torque, sim.server.process, STOPPED),
+            ]
             assert len(set(hashes)) == 1, hashes
         assert sim.remote.state().mode == "Idle"
 

@@ -20,8 +20,9 @@ def smooth(x):
 class Motion:
     """Joint 4 there and back, or zero torque; counts cycles and losses."""
 
-    def __init__(self, seconds, amplitude, compute, announce):
+    def __init__(self, seconds, amplitude, compute, announce, pause):
         self.seconds, self.amplitude, self.compute, self.announce = seconds, amplitude, compute, announce
+        self.pause = pause
         self.time, self.cycles, self.longest, self.first = 0.0, 0, 0.0, None
 
     def next(self, q_d, period):
@@ -34,6 +35,8 @@ class Motion:
             print("moving", flush=True)
         if self.compute and self.cycles > 50:
             time.sleep(self.compute)
+        if self.pause and self.cycles == 100:
+            time.sleep(self.pause)
         q = list(self.first)
         x = self.time / self.seconds
         q[3] += self.amplitude * (smooth(2 * x) - smooth(2 * x - 1))
@@ -160,8 +163,8 @@ class Session:
 
         return attempt(act)
 
-    def move(self, seconds=1.0, amplitude=0.01, compute=0.0, torque=False, announce=False):
-        motion = Motion(seconds, amplitude, compute, announce)
+    def move(self, seconds=1.0, amplitude=0.01, compute=0.0, torque=False, announce=False, pause=0.0):
+        motion = Motion(seconds, amplitude, compute, announce, pause)
         seen = attempt(lambda: self.client.move(motion, torque))
         return {**seen, "cycles": motion.cycles, "longest": motion.longest, "robot": motion.time}
 
