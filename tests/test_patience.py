@@ -111,3 +111,28 @@ def test_the_simulation_ends_while_it_waits(end):
                 process.send_signal(end)
             assert process.wait(MOST) == 0
         assert "NetworkException" in client.result()["outcome"]
+
+
+WAITS = ["spin", "block", "auto"]
+
+
+def test_no_way_to_wait_changes_a_result(monkeypatch):
+    hashes = set()
+    for number, wait in enumerate(WAITS):
+        monkeypatch.setenv("FRANKA_WAIT", WAITS[number - 1])  # of the client
+        with (
+            simulated("panda", "lockstep", "--wait", wait) as sim,
+            client_process("pyfranka") as client,
+        ):
+            assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
+            hashes.add(moved(sim, client))
+    assert len(hashes) == 1, hashes
+
+
+def test_an_unknown_way_to_wait_is_refused(monkeypatch):
+    monkeypatch.setenv("FRANKA_WAIT", "sometimes")
+    with (
+        simulated("panda", "lockstep") as sim,
+        pytest.raises(pyfranka.InvalidOperationException, match="must be spin, block or auto"),
+    ):
+        pyfranka.Robot(sim.address, pyfranka.RealtimeConfig.Ignore)

@@ -433,17 +433,25 @@ TEST_F(Loop, BusyRobotIsReportedFirst) {
   }
 }
 
-/// Sets FRANKA_REALTIME for its lifetime; null: not set.
-class RealtimeVariable {
+/// Sets an environment variable for its lifetime; null: not set.
+class Variable {
  public:
-  explicit RealtimeVariable(const char* value) {
+  Variable(const char* name, const char* value) : name_(name) {
     if (value != nullptr) {
-      setenv("FRANKA_REALTIME", value, 1);
+      setenv(name, value, 1);
     } else {
-      unsetenv("FRANKA_REALTIME");
+      unsetenv(name);
     }
   }
-  ~RealtimeVariable() { unsetenv("FRANKA_REALTIME"); }
+  ~Variable() { unsetenv(name_); }
+
+ private:
+  const char* name_;
+};
+
+class RealtimeVariable : public Variable {
+ public:
+  explicit RealtimeVariable(const char* value) : Variable("FRANKA_REALTIME", value) {}
 };
 
 /// A motion with callbacks and one driven by the program, of a robot on a loopback address.
@@ -526,6 +534,29 @@ TEST_F(LoopRealtime, OtherValuesOfTheVariableAreRefused) {
                          "must be enforce or ignore."))
       << text;
   EXPECT_EQ(0, robot.motions());
+}
+
+TEST(LoopWait, AnyModeGivesTheSameMotion) {
+  for (const char* mode : {"auto", "spin", "block", ""}) {
+    const Variable variable("FRANKA_WAIT", mode);
+    FakeRobot fake(5);
+    const auto robot = connect(fake);
+    int count = 0;
+    robot->control([&](const RobotState&, Duration) {
+      return ++count < 100 ? Torques(kTorques) : franka::MotionFinished(Torques(kTorques));
+    });
+    EXPECT_EQ(100, count) << mode;
+  }
+}
+
+TEST(LoopWait, AnUnknownModeIsRefusedBeforeThereIsARobot) {
+  const Variable variable("FRANKA_WAIT", "sleep");
+  FakeRobot fake(5);
+  const std::string text = textOf<franka::InvalidOperationException>([&] { connect(fake); });
+  EXPECT_TRUE(startsWith(text,
+                         "libfranka: The environment variable FRANKA_WAIT is \"sleep\", but must "
+                         "be spin, block or auto."))
+      << text;
 }
 
 TEST(LoopLog, MayBeEmpty) {

@@ -3,6 +3,7 @@
 #include "options.h"
 
 #include <franka_core/fci/protocol.h>
+#include <franka_core/spin_rule.h>
 #include <franka_sim/fci/sockets.h>
 #include <franka_sim/physics/sizes.h>
 #include <franka_sim/robot/realism.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -102,6 +104,25 @@ void readPatience(const std::string& text, fci::Pace& pace) {
         "--patience", "give a number of seconds from 0.01 to 86400, or forever, not " + text + ".");
   }
   pace.patience = std::chrono::milliseconds(std::lround(1e3 * seconds));
+}
+
+void readWait(const std::string& text, fci::Pace& pace) {
+  const std::optional<franka_core::WaitMode> mode = franka_core::toWaitMode(text);
+  if (!mode) {
+    throw CLI::ValidationError("--wait", "give auto, spin or block, not " + text + ".");
+  }
+  pace.wait = *mode;
+}
+
+// Options that only a robot with the pace patient or lockstep can follow.
+void checkPace(const CLI::App& app, const fci::Pace& pace) {
+  for (const char* option : {"--patience", "--wait"}) {
+    if (app.count(option) > 0 && !pace.waitsForClients()) {
+      throw CLI::ValidationError(option,
+                                 "only a robot that waits for its client takes it; give "
+                                 "--pace patient or --pace lockstep as well.");
+    }
+  }
 }
 
 void checkProtocol(const ArmOptions& arm) {
@@ -237,6 +258,7 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
 
 void addOptionsOfAll(CLI::App& app, Options& options) {
   const auto pace = [&options](const std::string& text) { readPace(text, options.pace); };
+  const auto wait = [&options](const std::string& text) { readWait(text, options.pace); };
   const auto patience = [&options](const std::string& text) { readPatience(text, options.pace); };
   app.option_defaults()->group("Of all")->take_last();
   app.add_option_function<std::string>(
@@ -247,6 +269,11 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
          "with --pace patient or lockstep: how long a client that is silent in its\n"
          "motion is waited for, 0.01 to 86400, or forever (30)")
       ->option_text("SECONDS");
+  app.add_option_function<std::string>(
+         "--wait", wait,
+         "how such a robot waits for each answer: auto, spin (without sleep, for a\n"
+         "moment) or block (asleep) (auto: without sleep while a processor is free)")
+      ->option_text("MODE");
   app.add_option("--world", options.world,
                  "the scene, MJCF or SDF: a file, or the name of one that comes along:\n"
                  "stone.xml (an empty world)")
@@ -286,11 +313,7 @@ Options readOptions(int argc, const char* const* argv) {
   app.set_help_flag("-h,--help", "this text");
   try {
     app.parse(wordsOf(argc, argv));
-    if (app.count("--patience") > 0 && !options.pace.waitsForClients()) {
-      throw CLI::ValidationError("--patience",
-                                 "only a robot that waits for its client has patience; give "
-                                 "--pace patient or --pace lockstep as well.");
-    }
+    checkPace(app, options.pace);
     checkTogether(options.arms);
   } catch (const CLI::CallForHelp&) {
     options.help = app.help();

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <thread>
 #include <utility>
 
 namespace franka_sim::fci {
@@ -33,10 +32,6 @@ constexpr std::chrono::milliseconds kServeAtLeast{1};
 /// clients and ours drop a repeated state and wait on. Chosen here: three repeats fit into that
 /// second.
 constexpr std::chrono::milliseconds kRepeatPeriod{300};
-
-/// In lock-step, an answer is awaited without sleeping for this time, if another processor can work
-/// on it meanwhile. Chosen here: sleep and wake-up take longer than many answers.
-constexpr std::chrono::microseconds kSpinTime{100};
 
 /// Before its first command a client needs two states that show the motion; they are sent at once.
 /// Further states are for a client that missed them. They come as slowly as the client's timeout of
@@ -72,9 +67,7 @@ class ModeGuard {
 }  // namespace
 
 Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare)
-    : step_(std::move(step)),
-      prepare_(std::move(prepare)),
-      spin_(std::thread::hardware_concurrency() > 1) {
+    : step_(std::move(step)), prepare_(std::move(prepare)) {
   setPace(pace);
   // By default the system groups wake-ups within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -95,6 +88,9 @@ void Host::remove(const HostedRobot& robot) {
 void Host::setPace(const Pace& pace) {
   pace_ = pace;
   period_ = std::chrono::nanoseconds(std::llround(1e6 / (pace.factor > 0.0 ? pace.factor : 1.0)));
+  if (pace.wait != spin_rule_.mode()) {
+    spin_rule_ = franka_core::SpinRule(pace.wait);
+  }
   rolling_ = 0;
   restartClock();
 }
@@ -333,7 +329,7 @@ void Host::waitInLockStep() {
   prepare_();
   // An answer takes a while; if none is expected, one look at the sockets is enough.
   if (due) {
-    spinForAnswers(begin);
+    spin_rule_.spin([this] { return receiveAll(); });
   }
   if (!due || !receiveAll()) {
     pollUntil(due ? begin + kTick : begin);
@@ -361,12 +357,6 @@ void Host::waitInLockStep() {
       publishAll(true);
     }
     pollUntil(published_at_ + kTick);
-  }
-}
-
-// Going to sleep and waking up takes longer than many clients need to answer.
-void Host::spinForAnswers(Clock::time_point begin) {
-  while (spin_ && !receiveAll() && Clock::now() - begin < kSpinTime) {
   }
 }
 

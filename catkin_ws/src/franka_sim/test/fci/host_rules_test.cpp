@@ -124,6 +124,25 @@ TEST_F(HostRules, PatientPaceWaitsForEachAnswer) {
   EXPECT_EQ(20, robot.answered);
 }
 
+TEST_F(HostRules, EveryWaitModeWaitsForQuickAndSlowAnswers) {
+  robot.moving = true;
+  for (auto wait : {franka_core::WaitMode::kAuto, franka_core::WaitMode::kSpin,
+                    franka_core::WaitMode::kBlock}) {
+    Pace pace = waiting(PaceMode::kLockStep);
+    pace.wait = wait;
+    host.setPace(pace);
+    if (steps == 0) {
+      host.add(robot);
+    }
+    robot.answered = 0;
+    robot.delay = milliseconds(0);
+    timeOf(100);
+    robot.delay = milliseconds(2);
+    EXPECT_GE(timeOf(10), milliseconds(20));
+    EXPECT_EQ(110, robot.answered);
+  }
+}
+
 TEST_F(HostRules, PatientPaceIsNotFasterThanTheClock) {
   const Clock::time_point begin = Clock::now();
   use(waiting(PaceMode::kPatient));

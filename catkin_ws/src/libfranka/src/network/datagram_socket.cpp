@@ -7,19 +7,12 @@
 #include <sys/time.h>
 
 #include <cerrno>
-#include <thread>
+#include <utility>
 
 namespace franka::network {
 
-namespace {
-// Waits up to this length do not sleep (chosen here: a sleep costs about 50 us).
-constexpr std::chrono::microseconds kMaxSpin{100};
-}  // namespace
-
 DatagramSocket::DatagramSocket(std::chrono::milliseconds timeout)
-    : timeout_(timeout),
-      socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)),
-      may_spin_(std::thread::hardware_concurrency() > 1) {
+    : timeout_(timeout), socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_ANY);
@@ -41,25 +34,15 @@ DatagramSocket::Received DatagramSocket::tryReceive(std::uint8_t* buffer,
 
 DatagramSocket::Received DatagramSocket::receive(std::uint8_t* buffer,
                                                  std::size_t capacity) noexcept {
-  const auto begin = std::chrono::steady_clock::now();
   Received received{false, 0};
-  if (spins_) {
-    received = spin(buffer, capacity);
-  }
-  if (!received.any) {
-    received = receiveFromRobot(buffer, capacity, 0);
-  }
-  spins_ = may_spin_ && received.any && std::chrono::steady_clock::now() - begin < kMaxSpin;
-  return received;
-}
-
-DatagramSocket::Received DatagramSocket::spin(std::uint8_t* buffer, std::size_t capacity) noexcept {
-  const auto deadline = std::chrono::steady_clock::now() + kMaxSpin;
-  Received received = tryReceive(buffer, capacity);
-  while (!received.any && std::chrono::steady_clock::now() < deadline) {
+  const auto look = [&] {
     received = tryReceive(buffer, capacity);
+    return received.any;
+  };
+  if (std::exchange(has_answered_, false) && spin_rule_.spin(look)) {
+    return received;
   }
-  return received;
+  return receiveFromRobot(buffer, capacity, 0);
 }
 
 DatagramSocket::Received DatagramSocket::receiveFromRobot(std::uint8_t* buffer,
@@ -96,6 +79,7 @@ int DatagramSocket::answer(franka_core::fci::Bytes datagram) noexcept {
     sent = sendto(socket_.get(), datagram.data, datagram.size, MSG_NOSIGNAL,
                   reinterpret_cast<const sockaddr*>(&robot_), sizeof(robot_));
   } while (sent < 0 && errno == EINTR);
+  has_answered_ = true;
   return sent < 0 ? errno : 0;
 }
 

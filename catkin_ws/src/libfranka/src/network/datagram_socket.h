@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/fci/protocol.h>
+#include <franka_core/spin_rule.h>
 
 #include <chrono>
 #include <cstddef>
@@ -33,9 +34,13 @@ class DatagramSocket {
 
   /// The oldest received datagram, without waiting.
   Received tryReceive(std::uint8_t* buffer, std::size_t capacity) noexcept;
-  /// The same, waiting up to the timeout. If the robot's answers come faster than a thread wakes up
-  /// (a simulated one in lock-step), it waits without sleeping.
+  /// The same, waiting up to the timeout. Waits for the robot's reaction to a command as
+  /// setWaitMode says; others sleep.
   Received receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
+  /// How to wait for the state that follows an answer; without this call: asleep.
+  void setWaitMode(franka_core::WaitMode mode) noexcept {
+    spin_rule_ = franka_core::SpinRule(mode);
+  }
   /// Declares that the last received datagram came from the robot.
   void accept() noexcept;
   /// Sends to the robot.
@@ -43,7 +48,6 @@ class DatagramSocket {
   int answer(franka_core::fci::Bytes datagram) noexcept;
 
  private:
-  Received spin(std::uint8_t* buffer, std::size_t capacity) noexcept;
   Received receiveFromRobot(std::uint8_t* buffer, std::size_t capacity, int flags) noexcept;
 
   std::chrono::milliseconds timeout_;
@@ -52,8 +56,8 @@ class DatagramSocket {
   sockaddr_in last_sender_{};
   sockaddr_in robot_{};
   bool has_robot_{false};
-  bool may_spin_;      ///< the robot can work on another processor meanwhile
-  bool spins_{false};  ///< the last wait was shorter than kMaxSpin
+  franka_core::SpinRule spin_rule_{franka_core::WaitMode::kBlock};
+  bool has_answered_{false};  ///< since the last wait
 };
 
 }  // namespace franka::network

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/robot_state.h>
+#include <franka_core/spin_rule.h>
 #include <poll.h>
 
 #include <array>
@@ -40,6 +41,8 @@ struct Pace {
   /// count, and a closed connection ends the wait. Chosen here: a starved machine stops a program
   /// for seconds (decision 50).
   std::chrono::milliseconds patience{30000};
+  /// How this process waits for these answers; the results do not depend on it.
+  franka_core::WaitMode wait{franka_core::WaitMode::kAuto};
 
   /// Whether a tick within a motion waits for the client's answer.
   bool waitsForClients() const noexcept { return mode != PaceMode::kRealTime; }
@@ -173,7 +176,6 @@ class Host {
   Clock::time_point nextDeadline();
   void listenUntil(Clock::time_point end);
   void waitInLockStep();
-  void spinForAnswers(Clock::time_point begin);
   void beginWait();
   bool waitForClients();
   void showThatTimeStandsStill(Clock::time_point now);
@@ -197,7 +199,7 @@ class Host {
   const std::atomic<bool>* stop_{nullptr};
   Clock::duration period_{};
   Clock::time_point deadline_{};
-  bool spin_;
+  franka_core::SpinRule spin_rule_;
   Clock::time_point published_at_{};
   Clock::time_point looked_at_{};
   Clock::duration waited_{};  // in this tick, without time in which this process did not run
