@@ -180,3 +180,17 @@ def test_reflexes_are_an_argument_of_the_simulation(name, reflexes):
 
 def test_all_launch_files_are_tested():
     assert len(FILES) >= 27 and "franka_control/franka_control.launch" in FILES
+
+
+@pytest.mark.parametrize("name", ["franka_control.launch", "franka_combined_control.launch"])
+def test_a_simulated_robot_gets_patience_and_wait_if_they_are_given(name):
+    def options(*given: str) -> str:
+        loader = Reader(with_descriptions=False)
+        config = read(FILES[f"franka_control/{name}"], ["sim:=true", *given], loader)
+        (robot,) = [node for node in config.nodes if node.name.startswith("simulated_robot")]
+        return robot.args
+
+    assert "--patience" not in options() and "--wait" not in options()
+    both = options("patience:=forever", "wait:=block")
+    assert "--patience forever" in both and "--wait block" in both
+    assert "--patience 0.5" in options("patience:=0.5")
