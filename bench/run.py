@@ -16,11 +16,18 @@ TESTS = Path(__file__).resolve().parents[1] / "tests"
 sys.path[:0] = [str(TESTS), str(TESTS / "support")]  # simulated robots are described once
 
 import hardware
+import lock_step_pairs
 import micro
 import network
 import python_simulation
 import simulation
 from report import failures
+
+
+def python() -> None:
+    python_simulation.python()
+    lock_step_pairs.pairs()
+
 
 BENCHMARKS = {
     "fci": network.fci,
@@ -31,7 +38,7 @@ BENCHMARKS = {
     "cameras": simulation.cameras,
     "memory": simulation.memory,
     "start": simulation.start,
-    "python": python_simulation.python,
+    "python": python,
 }
 
 
