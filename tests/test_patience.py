@@ -44,7 +44,7 @@ def waiting():
         server = stack.enter_context(FrankaSim(*robots, pace="lockstep", arguments=FOREVER))
         client = stack.enter_context(client_process("pyfranka"))
         assert client.run_task("connect", address=server["panda"].address)["outcome"] == "ok"
-        begin_motion(client, seconds=1.0, amplitude=0.0)
+        begin_motion(client, seconds=30.0, amplitude=0.0)
         stack.enter_context(stopped(client.process))
         assert server["panda"].remote.state().mode == "Move"
         yield client, server["panda"], server["fr3"]
@@ -103,7 +103,7 @@ def test_the_simulation_ends_while_it_waits(end):
     with simulated("panda", "lockstep", *FOREVER) as sim, client_process("pyfranka") as client:
         process = sim.server.process
         assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
-        begin_motion(client, seconds=10.0, amplitude=0.0)
+        begin_motion(client, seconds=30.0, amplitude=0.0)
         with stopped(client.process):
             if end == "quit":
                 sim.remote.quit()

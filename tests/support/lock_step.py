@@ -30,7 +30,7 @@ def moved(sim, client, torque=False, process=None, seconds=0.0, pause=0.0):
     """One motion from a reset world. `process` is stopped for so many seconds in its middle; or the callback
     sleeps once for `pause`. @returns the robot's hash."""
     sim.remote.reset()
-    begin_motion(client, seconds=4.0, amplitude=0.0 if torque else 0.1, torque=torque, pause=pause)
+    begin_motion(client, seconds=8.0, amplitude=0.0 if torque else 0.1, torque=torque, pause=pause)
     if process is not None:
         with stopped(process):
             time.sleep(seconds)  # the fault itself
