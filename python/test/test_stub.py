@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pyfranka
 import pyfranka.sim
+import pyfranka.sweeps
 import pytest
 
 STUB = Path(__file__).resolve().parent.parent / "src" / "pyfranka" / "__init__.pyi"
@@ -107,10 +108,17 @@ def test_types_are_installed_with_the_package():
     assert "py.typed" in setup and "*.pyi" in setup
 
 
-def test_the_simulation_is_described_and_typed():
-    for name in pyfranka.sim.__all__:
-        value = getattr(pyfranka.sim, name)
+def test_what_is_imported_when_used_is_in_the_stub():
+    assert "from pyfranka.sweeps import sweep as sweep" in STUB.read_text()
+
+
+@pytest.mark.parametrize("module", [pyfranka.sim, pyfranka.sweeps], ids=lambda module: module.__name__)
+def test_modules_in_python_are_described_and_typed(module):
+    for name in module.__all__:
+        value = getattr(module, name)
         assert value.__doc__, name
+        if inspect.isfunction(value):
+            assert "return" in value.__annotations__, name
         if hasattr(value, "__members__"):
             continue
         for member, function in vars(value).items():

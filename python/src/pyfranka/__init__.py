@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""libfranka and ModelKDL for Python; pyfranka.sim has simulations.
+"""libfranka and ModelKDL for Python; pyfranka.sim has simulations, pyfranka.sweep runs many of them.
 
     import pyfranka
 
@@ -14,3 +14,16 @@ Arrays of a RobotState are numpy views of it; matrices have two dimensions and a
 """
 
 from _pyfranka import *  # noqa: F401, F403
+
+
+def __getattr__(name: str):
+    """Imports pyfranka.sweep when it is used: robots and simulations do without Dask."""
+    if name == "sweep":
+        from pyfranka.sweeps import sweep
+
+        return sweep
+    raise AttributeError(f"module 'pyfranka' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), "sweep"})

@@ -10,6 +10,8 @@ import typing
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+from pyfranka.sweeps import sweep as sweep
+
 Array = NDArray[numpy.float64]
 Command = typing.TypeVar(
     "Command", Torques, JointPositions, JointVelocities, CartesianPose, CartesianVelocities

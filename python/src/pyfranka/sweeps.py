@@ -1,0 +1,444 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs a function on many cases, on this machine's cores or on a Dask cluster.
+
+    import pyfranka
+
+    def reach(case, seed):
+        ...
+        return {"error": 0.001, "q": q}
+
+    done = pyfranka.sweep(reach, 1000, output="reach.parquet")
+    print(len(done.failed), [outcome.result["error"] for outcome in done if outcome.ok])
+
+The module has another name than the function, so that `pyfranka.sweep` is always the function. Dask, tqdm
+and pyarrow are imported when a sweep starts; `pip install pyfranka[cluster]` brings them.
+
+Scheduling is that of dask.distributed. Cases of this process's `__main__` and of scripts travel by value
+(cloudpickle), so workers need not have the file.
+"""
+
+from __future__ import annotations
+
+import argparse
+import functools
+import hashlib
+import importlib.machinery
+import importlib.util
+import inspect
+import numbers
+import operator
+import os
+import pickle
+import sys
+import time
+import typing
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from types import CodeType, ModuleType
+
+import numpy
+
+__all__ = ["Outcome", "Sweep", "main", "seed_of", "sweep"]
+
+Function = Callable[[object, int], object]
+
+FAILURES_SHOWN = 10  # by the program (chosen here)
+SCRIPT = "pyfranka_sweep_script"  # the name of a script as a module
+
+
+class Outcome(typing.NamedTuple):
+    """What became of a case.
+
+    index: its number. case, seed: the function's arguments. result: what the function returned; None if it
+    failed. error: why it failed, in a sentence, or None. tries: how often it was begun. duration: of the
+    last try [s]; None if the worker died. worker: the address of the last one.
+    """
+
+    index: int
+    case: object
+    seed: int
+    result: object
+    error: str | None
+    tries: int
+    duration: float | None
+    worker: str
+
+    @property
+    def ok(self) -> bool:
+        """Whether there is a result."""
+        return self.error is None
+
+
+class Sweep(Sequence):
+    """The outcomes of all cases, in their order."""
+
+    def __init__(self, outcomes: Sequence[Outcome]):
+        self._outcomes = list(outcomes)
+
+    def __getitem__(self, index):
+        return self._outcomes[index]
+
+    def __len__(self) -> int:
+        return len(self._outcomes)
+
+    def __repr__(self) -> str:
+        return f"<Sweep of {len(self)} cases, {len(self.failed)} failed>"
+
+    @property
+    def results(self) -> list:
+        """The results in order; None for failed cases."""
+        return [outcome.result for outcome in self]
+
+    @property
+    def failed(self) -> list[Outcome]:
+        """The outcomes of failed cases."""
+        return [outcome for outcome in self if not outcome.ok]
+
+
+def seed_of(seed: int, index: int) -> int:
+    """The seed of a case, 63 bits: the same however many cases and workers there are."""
+    child = numpy.random.SeedSequence(seed, spawn_key=(index,))  # as SeedSequence(seed).spawn gives them
+    return int(child.generate_state(1, numpy.uint64)[0] >> numpy.uint64(1))
+
+
+def sweep(
+    function: Function,
+    cases: int | Iterable,
+    cluster: object = None,
+    *,
+    output: str | os.PathLike | None = None,
+    seed: int = 1,
+    retries: int = 1,
+    workers: int | None = None,
+    progress: bool | None = None,
+    retry_failed: bool = False,
+    patience: float = 600.0,
+) -> Sweep:
+    """Calls `function(case, seed)` for each case and returns what became of them, in order.
+
+    cases: any values that can be pickled, or a number n for the cases 0 ... n-1. cluster: None for processes
+    on this machine, one core each; the address of a Dask scheduler ("tcp://host:8786"); the path of a
+    scheduler file; a cluster of Dask, such as dask_jobqueue.SLURMCluster or dask.distributed.SSHCluster; or a
+    dask.distributed.Client. The last two stay open.
+
+    output: a .parquet or .csv file. Results are written while they come; the same call goes on where an
+    earlier one was interrupted. Results are then numbers, texts, lists, numpy arrays, or dicts of them, and
+    arrays come back as lists. seed: of the sweep; each case has one of its own (seed_of). retries: how often
+    a case that raises is run again. Dask runs a case whose worker died again, as often as its setting
+    distributed.scheduler.allowed-failures says (3). Then it is reported, and the sweep goes on. workers: how
+    many processes on this machine. progress: show a bar; None: if standard error is a terminal.
+    retry_failed: run cases again that the output reports as failed. patience: how long the cluster may be
+    without workers [s].
+
+    Blocks. Raises TypeError or ValueError for arguments that cannot be used, before anything is begun;
+    ImportError if a package is missing; ConnectionError if the scheduler cannot be reached or is lost;
+    TimeoutError if there are no workers; OSError if the output cannot be written. Finished cases are then in
+    the output. Thread-safe, except for two sweeps with the same output, of which one raises RuntimeError.
+    """
+    _require()
+    from pyfranka import _sweep_run
+
+    plan = _Plan(function, cases, seed)
+    _check_number("retries", retries, 0)
+    if workers is not None:
+        _check_number("workers", workers, 1)
+        if cluster is not None:
+            raise ValueError("workers is the number of processes on this machine; a cluster has its own.")
+    if not isinstance(patience, numbers.Real) or not patience > 0:
+        raise ValueError(f"patience is a time above 0 s, not {patience!r}.")
+    _sweep_run.check_cluster(cluster)
+    with ExitStack() as stack:
+        record, done = _Memory(), {}
+        if output is not None:
+            record = stack.enter_context(_open_output(Path(output), plan))
+            done = record.done()
+        left = [i for i in range(len(plan)) if i not in done or (retry_failed and not done[i])]
+        if left:
+            bar = stack.enter_context(_bar(progress, len(plan), len(plan) - len(left)))
+            client = stack.enter_context(_sweep_run.client_of(cluster, workers, len(left)))
+            run = _sweep_run.Run(
+                client, plan, retries, patience, plain=output is not None, local=cluster is None
+            )
+            for outcome in run.outcomes(left):
+                if outcome is None:
+                    record.flush()
+                    continue
+                record.add(*outcome)
+                bar(failed=outcome[0]["error"] is not None)
+        return Sweep([_outcome(row, plan) for row in record.rows()])
+
+
+# ---- arguments -------------------------------------------------------------------------------------------
+
+
+def _require() -> None:
+    for name in ("distributed", "pyarrow", "tqdm"):
+        if importlib.util.find_spec(name) is None:
+            raise ImportError(
+                f"A sweep needs the Python package {name}, and this Python ({sys.executable}) has none: "
+                "pip install pyfranka[cluster]; in the workspace use .venv/bin/python3.",
+                name=name,
+            )
+
+
+def _check_number(name: str, value: object, least: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < least:
+        raise ValueError(f"{name} is a whole number from {least}, not {value!r}.")
+    return operator.index(value)
+
+
+class _Plan:
+    """What to compute: function, cases, seeds, and the identity by which an output is recognised."""
+
+    def __init__(self, function: Function, cases: int | Iterable, seed: int):
+        if not callable(function):
+            raise TypeError(f"function is called with a case and a seed; {function!r} cannot be called.")
+        try:
+            inspect.signature(function).bind(0, 0)
+        except TypeError as error:
+            name = getattr(function, "__name__", repr(function))
+            raise TypeError(
+                f"function is called with a case and a seed; '{name}' cannot be: {error}."
+            ) from None
+        except ValueError:
+            pass  # functions in C that do not tell
+        self.seed = _check_number("seed", seed, 0)
+        self.counted = isinstance(cases, numbers.Integral)
+        if self.counted:
+            self.cases: Sequence = range(_check_number("cases", cases, 1))
+        elif isinstance(cases, Iterable) and not isinstance(cases, (str, bytes)):
+            self.cases = list(cases)
+        else:
+            raise TypeError(f"cases is a number or a list of cases, not {cases!r}.")
+        if not self.cases:
+            raise ValueError("There are no cases.")
+        self.payload = _pickled(function, "function")
+        self._function = function
+
+    def __len__(self) -> int:
+        return len(self.cases)
+
+    def seed_of(self, index: int) -> int:
+        return seed_of(self.seed, index)
+
+    def pickled_case(self, index: int) -> bytes:
+        return _pickled(self.cases[index], f"case {index}")
+
+    @functools.cached_property
+    def identity(self) -> str:
+        """Function, cases and seed, in a few letters each."""
+        cases = str(len(self))
+        if not self.counted:
+            digest = hashlib.sha256()
+            for index, case in enumerate(self.cases):
+                digest.update(_stable(case, f"case {index}"))
+            cases += f"-{digest.hexdigest()[:8]}"
+        return f"{_name(self._function)}-{_digest(self._function)[:8]}/{cases}/{self.seed}"
+
+
+def _pickled(value: object, what: str) -> bytes:
+    import cloudpickle
+
+    try:
+        return cloudpickle.dumps(value)
+    except Exception as error:  # whatever a value's own pickling raises
+        raise TypeError(f"{what} cannot be sent to a worker: {error}.") from error
+
+
+def _stable(value: object, what: str) -> bytes:
+    """Bytes that are the same in each run; cloudpickle's contain random numbers for classes of scripts."""
+    try:
+        return pickle.dumps(value, protocol=5)
+    except Exception:  # whatever a value's own pickling raises
+        return _pickled(value, what)
+
+
+def _name(function: Function) -> str:
+    while isinstance(function, functools.partial):
+        function = function.func
+    return getattr(function, "__qualname__", type(function).__qualname__).replace("/", "_")
+
+
+def _digest(function: Function) -> str:
+    """Of the function's own text and the values bound to it; not of what it calls."""
+    digest = hashlib.sha256()
+    while isinstance(function, functools.partial):
+        digest.update(_stable((function.args, sorted(function.keywords.items())), "function"))
+        function = function.func
+    if inspect.ismethod(function):
+        digest.update(_stable(function.__self__, "function"))
+        function = function.__func__
+    function = inspect.unwrap(function)
+    if not inspect.isfunction(function):
+        digest.update(_stable(function, "function"))
+        return digest.hexdigest()
+    try:
+        digest.update(inspect.getsource(function).encode())
+    except OSError:  # typed into an interpreter
+        digest.update(_code_text(function.__code__).encode())
+    for cell in function.__closure__ or ():
+        if not callable(cell.cell_contents):
+            digest.update(_stable(cell.cell_contents, "function"))
+    return digest.hexdigest()
+
+
+def _code_text(code: CodeType) -> str:
+    constants = [_code_text(c) if isinstance(c, CodeType) else repr(c) for c in code.co_consts]
+    return f"{code.co_code.hex()} {code.co_names} {constants}"
+
+
+# ---- the record of a sweep -------------------------------------------------------------------------------
+
+
+class _Memory:
+    """Rows of a sweep without an output; the interface is that of _sweep_output.Output."""
+
+    def __init__(self):
+        self._rows: dict[int, dict] = {}
+
+    def add(self, row: dict, result: dict) -> None:
+        self._rows[row["index"]] = {**row, **result}
+
+    def flush(self) -> None:
+        pass
+
+    def rows(self) -> list[dict]:
+        return [self._rows[index] for index in sorted(self._rows)]
+
+
+def _open_output(path: Path, plan: _Plan):
+    from pyfranka import _sweep_output
+
+    _sweep_output.check_path(path)
+    cases = None if plan.counted else _sweep_output.table_of(plan.cases, "case")
+    return _sweep_output.Output(path, plan.identity, cases)
+
+
+def _outcome(row: dict, plan: _Plan) -> Outcome:
+    if "sweep" in row:
+        from pyfranka._sweep_output import result_of
+
+        result = result_of(row)
+    else:
+        result = row.get("result")
+    values = {name: row[name] for name in ("index", "seed", "error", "tries", "duration", "worker")}
+    return Outcome(case=plan.cases[row["index"]], result=result, **values)
+
+
+@contextmanager
+def _bar(progress: bool | None, cases: int, done: int) -> Iterator[Callable]:
+    """A progress bar on standard error with rate and time left. Yields what is called after each case."""
+    from tqdm import tqdm
+
+    disable = None if progress is None else not progress  # None: unless it is a terminal
+    failures = 0
+    with tqdm(total=cases, initial=done, unit="case", disable=disable, dynamic_ncols=True) as bar:
+
+        def advance(failed: bool) -> None:
+            nonlocal failures
+            failures += failed
+            if failed:
+                bar.set_postfix_str(f"{failures} failed", refresh=False)
+            bar.update()
+
+        yield advance
+
+
+# ---- the program -----------------------------------------------------------------------------------------
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The program pyfranka-sweep. @returns 0, 1 if cases failed, 2 for a wrong call, 130 if interrupted"""
+    parser = argparse.ArgumentParser(
+        prog="pyfranka-sweep",
+        description="Calls the function case(index, seed) of a Python file for many cases, on all cores or "
+        "on a Dask cluster, and writes what it returns into a file. Called again, it goes on where it was "
+        "interrupted. A file may have the cases itself: a list `cases`, or a function that returns one.",
+    )
+    parser.add_argument("script", type=Path, help="a Python file with a function case(index, seed)")
+    parser.add_argument("--cases", type=int, metavar="N", help="cases 0 ... N-1 (the file's `cases`)")
+    parser.add_argument("--seed", type=int, default=1, help="of the whole sweep (%(default)s)")
+    parser.add_argument("--output", type=Path, help=".parquet or .csv (the script's name, .parquet, here)")
+    parser.add_argument("--cluster", help="address or file of a Dask scheduler (processes on this machine)")
+    parser.add_argument("--workers", type=int, metavar="N", help="processes on this machine (its cores)")
+    parser.add_argument("--retries", type=int, default=1, help="of a case that raises (%(default)s)")
+    parser.add_argument("--retry-failed", action="store_true", help="run again what the output has as failed")
+    parser.add_argument("--patience", type=float, default=600.0, help="[s] without any worker (%(default)g)")
+    parser.add_argument("--function", default="case", metavar="NAME", help="its name (%(default)s)")
+    parser.add_argument(
+        "--progress", action=argparse.BooleanOptionalAction, help="a bar (if standard error is a terminal)"
+    )
+    options = parser.parse_args(arguments)
+    output = options.output or Path(f"{options.script.stem}.parquet")
+    begin = time.monotonic()
+    try:
+        function, cases = _from_script(options.script, options.function, options.cases)
+        done = sweep(
+            function,
+            cases,
+            options.cluster,
+            output=output,
+            seed=options.seed,
+            retries=options.retries,
+            workers=options.workers,
+            progress=options.progress,
+            retry_failed=options.retry_failed,
+            patience=options.patience,
+        )
+    except KeyboardInterrupt:
+        print(f"\npyfranka-sweep: interrupted; the same command goes on from {output}.", file=sys.stderr)
+        return 130
+    except (TypeError, ValueError, OSError, ImportError, RuntimeError) as error:
+        print(f"pyfranka-sweep: {error}", file=sys.stderr)
+        return 2
+    for outcome in done.failed[:FAILURES_SHOWN]:
+        print(f"case {outcome.index} (seed {outcome.seed}) failed in {outcome.tries} tries: {outcome.error}")
+    if len(done.failed) > FAILURES_SHOWN:
+        print(f"... and {len(done.failed) - FAILURES_SHOWN} more, in the column `error`")
+    print(f"{len(done)} cases, {len(done.failed)} failed: {output} ({time.monotonic() - begin:.1f} s)")
+    return 1 if done.failed else 0
+
+
+def _from_script(path: Path, name: str, number: int | None) -> tuple[Function, int | Iterable]:
+    """The function and the cases of a file, whose parts are pickled by value from now on."""
+    _require()
+    import cloudpickle
+
+    if not path.is_file():
+        raise FileNotFoundError(f"There is no file '{path}'.")
+    module = _imported(path)
+    cloudpickle.register_pickle_by_value(module)
+    function = getattr(module, name, None)
+    if not callable(function):
+        raise ValueError(f"'{path}' has no function {name}(index, seed).")
+    if number is not None:
+        return function, number
+    cases = getattr(module, "cases", None)
+    if cases is None:
+        raise ValueError(f"Give the number of cases (--cases), or define `cases` in '{path}'.")
+    return function, cases() if callable(cases) else cases
+
+
+def _imported(path: Path) -> ModuleType:
+    """The file as a module; files beside it can be imported, as in a script."""
+    from pyfranka._sweep_run import told
+
+    spec = importlib.util.spec_from_loader(
+        SCRIPT, importlib.machinery.SourceFileLoader(SCRIPT, str(path)), origin=str(path)
+    )
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[SCRIPT] = module
+    sys.path.insert(0, str(path.absolute().parent))
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:  # whatever the script raises
+        raise RuntimeError(f"'{path}' cannot be imported: {told(error)}.") from error
+    return module
+
+
+if __name__ == "__main__":
+    from pyfranka import sweeps  # workers know the functions by that name
+
+    sys.exit(sweeps.main())
