@@ -20,6 +20,7 @@ import lock_step_pairs
 import micro
 import network
 import python_simulation
+import python_sweep
 import simulation
 from report import failures
 
@@ -27,6 +28,7 @@ from report import failures
 def python() -> None:
     python_simulation.python()
     lock_step_pairs.pairs()
+    python_sweep.sweep()
 
 
 BENCHMARKS = {
