@@ -5,36 +5,19 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/osmesa.h>
-#include <dlfcn.h>
 
 #include <cstdlib>
 #include <stdexcept>
 #include <vector>
 
+#include "physics/run_time_library.h"
+
 namespace franka_sim::physics {
 namespace {
 
-void* load(const char* library) {
-  // Never unloaded: drivers leave threads and handlers behind.
-  void* handle = dlopen(library, RTLD_NOW | RTLD_GLOBAL);
-  if (handle == nullptr) {
-    throw std::runtime_error(std::string(library) + " cannot be loaded");
-  }
-  return handle;
-}
-
-template <typename Function>
-Function find(void* library, const char* name) {
-  auto function = reinterpret_cast<Function>(dlsym(library, name));
-  if (function == nullptr) {
-    throw std::runtime_error(std::string(name) + " is missing in the library");
-  }
-  return function;
-}
-
 class EglContext final : public GlContext {
  public:
-  EglContext() : library_(load("libEGL.so.1")) {
+  EglContext() : library_("libEGL.so.1") {
     openDisplay();
     createContext();
     makeCurrent();
@@ -57,7 +40,7 @@ class EglContext final : public GlContext {
  private:
   template <typename Function>
   Function call(const char* name) const {
-    return find<Function>(library_, name);
+    return library_.find<Function>(name);
   }
 
   void openDisplay() {
@@ -87,14 +70,14 @@ class EglContext final : public GlContext {
     }
   }
 
-  void* library_;
+  RunTimeLibrary library_;
   EGLDisplay display_{EGL_NO_DISPLAY};
   EGLContext context_{EGL_NO_CONTEXT};
 };
 
 class OsMesaContext final : public GlContext {
  public:
-  OsMesaContext() : library_(load("libOSMesa.so.8")), buffer_(4 * kSize * kSize) {
+  OsMesaContext() : library_("libOSMesa.so.8"), buffer_(4 * kSize * kSize) {
     const int attributes[] = {OSMESA_FORMAT,
                               OSMESA_RGBA,
                               OSMESA_DEPTH_BITS,
@@ -105,7 +88,7 @@ class OsMesaContext final : public GlContext {
                               OSMESA_COMPAT_PROFILE,
                               0,
                               0};
-    context_ = find<decltype(&OSMesaCreateContextAttribs)>(library_, "OSMesaCreateContextAttribs")(
+    context_ = library_.find<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs")(
         attributes, nullptr);
     if (context_ == nullptr) {
       throw std::runtime_error("OSMesa gives no OpenGL context");
@@ -113,10 +96,10 @@ class OsMesaContext final : public GlContext {
     makeCurrent();
   }
   ~OsMesaContext() override {
-    find<decltype(&OSMesaDestroyContext)>(library_, "OSMesaDestroyContext")(context_);
+    library_.find<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(context_);
   }
   void makeCurrent() override {
-    if (find<decltype(&OSMesaMakeCurrent)>(library_, "OSMesaMakeCurrent")(
+    if (library_.find<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent")(
             context_, buffer_.data(), GL_UNSIGNED_BYTE, kSize, kSize) != GL_TRUE) {
       throw std::runtime_error("OSMesa cannot make its context current");
     }
@@ -126,7 +109,7 @@ class OsMesaContext final : public GlContext {
  private:
   static constexpr int kSize = 64;  ///< of the window; pictures go to a framebuffer object
 
-  void* library_;
+  RunTimeLibrary library_;
   std::vector<unsigned char> buffer_;
   OSMesaContext context_{nullptr};
 };

@@ -1,13 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <GLFW/glfw3.h>
 #include <franka_sim/physics/window.h>
 
 #include <stdexcept>
 
+#include "physics/glfw.h"
 #include "physics/scene_model.h"
 
 namespace franka_sim {
+
+using physics::glfw;
+
 namespace {
 
 constexpr int kWidth = 1200, kHeight = 900;  ///< [pixel]
@@ -31,6 +34,7 @@ struct Window::Impl {
   double x{0}, y{0};
 
   Impl() {
+    glfw();  // without the library there is nothing to destroy
     mjv_defaultScene(&scene);
     mjr_defaultContext(&context);
     mjv_defaultOption(&option);
@@ -45,23 +49,23 @@ struct Window::Impl {
     if (window != nullptr) {
       mjr_freeContext(&context);
       mjv_freeScene(&scene);
-      glfwDestroyWindow(window);
+      glfw().destroyWindow(window);
     }
-    glfwTerminate();
+    glfw().terminate();
   }
 
   static Impl& of(GLFWwindow* window) {
-    return *static_cast<Impl*>(glfwGetWindowUserPointer(window));
+    return *static_cast<Impl*>(glfw().getWindowUserPointer(window));
   }
 
   void connect() {
-    glfwSetWindowUserPointer(window, this);
-    glfwSetCursorPosCallback(window,
-                             [](GLFWwindow* w, double x, double y) { of(w).moveMouse(x, y); });
-    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) {
+    glfw().setWindowUserPointer(window, this);
+    glfw().setCursorPosCallback(window,
+                                [](GLFWwindow* w, double x, double y) { of(w).moveMouse(x, y); });
+    glfw().setScrollCallback(window, [](GLFWwindow* w, double, double y) {
       of(w).moveCamera(mjMOUSE_ZOOM, 0, -kZoomStep * y);
     });
-    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
+    glfw().setKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
       if (action == GLFW_PRESS) {
         of(w).press(key);
       }
@@ -70,14 +74,14 @@ struct Window::Impl {
 
   void moveMouse(double to_x, double to_y) {
     int width = 0, height = 0;
-    glfwGetWindowSize(window, &width, &height);
+    glfw().getWindowSize(window, &width, &height);
     const double dx = (to_x - x) / height, dy = (to_y - y) / height;
     x = to_x;
     y = to_y;
-    if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
+    if (glfw().getMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
       moveCamera(mjMOUSE_ROTATE_H, dx, 0);
       moveCamera(mjMOUSE_ROTATE_V, 0, dy);
-    } else if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) {
+    } else if (glfw().getMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) {
       moveCamera(mjMOUSE_MOVE_V, dx, dy);
     }
   }
@@ -140,26 +144,26 @@ struct Window::Impl {
 };
 
 Window::Window(const std::string& title) : impl_(std::make_unique<Impl>()) {
-  if (glfwInit() == GLFW_FALSE) {
+  if (glfw().init() == GLFW_FALSE) {
     throw std::runtime_error(
         "There is no display for the simulation's window: set DISPLAY, or start without the window "
         "(without --viewer; in ROS headless:=true).");
   }
-  impl_->window = glfwCreateWindow(kWidth, kHeight, title.c_str(), nullptr, nullptr);
+  impl_->window = glfw().createWindow(kWidth, kHeight, title.c_str(), nullptr, nullptr);
   if (impl_->window == nullptr) {
     throw std::runtime_error(
         "The display gives no OpenGL window; start without it (without --viewer; in ROS "
         "headless:=true).");
   }
-  glfwMakeContextCurrent(impl_->window);
-  glfwSwapInterval(0);
+  glfw().makeContextCurrent(impl_->window);
+  glfw().swapInterval(0);
   impl_->connect();
 }
 
 Window::~Window() = default;
 
 bool Window::draw(const Scene& scene) {
-  glfwMakeContextCurrent(impl_->window);
+  glfw().makeContextCurrent(impl_->window);
   impl_->load(scene.mjcf);
   impl_->drawn.pose(scene);
   mjv_updateScene(impl_->drawn.model(), impl_->drawn.data(), &impl_->option, nullptr,
@@ -168,12 +172,12 @@ bool Window::draw(const Scene& scene) {
     impl_->drawContacts(scene.contacts);
   }
   mjrRect area{0, 0, 0, 0};
-  glfwGetFramebufferSize(impl_->window, &area.width, &area.height);
+  glfw().getFramebufferSize(impl_->window, &area.width, &area.height);
   mjr_setBuffer(mjFB_WINDOW, &impl_->context);
   mjr_render(area, &impl_->scene, &impl_->context);
-  glfwSwapBuffers(impl_->window);
-  glfwPollEvents();
-  return glfwWindowShouldClose(impl_->window) == GLFW_FALSE;
+  glfw().swapBuffers(impl_->window);
+  glfw().pollEvents();
+  return glfw().windowShouldClose(impl_->window) == GLFW_FALSE;
 }
 
 }  // namespace franka_sim

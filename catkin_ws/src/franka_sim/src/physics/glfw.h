@@ -1,0 +1,56 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <GLFW/glfw3.h>
+
+#include "physics/run_time_library.h"
+
+namespace franka_sim::physics {
+
+/// The functions of GLFW that the window needs. The library is loaded and not linked, because it
+/// needs those of the X Window System: a simulation without a window runs on a machine without
+/// them.
+struct Glfw {
+  RunTimeLibrary library{"libglfw.so.3"};
+  decltype(&glfwInit) init = find<decltype(&glfwInit)>("glfwInit");
+  decltype(&glfwTerminate) terminate = find<decltype(&glfwTerminate)>("glfwTerminate");
+  decltype(&glfwCreateWindow) createWindow = find<decltype(&glfwCreateWindow)>("glfwCreateWindow");
+  decltype(&glfwDestroyWindow) destroyWindow =
+      find<decltype(&glfwDestroyWindow)>("glfwDestroyWindow");
+  decltype(&glfwWindowShouldClose) windowShouldClose =
+      find<decltype(&glfwWindowShouldClose)>("glfwWindowShouldClose");
+  decltype(&glfwSetWindowUserPointer) setWindowUserPointer =
+      find<decltype(&glfwSetWindowUserPointer)>("glfwSetWindowUserPointer");
+  decltype(&glfwGetWindowUserPointer) getWindowUserPointer =
+      find<decltype(&glfwGetWindowUserPointer)>("glfwGetWindowUserPointer");
+  decltype(&glfwGetWindowSize) getWindowSize =
+      find<decltype(&glfwGetWindowSize)>("glfwGetWindowSize");
+  decltype(&glfwGetFramebufferSize) getFramebufferSize =
+      find<decltype(&glfwGetFramebufferSize)>("glfwGetFramebufferSize");
+  decltype(&glfwGetMouseButton) getMouseButton =
+      find<decltype(&glfwGetMouseButton)>("glfwGetMouseButton");
+  decltype(&glfwSetCursorPosCallback) setCursorPosCallback =
+      find<decltype(&glfwSetCursorPosCallback)>("glfwSetCursorPosCallback");
+  decltype(&glfwSetScrollCallback) setScrollCallback =
+      find<decltype(&glfwSetScrollCallback)>("glfwSetScrollCallback");
+  decltype(&glfwSetKeyCallback) setKeyCallback =
+      find<decltype(&glfwSetKeyCallback)>("glfwSetKeyCallback");
+  decltype(&glfwMakeContextCurrent) makeContextCurrent =
+      find<decltype(&glfwMakeContextCurrent)>("glfwMakeContextCurrent");
+  decltype(&glfwSwapInterval) swapInterval = find<decltype(&glfwSwapInterval)>("glfwSwapInterval");
+  decltype(&glfwSwapBuffers) swapBuffers = find<decltype(&glfwSwapBuffers)>("glfwSwapBuffers");
+  decltype(&glfwPollEvents) pollEvents = find<decltype(&glfwPollEvents)>("glfwPollEvents");
+
+ private:
+  template <typename Function>
+  Function find(const char* name) const {
+    return library.find<Function>(name);
+  }
+};
+
+/// Loads the library at the first call. Any thread.
+/// @throws std::runtime_error with the package to install if the machine does not have it
+const Glfw& glfw();
+
+}  // namespace franka_sim::physics
