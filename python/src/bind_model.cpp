@@ -3,16 +3,19 @@
 // The robot's own model and ModelKDL, with the same functions.
 #include <franka/model.h>
 #include <franka/robot_state.h>
-#include <franka_hw/model_kdl.h>
-#include <urdf/model.h>
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bindings.h"
 #include "other_names.h"
 #include "sim_model.h"
+#ifdef PYFRANKA_IN_ROS
+#include <franka_hw/model_kdl.h>
+#include <urdf/model.h>
+#endif
 
 namespace pyfranka {
 
@@ -145,6 +148,8 @@ void bindDynamics(py::class_<Model>& type) {
       "of mass in F, 3 [m].");
 }
 
+#ifdef PYFRANKA_IN_ROS
+
 std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, const std::string& root,
                                                    const std::string& tip) {
   urdf::Model model;
@@ -153,6 +158,36 @@ std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, cons
   }
   return std::make_unique<franka_hw::ModelKDL>(model, root, tip);
 }
+
+void bindModelKdl(py::module_& module) {
+  py::class_<franka_hw::ModelKDL> kdl(module, "ModelKDL",
+                                      "The arm's model on KDL, from a URDF; no robot needed.");
+  kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
+          "Chain from link `root` to link `tip` of a URDF text. Raises ValueError for a text that "
+          "is no URDF, RuntimeError for a chain that is no arm.");
+  bindKinematics<RobotState>(kdl);
+  bindDynamics<RobotState>(kdl);
+}
+
+#else
+
+/// The name in builds without ROS, so that a program that needs it gets a reason.
+struct ModelKDL {
+  ModelKDL(const py::args& /*args*/, const py::kwargs& /*kwargs*/) {
+    throw std::runtime_error(
+        "ModelKDL needs ROS, and this pyfranka was built without it. Take the robot's own model "
+        "(Robot.load_model, or robot.model in pyfranka.sim), or the pyfranka of the ROS "
+        "workspace.");
+  }
+};
+
+void bindModelKdl(py::module_& module) {
+  py::class_<ModelKDL>(module, "ModelKDL",
+                       "The arm's model on KDL: only in builds with ROS; raises RuntimeError.")
+      .def(py::init<const py::args&, const py::kwargs&>(), "Raises RuntimeError.");
+}
+
+#endif
 
 }  // namespace
 
@@ -173,14 +208,7 @@ void bindModel(py::module_& module) {
   bindKinematics<RobotState>(model);
   bindDynamics<RobotState>(model);
 
-  py::class_<franka_hw::ModelKDL> kdl(module, "ModelKDL",
-                                      "The arm's model on KDL, from a URDF; no robot needed.");
-  kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
-          "Chain from link `root` to link `tip` of a URDF text. Raises ValueError for a text that "
-          "is no "
-          "URDF, RuntimeError for a chain that is no arm.");
-  bindKinematics<RobotState>(kdl);
-  bindDynamics<RobotState>(kdl);
+  bindModelKdl(module);
 }
 
 void bindSimModel(py::module_& module) {

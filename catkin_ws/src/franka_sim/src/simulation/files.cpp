@@ -33,8 +33,12 @@ std::string readFile(const std::string& name) {
 }
 
 std::string packageFile(const std::string& package, const std::string& file) {
-  const std::filesystem::path places[] = {libraryFolder() / "../share" / package,
-                                          std::filesystem::path(FRANKA_SIM_SOURCES) / package};
+  const std::filesystem::path places[] = {
+      libraryFolder() / "../share" / package,
+#ifdef FRANKA_SIM_SOURCES
+      std::filesystem::path(FRANKA_SIM_SOURCES) / package,
+#endif
+  };
   for (const auto& place : places) {
     std::error_code error;
     const auto found = place / file;
