@@ -95,6 +95,17 @@ def test_second_run_does_nothing_unless_forced(place, monkeypatch, capsys):
     assert not (place.meshes / "collision" / "stray.stl").exists()
 
 
+def test_unconverted_meshes_are_complete_without_mujocos(place, monkeypatch, capsys):
+    monkeypatch.setattr(place.script.mesh_conversion, "convert", None)
+    assert place.run("--unconverted", "--required", monkeypatch=monkeypatch) == 0
+    assert {name.partition("/")[0] for name in place.files() if "/" in name} == {"visual", "collision"}
+    assert place.run("--unconverted", monkeypatch=monkeypatch) == 0
+    assert "in place" in capsys.readouterr().out
+    monkeypatch.setattr(place.script.mesh_conversion, "convert", quick_conversion)
+    assert place.run(monkeypatch=monkeypatch) == 0
+    assert "mujoco/visual/link0/index.yaml" in place.files()
+
+
 def test_a_missing_file_is_restored(place, monkeypatch):
     place.run(monkeypatch=monkeypatch)
     before = place.files()
