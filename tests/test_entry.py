@@ -71,7 +71,7 @@ def test_another_system_is_refused(tmp_path, system):
 def test_help_names_every_command():
     result = franka("--help")
     assert result.returncode == 0
-    for command in ("install", "build", "demo", "test", "bench", "shell", "completion"):
+    for command in ("install", "build", "demo", "test", "wheel", "bench", "shell", "completion"):
         assert f"\n  {command} " in result.stdout
 
 
@@ -82,13 +82,15 @@ def test_unknown_command_is_refused_with_help():
     assert "usage:" in result.stderr
 
 
-@pytest.mark.parametrize("command", ["install", "build", "demo", "test", "bench", "shell", "completion"])
+@pytest.mark.parametrize(
+    "command", ["install", "build", "demo", "test", "wheel", "bench", "shell", "completion"]
+)
 def test_each_command_explains_itself_without_doing_anything(command):
     result = franka(command, "--help")
     assert result.returncode == 0
     assert result.stdout.startswith(f"  {command} ")
     assert "== " not in result.stdout  # a build would print this
-    others = {"install", "build", "demo", "test", "bench", "shell"} - {command}
+    others = {"install", "build", "demo", "test", "wheel", "bench", "shell"} - {command}
     assert not [other for other in others if f"\n  {other} " in result.stdout]
 
 
@@ -103,6 +105,7 @@ def test_each_command_explains_itself_without_doing_anything(command):
         ["test", "franka_hv"],
         ["test", "--long", "--quick"],
         ["bench", "fci", "jitter"],
+        ["wheel", "dist"],
     ],
 )
 def test_unknown_arguments_are_refused_before_a_build(arguments):
@@ -217,7 +220,10 @@ def test_a_shell_has_roscd_and_completion(tmp_path):
 @pytest.mark.parametrize(
     ("line", "expected"),
     [
-        ("./franka ", {"install", "build", "demo", "test", "bench", "shell", "completion", "--help"}),
+        (
+            "./franka ",
+            {"install", "build", "demo", "test", "wheel", "bench", "shell", "completion", "--help"},
+        ),
         ("./franka be", {"bench"}),
         ("./franka bench ti", {"tick"}),
         ("./franka test --long franka_gaz", {"franka_gazebo"}),

@@ -1,0 +1,32 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The commands of the wheel: they become the programs that it brings along.
+
+Not a part of the package pyfranka, whose import takes longer than the programs need to start.
+"""
+
+import importlib.util
+import os
+import sys
+from pathlib import Path
+
+
+def path(name: str) -> Path:
+    """The file of a program, such as franka_sim."""
+    package = importlib.util.find_spec("pyfranka")
+    assert package is not None and package.origin is not None
+    return Path(package.origin).parent / "bin" / name
+
+
+def _become(name: str) -> None:
+    os.execv(path(name), [name, *sys.argv[1:]])
+
+
+def franka_sim() -> None:
+    """A simulated robot on the network."""
+    _become("franka_sim")
+
+
+def franka_info() -> None:
+    """A robot's type, the quality of the connection, and its readiness."""
+    _become("franka_info")

@@ -1,0 +1,389 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The wheel of pyfranka, in an environment of its own without ROS and without Debian's packages."""
+
+import configparser
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import textwrap
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from email.parser import Parser
+from pathlib import Path
+
+import pytest
+from bare_debian import BareDebian, bare_debian, possible
+from fci_session import simulated
+from genuine_clients import PACKAGES, client_python
+
+TOP = Path(__file__).resolve().parent.parent
+SUPPORT = TOP / "tests" / "support"
+PICK_AND_PLACE = SUPPORT / "wheel_pick_and_place.py"
+GENUINE_CLIENT = SUPPORT / "wheel_genuine_client.py"
+PACKAGE = TOP / "python" / "src" / "pyfranka"
+# What the wheel takes from the machine: libraries of every Debian that has Python.
+OF_THE_SYSTEM = {
+    "ld-linux-x86-64.so.2",
+    *(
+        f"lib{name}.so.{number}"
+        for name, number in (("c", 6), ("m", 6), ("dl", 2), ("pthread", 0), ("rt", 1))
+    ),
+    *("libstdc++.so.6", "libgcc_s.so.1", "libz.so.1"),
+}
+# Entry points of modules: pyproject.toml must declare them as soon as the sources have the module.
+OF_MODULES = {
+    "pytest_plugin": ("pytest11", "pyfranka", "pyfranka.pytest_plugin"),
+    "sweeps": ("console_scripts", "pyfranka-sweep", "pyfranka.sweeps:main"),
+    "gym": ("gymnasium.envs", "__root__", "pyfranka.gym:register_environments"),
+    "meshes": ("console_scripts", "pyfranka-meshes", "pyfranka.meshes:main"),
+}
+
+
+@pytest.fixture(scope="session")
+def wheel() -> Path:
+    result = subprocess.run([TOP / "franka", "wheel"], text=True, capture_output=True, timeout=3000)
+    assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
+    return Path(re.search(r"The wheel: (\S+)", result.stdout).group(1))
+
+
+@pytest.fixture(scope="session")
+def quick_start() -> str:
+    """The first program of the page."""
+    page = (TOP / "docs" / "python.md").read_text(encoding="utf-8")
+    return re.search(r"```python\n(.*?)```", page, re.DOTALL).group(1)
+
+
+def check_quick_start(output: str):
+    outcome, error, time = output.split()
+    assert outcome == "GripperOutcome.Succeeded"
+    assert abs(float(error)) < 0.005 and float(time) > 4
+
+
+@pytest.fixture(scope="session")
+def archive(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        yield archive
+
+
+class Environment:
+    """A virtual environment with the wheel and what it requires, and nothing of this machine's packages."""
+
+    def __init__(self, folder: Path, wheel: Path):
+        self.folder, self.bin = folder, folder / "venv" / "bin"
+        subprocess.run(["/usr/bin/python3", "-m", "venv", folder / "venv"], check=True, timeout=300)
+        pip = [self.bin / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+        result = subprocess.run([*pip, wheel], text=True, capture_output=True, timeout=600)
+        assert result.returncode == 0, result.stderr
+
+    def run(self, program: str, *arguments: str, variables=None) -> subprocess.CompletedProcess:
+        """Runs a program of it, without this process's variables."""
+        return subprocess.run(
+            [self.bin / program, *arguments],
+            env={"PATH": "/usr/bin:/bin", "HOME": str(self.folder), "LANG": "C.UTF-8", **(variables or {})},
+            cwd=self.folder,
+            text=True,
+            capture_output=True,
+            timeout=300,
+        )
+
+    def python(self, code: str) -> str:
+        """The output of a program, which must end well."""
+        result = self.run("python", "-c", textwrap.dedent(code))
+        assert result.returncode == 0, result.stderr
+        return result.stdout
+
+
+@pytest.fixture(scope="session")
+def environment(wheel, tmp_path_factory) -> Environment:
+    return Environment(tmp_path_factory.mktemp("wheel"), wheel)
+
+
+def metadata(archive: zipfile.ZipFile, file: str) -> str:
+    (name,) = [name for name in archive.namelist() if name.endswith(f".dist-info/{file}")]
+    return archive.read(name).decode()
+
+
+def test_the_wheel_is_named_after_the_release_and_this_python(wheel):
+    version = ElementTree.parse(TOP / "python" / "package.xml").getroot().findtext("version")
+    python = subprocess.check_output(
+        ["/usr/bin/python3", "-c", "import sys; print('cp%d%d' % sys.version_info[:2])"], text=True
+    ).strip()
+    assert re.fullmatch(rf"pyfranka-{version}-{python}-{python}-manylinux_\w+\.whl", wheel.name)
+
+
+def test_the_metadata_name_what_users_need(archive):
+    told = Parser().parsestr(metadata(archive, "METADATA"))
+    assert told.get_all("Provides-Extra") == ["gym", "cluster"]
+    assert told.get_all("Requires-Dist")[0] == "numpy"
+    for extra, names in (("gym", {"gymnasium"}), ("cluster", {"dask", "distributed", "pyarrow"})):
+        required = [
+            line for line in told.get_all("Requires-Dist") if f"extra == '{extra}'" in line.replace('"', "'")
+        ]
+        assert {re.match(r"\w+", line).group() for line in required} >= names
+
+
+def test_entry_points_lead_to_modules_of_the_wheel(archive):
+    points = configparser.ConfigParser(delimiters="=")
+    points.optionxform = str
+    points.read_string(metadata(archive, "entry_points.txt"))
+    names = set(archive.namelist())
+    declared = {(group, *point) for group in points.sections() for point in points[group].items()}
+    modules = {module for module in OF_MODULES if list(PACKAGE.glob(f"{module}*"))}
+    assert declared == {
+        ("console_scripts", "franka_sim", "pyfranka_programs:franka_sim"),
+        ("console_scripts", "franka_info", "pyfranka_programs:franka_info"),
+        *(OF_MODULES[module] for module in modules),
+    }
+    for _, _, value in declared:
+        module = value.partition(":")[0].replace(".", "/")
+        assert {f"{module}.py", f"{module}/__init__.py"} & names, value
+
+
+def test_every_file_of_the_package_is_in_the_wheel(archive):
+    ours = subprocess.check_output(["git", "ls-files", PACKAGE], cwd=PACKAGE.parent, text=True).split()
+    assert {"pyfranka/__init__.py", "pyfranka/py.typed"} <= set(ours)
+    assert set(ours) <= set(archive.namelist())
+
+
+def test_nothing_but_the_libraries_of_every_debian_is_missing(archive, tmp_path):
+    archive.extractall(tmp_path)
+    files = [path for path in tmp_path.rglob("*") if path.is_file()]
+    programs = [path for path in files if path.read_bytes()[:4] == b"\x7fELF"]
+    there = {path.name for path in programs} | OF_THE_SYSTEM
+    assert {"franka_sim", "franka_info", "libfranka_sim_physics.so"} <= there
+    missing = {}
+    for path in programs:
+        said = subprocess.check_output(["readelf", "--dynamic", "--wide", path], text=True)
+        if lost := set(re.findall(r"\(NEEDED\).*\[(.*)\]", said)) - there:
+            missing[path.name] = lost
+    assert not missing
+    # Nor does it look for anything in this machine's clone.
+    assert [path.name for path in files if os.fsencode(TOP) in path.read_bytes()] == []
+
+
+def test_licences_of_bundled_libraries_come_along(archive):
+    folders = {Path(name).parent.name for name in archive.namelist() if ".dist-info/licenses/" in name}
+    bundled = [Path(name).name for name in archive.namelist() if name.startswith("pyfranka.libs/")]
+    assert bundled and any(name.startswith("libmujoco") for name in bundled)
+    assert any(folder.startswith("libmujoco") for folder in folders)
+
+
+def test_the_quick_start_of_the_page_runs(environment, quick_start):
+    check_quick_start(environment.python(quick_start))
+
+
+@pytest.fixture(scope="session")
+def carried() -> dict:
+    """What pick and place gives in the workspace."""
+    return json.loads(subprocess.check_output([sys.executable, PICK_AND_PLACE], text=True, timeout=300))
+
+
+def check_pick_and_place(seen: dict):
+    assert seen["grasped"] and seen["held"] and seen["away"] < 0.01
+
+
+def test_pick_and_place_has_the_bits_of_the_workspace(environment, carried):
+    result = environment.run("python", PICK_AND_PLACE)
+    assert result.returncode == 0, result.stderr
+    seen = json.loads(result.stdout)
+    check_pick_and_place(seen)
+    assert seen["hash"] == carried["hash"]
+
+
+def test_libraries_of_a_sourced_workspace_are_not_taken(environment):
+    code = "import pyfranka; print(open('/proc/self/maps').read())"
+    variables = {"LD_LIBRARY_PATH": f"{TOP}/catkin_ws/devel/lib:/usr/lib/x86_64-linux-gnu"}
+    result = environment.run("python", "-c", code, variables=variables)
+    loaded = {
+        line.split()[-1] for line in result.stdout.splitlines() if "libfranka" in line or "libmujoco" in line
+    }
+    assert any("libmujoco" in path for path in loaded) and any("libfranka_core" in path for path in loaded)
+    assert [path for path in loaded if not Path(path).is_relative_to(environment.folder)] == []
+
+
+def test_its_robot_serves_its_client(environment):
+    code = """
+        import subprocess, sys, pyfranka
+        address = sys.argv[1]
+        program = [sys.prefix + "/bin/franka_sim", "--robot", "panda", "--ip", address, "--pace", "lockstep"]
+        with subprocess.Popen(program, stdout=subprocess.PIPE, text=True) as served:
+            print(served.stdout.readline().strip())
+            robot = pyfranka.Robot(address, pyfranka.RealtimeConfig.Ignore)
+            ticks = []
+            def hold(state, period):
+                ticks.append(period)
+                torques = pyfranka.Torques([0.0] * 7)
+                torques.motion_finished = len(ticks) == 500
+                return torques
+            robot.control_torques(hold)
+            print(len(ticks), robot.read_once().robot_mode, robot.load_model().mass(robot.read_once()).shape)
+            served.terminate()
+        print(served.returncode)
+    """
+    result = environment.run("python", "-c", textwrap.dedent(code), "127.0.61.1")
+    assert result.returncode == 0, result.stderr
+    lines = result.stdout.splitlines()
+    assert "waits for clients at 127.0.61.1" in lines[0]
+    assert lines[1:] == ["500 RobotMode.Idle (7, 7)", "0"]
+
+
+def test_it_is_a_client_of_the_workspaces_robot(environment):
+    with simulated("fr3", "lockstep", address="127.0.61.2"):
+        result = environment.run("franka_info", "127.0.61.2")
+        # Whether the robot counts as ready depends on this machine's load.
+        assert "FR3, control interface version 10" in result.stdout, result.stdout + result.stderr
+
+
+@pytest.mark.parametrize("program", ["franka_sim", "franka_info", "pyfranka-meshes"])
+def test_its_programs_answer_help(environment, program):
+    result = environment.run(program, "--help")
+    assert result.returncode == 0 and "usage" in result.stdout.lower()
+
+
+def test_what_needs_ros_says_so(environment):
+    code = 'pyfranka.ModelKDL("<robot/>", "link0", "link8")'
+    result = environment.run("python", "-c", f"import pyfranka; {code}")
+    assert "RuntimeError: ModelKDL needs ROS" in result.stderr and "Robot.load_model" in result.stderr
+
+
+def test_meshes_are_refused_before_they_are_installed(environment):
+    code = "import pyfranka.meshes as m; m.urdf('{}')"
+    result = environment.run("python", "-c", code.format("panda"))
+    assert (
+        "FileNotFoundError: The mesh meshes/visual/link0.dae is not installed; run pyfranka-meshes"
+        in result.stderr
+    )
+    result = environment.run("python", "-c", code.format("r2d2"))
+    assert "ValueError: There is no robot 'r2d2' with meshes; there are panda, fr3." in result.stderr
+
+
+TYPED = """
+import numpy
+from _pyfranka import Robot
+from _pyfranka._sim import ArmModel
+from pyfranka import sim
+
+def mass(model: ArmModel, robot: sim.Robot) -> numpy.ndarray:
+    return model.mass(robot.state)
+
+reveal_type(Robot("").read_once().robot_mode)
+reveal_type(sim.Panda().base)
+sim.Panda(bass=(0, 0, 0))
+"""
+
+
+def test_types_are_found_by_a_type_checker(environment, archive):
+    assert {"pyfranka/__init__.pyi", "_pyfranka-stubs/__init__.pyi", "_pyfranka-stubs/_sim.pyi"} <= set(
+        archive.namelist()
+    )
+    script = environment.folder / "typed.py"
+    script.write_text(TYPED)
+    options = ["--python-executable", environment.bin / "python", "--cache-dir", os.devnull]
+    checked = subprocess.run(
+        [sys.executable, "-m", "mypy", *options, script], text=True, capture_output=True, timeout=300
+    )
+    errors = [line for line in checked.stdout.splitlines() if "error:" in line]
+    assert len(errors) == 1 and 'Unexpected keyword argument "bass"' in errors[0], (
+        checked.stdout + checked.stderr
+    )
+    assert 'Revealed type is "_pyfranka.RobotMode"' in checked.stdout
+
+
+# ---- long form -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="session")
+def bare(long_run, wheel, tmp_path_factory):
+    """A bare Debian of this machine's release with Python's venv, in it an environment with the wheel."""
+    if not long_run:
+        pytest.skip("a long form: makes a bare Debian")
+    if reason := possible():
+        pytest.skip(reason)
+    with bare_debian(tmp_path_factory.mktemp("bare"), "python3-venv") as bare:
+        install_on(bare, wheel)
+        yield bare
+
+
+def install_on(bare: BareDebian, wheel: Path):
+    shutil.copy(wheel, bare.root / "root")
+    for script in (PICK_AND_PLACE, GENUINE_CLIENT):
+        shutil.copy(script, bare.root / "root")
+    bare.must("python3", "-m", "venv", "/env")
+    bare.must("/env/bin/pip", "install", "--quiet", f"/root/{wheel.name}")
+
+
+def check_simulation_on(bare: BareDebian, quick_start: str):
+    check_quick_start(bare.must("/env/bin/python", "-c", quick_start))
+    seen = json.loads(bare.must("/env/bin/python", f"/root/{PICK_AND_PLACE.name}"))
+    check_pick_and_place(seen)
+    # Pictures need drivers, which are not here.
+    assert seen["picture"].startswith("No pictures can be drawn (EGL: libEGL.so.1 cannot be loaded")
+    assert "install the packages libegl1 and libgl1-mesa-dri, or libosmesa6" in seen["picture"]
+    window = bare.run("/env/bin/franka_sim", "--viewer", "--ip", "127.0.61.3")
+    assert window.returncode == 1 and "install the package libglfw3" in window.stderr, window
+    return seen["hash"]
+
+
+def check_meshes_on(bare: BareDebian):
+    assert "the meshes are in place" not in bare.must("/env/bin/pyfranka-meshes")
+    assert "the meshes are in place" in bare.must("/env/bin/pyfranka-meshes")
+    code = """
+        import pyfranka.meshes
+        from pyfranka.sim import FR3, Panda, Simulation
+        for robot in ("panda", "fr3"):
+            with open(f"/tmp/{robot}.urdf", "w") as file:
+                file.write(pyfranka.meshes.urdf(robot))
+        with_meshes = [Panda(urdf="/tmp/panda.urdf"), FR3(base=(0, 1, 0), urdf="/tmp/fr3.urdf")]
+        for robots in (with_meshes, [Panda(), FR3(base=(0, 1, 0))]):
+            with Simulation(robots=robots) as sim:
+                sim.step(100)
+                print(sim["panda"].hash(), sim["fr3"].hash())
+    """
+    with_meshes, without = bare.must("/env/bin/python", "-c", textwrap.dedent(code)).splitlines()
+    assert with_meshes == without, "meshes change no motion"
+
+
+def check_genuine_client_on(bare: BareDebian):
+    bare.must("python3", "-m", "venv", "/genuine")
+    bare.must("/genuine/bin/pip", "install", "--quiet", "--only-binary=:all:", *PACKAGES["panda"])
+    arguments = ["/genuine/bin/python", f"/root/{GENUINE_CLIENT.name}", "/env/bin/franka_sim", "127.0.61.4"]
+    assert json.loads(bare.must(*arguments)) == {"cycles": 1000, "mode": "RobotMode.kIdle"}
+
+
+def test_simulations_run_on_a_bare_debian(bare, quick_start, carried):
+    assert check_simulation_on(bare, quick_start) == carried["hash"]
+
+
+def test_meshes_are_installed_on_a_bare_debian(bare):
+    check_meshes_on(bare)
+
+
+def test_genuine_panda_python_drives_its_robot_on_a_bare_debian(bare):
+    client_python("panda")  # skips if PyPI has none for this Python
+    check_genuine_client_on(bare)
+
+
+def test_meshes_are_in_the_pictures(long_run, environment):
+    if not long_run:
+        pytest.skip("a long form: downloads the meshes")
+    assert environment.run("pyfranka-meshes").returncode == 0
+    code = """
+        import pyfranka.meshes
+        from pyfranka.sim import Panda, Simulation
+
+        def picture(**options):
+            with Simulation(robots=[Panda(**options)]) as sim:
+                return sim.render(width=160, height=120).rgb.astype(float)
+
+        with open("panda.urdf", "w") as file:
+            file.write(pyfranka.meshes.urdf("panda"))
+        simple, meshes = picture(), picture(urdf="panda.urdf")
+        print(abs(simple - meshes).mean(), (abs(simple - meshes).max(axis=2) > 20).mean())
+    """
+    mean, changed = map(float, environment.python(code).split())
+    # The same arm at the same place, with another surface.
+    assert mean > 0.5 and 0.005 < changed < 0.2
