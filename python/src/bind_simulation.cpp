@@ -95,9 +95,26 @@ MoveRequest motionOf(MotionGeneratorMode generator, const std::string& controlle
   return motion;
 }
 
-void commandTorques(Robot& self, const py::object& values) {
+franka_sim::TargetMotion motionOf(bool linear) {
+  return linear ? franka_sim::TargetMotion::kLinear : franka_sim::TargetMotion::kSmooth;
+}
+
+std::array<double, 7> dampingOf(const py::object& values) {
+  const auto damping = finite<7>(values, "damping");
+  if (*std::min_element(damping.begin(), damping.end()) < 0.0) {
+    throw std::invalid_argument("damping must not be negative.");
+  }
+  return damping;
+}
+
+void commandTorques(Robot& self, const py::object& values, bool limit_rate,
+                    const py::object& damping) {
   const auto tau = finite<7>(values, "torque");
-  self.use([&](SimulatedRobot& robot) { robot.commandTorques(tau); });
+  franka_sim::TorqueShaping shaping{limit_rate, {}};
+  if (!damping.is_none()) {
+    shaping.damping = dampingOf(damping);
+  }
+  self.use([&](SimulatedRobot& robot) { robot.commandTorques(tau, shaping); });
 }
 
 void commandJoints(Robot& self, const py::object& values, const std::string& controller,
@@ -130,7 +147,9 @@ std::array<double, 16> frameOf(const py::object& values, const char* name) {
 }
 
 void bindCommands(py::class_<Robot>& robot) {
-  robot.def("command_torques", &commandTorques, py::arg("torques"), "7 [Nm], without gravity.")
+  robot
+      .def("command_torques", &commandTorques, py::arg("torques"), py::arg("limit_rate"),
+           py::arg("damping"), "7 [Nm], without gravity.")
       .def(
           "command_joint_positions",
           [](Robot& self, const py::object& values, const std::string& controller) {
@@ -166,7 +185,8 @@ void bindCommands(py::class_<Robot>& robot) {
           "6 [m/s, rad/s].")
       .def(
           "joint_impedance",
-          [](Robot& self, const py::object& target, double duration, const py::object& stiffness) {
+          [](Robot& self, const py::object& target, double duration, const py::object& stiffness,
+             bool linear) {
             const auto q = finite<7>(target, "target");
             const double seconds = durationOf(duration);
             const auto K = stiffness.is_none() ? std::optional<std::array<double, 7>>()
@@ -179,18 +199,21 @@ void bindCommands(py::class_<Robot>& robot) {
               if (K) {
                 law.setStiffness(*K);
               }
-              law.setTarget(q, seconds);
+              law.setTarget(q, seconds, motionOf(linear));
             });
           },
-          py::arg("target"), py::arg("duration"), py::arg("stiffness"), "")
+          py::arg("target"), py::arg("duration"), py::arg("stiffness"), py::arg("linear"), "")
       .def(
           "cartesian_impedance",
           [](Robot& self, const py::object& target, double duration, const py::object& stiffness,
-             const std::optional<double>& nullspace_stiffness) {
+             const std::optional<double>& nullspace_stiffness, bool linear,
+             const py::object& damping) {
             const auto pose = frameOf(target, "target");
             const double seconds = durationOf(duration);
             const auto K = stiffness.is_none() ? std::optional<std::array<double, 6>>()
                                                : std::optional(finite<6>(stiffness, "stiffness"));
+            const auto D = damping.is_none() ? std::optional<std::array<double, 7>>()
+                                             : std::optional(dampingOf(damping));
             const double nullspace = nullspace_stiffness.value_or(0.0);
             if ((K && *std::min_element(K->begin(), K->end()) < 0.0) || !(nullspace >= 0.0)) {
               throw std::invalid_argument("stiffness must not be negative.");
@@ -203,11 +226,14 @@ void bindCommands(py::class_<Robot>& robot) {
               if (nullspace_stiffness) {
                 law.setNullspaceStiffness(nullspace);
               }
-              law.setTarget(pose, seconds);
+              law.setTarget(pose, seconds, motionOf(linear));
+              if (D) {
+                robot.setDamping(*D);
+              }
             });
           },
           py::arg("target"), py::arg("duration"), py::arg("stiffness"),
-          py::arg("nullspace_stiffness"), "")
+          py::arg("nullspace_stiffness"), py::arg("linear"), py::arg("damping"), "")
       .def(
           "finish", [](Robot& self) { self.use([](SimulatedRobot& robot) { robot.finish(); }); },
           "Ends the motion: the arm brakes, and is then idle.")

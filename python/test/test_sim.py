@@ -118,6 +118,64 @@ def test_laws_in_cpp_run_below_a_slow_policy(sim, arm):
     assert arm.state.O_T_EE == pytest.approx(pose, abs=2e-3)
 
 
+def test_targets_that_follow_each_other_move_at_constant_speed(sim, arm):
+    def spread(linear):
+        sim.reset()
+        target, speeds = arm.state.q.copy(), []
+        for _ in range(20):
+            target[0] += 0.02
+            arm.joint_impedance(target, duration=0.05, linear=linear)
+            for _ in range(50):
+                sim.step()
+                speeds.append(arm.state.dq[0])
+        return np.mean(speeds[500:]), np.std(speeds[500:])
+
+    mean, deviation = spread(linear=True)
+    assert mean == pytest.approx(0.4, rel=0.02) and deviation < 0.01
+    assert spread(linear=False)[1] > 0.05, "from rest to rest"
+
+
+def test_torques_in_steps_pass_with_their_rate_limited(sim, arm):
+    step = np.array([0, 0, 0, 10.0, 0, 0, 0])
+    arm.command(torque=step)
+    sim.step(5)
+    assert "controller_torque_discontinuity" in str(arm.state.last_motion_errors)
+    sim.reset()
+    arm.command(torque=step, limit_rate=True)
+    sim.step(5)
+    assert arm.moving and 3.0 < arm.state.tau_J_d[3] < 5.0, "1 Nm per tick"
+    sim.step(10)
+    assert arm.moving and arm.state.tau_J_d == pytest.approx(step)
+    sim.reset()
+    arm.command(torque=step, limit_rate=True)
+    arm.command(torque=step)
+    sim.step(5)
+    assert not arm.moving, "each command says for itself whether its rate is limited"
+
+
+def test_torques_can_be_damped(sim, arm):
+    swing = np.array([2.0, 0, 0, 0, 0, 0, 0])
+    arm.command(torque=swing, limit_rate=True, damping=[10.0] * 7)
+    sim.step(1000)
+    assert arm.state.dq[0] == pytest.approx(0.2, rel=0.05), "torque over damping"
+    assert arm.state.tau_J_d == pytest.approx(swing - 10.0 * arm.state.dq, abs=0.02)
+
+
+def test_damping_of_the_joints_ends_a_swing(sim, arm):
+    def overshoot(damping):
+        sim.reset()
+        target, beyond = arm.state.O_T_EE.copy(), 0.0
+        for k in range(40):
+            target[0, 3] += 0.0125 if k < 12 else 0.0
+            arm.cartesian_impedance(target, duration=0.05, linear=True, damping=damping)
+            sim.step(50)
+            beyond = max(beyond, arm.state.O_T_EE[0, 3] - target[0, 3])
+        return beyond
+
+    assert overshoot(None) > 5e-3
+    assert overshoot([5.0] * 4 + [1.0] * 3) < 2e-3
+
+
 def test_what_a_robot_refuses_is_said_and_it_recovers(sim, arm):
     arm.command(joint_positions=arm.state.q_d)
     sim.step(5)
@@ -162,6 +220,8 @@ def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(sim, arm):
         "A command is one of": lambda: arm.command(),
         "given: torque, joint_positions": lambda: arm.command(torque=TORQUES, joint_positions=TORQUES),
         "An elbow goes with": lambda: arm.command(torque=TORQUES, elbow=[0, 1]),
+        "limit_rate and damping go": lambda: arm.command(joint_positions=TORQUES, limit_rate=True),
+        "damping must not be": lambda: arm.command(torque=TORQUES, damping=[-1.0] * 7),
         "controller is joint_impedance or": lambda: arm.command(joint_positions=TORQUES, controller="soft"),
         "stiffness must lie between": lambda: arm.joint_impedance(TORQUES, stiffness=[-1.0] * 7),
         "duration must be": lambda: arm.joint_impedance(TORQUES, duration=-1.0),

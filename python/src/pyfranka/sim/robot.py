@@ -137,6 +137,8 @@ class Robot:
         cartesian_velocities: ArrayLike | None = None,
         elbow: ArrayLike | None = None,
         controller: str = "joint_impedance",
+        limit_rate: bool = False,
+        damping: ArrayLike | None = None,
     ) -> None:
         """Commands the arm: exactly one of torque 7 [Nm] (without gravity), joint_positions 7 [rad],
         joint_velocities 7 [rad/s], cartesian_pose 4x4 (O_T_EE) and cartesian_velocities 6 [m/s, rad/s].
@@ -144,7 +146,9 @@ class Robot:
         The first command starts a motion. Each is sent in every tick until the next one, so positions and
         poses must be commanded tick by tick, as over the FCI; a jump ends the motion. elbow: joint 3 [rad]
         and the sign of joint 4, with Cartesian commands. controller: the robot's own, "joint_impedance" or
-        "cartesian_impedance"; torques go without.
+        "cartesian_impedance"; torques go without. limit_rate: with torques that change in steps; what is
+        sent then follows as fast as the robot allows (1 Nm per tick) instead of ending the motion. damping:
+        with torques, 7 [Nm s/rad] times the joint velocities are subtracted in every tick.
 
         Raises RequestRefused if the robot cannot start the motion, or if one of another kind runs or one
         is ending; ValueError.
@@ -161,8 +165,10 @@ class Robot:
             raise ValueError(f"A command is one of {', '.join(values)}; given: {', '.join(given) or 'none'}.")
         if elbow is not None and not given[0].startswith("cartesian"):
             raise ValueError("An elbow goes with cartesian_pose and cartesian_velocities only.")
+        if (limit_rate or damping is not None) and torque is None:
+            raise ValueError("limit_rate and damping go with torques only.")
         if torque is not None:
-            self._native.command_torques(torque)
+            self._native.command_torques(torque, limit_rate, damping)
         elif joint_positions is not None:
             self._native.command_joint_positions(joint_positions, controller)
         elif joint_velocities is not None:
@@ -173,14 +179,19 @@ class Robot:
             self._native.command_cartesian_velocities(cartesian_velocities, elbow, controller)
 
     def joint_impedance(
-        self, target: ArrayLike, duration: float = 0.0, stiffness: ArrayLike | None = None
+        self,
+        target: ArrayLike,
+        duration: float = 0.0,
+        stiffness: ArrayLike | None = None,
+        linear: bool = False,
     ) -> None:
         """Lets a torque controller in C++ hold the joints by springs and dampers at 1 kHz. target: 7 [rad],
-        reached smoothly within the duration [s]; stiffness: 7 [Nm/rad], which stays until the motion ends.
+        reached within the duration [s], smoothly from rest to rest or, for targets that follow each other
+        (linear), at constant speed; stiffness: 7 [Nm/rad], which stays until the motion ends.
 
         Raises as command().
         """
-        self._native.joint_impedance(target, duration, stiffness)
+        self._native.joint_impedance(target, duration, stiffness, linear)
 
     def cartesian_impedance(
         self,
@@ -188,10 +199,13 @@ class Robot:
         duration: float = 0.0,
         stiffness: ArrayLike | None = None,
         nullspace_stiffness: float | None = None,
+        linear: bool = False,
+        damping: ArrayLike | None = None,
     ) -> None:
         """The same for the end effector. target: O_T_EE, 4x4; stiffness: 6 [N/m, Nm/rad] along and about the
-        axes of K; nullspace_stiffness of the joints [Nm/rad]."""
-        self._native.cartesian_impedance(target, duration, stiffness, nullspace_stiffness)
+        axes of K; nullspace_stiffness of the joints [Nm/rad]; damping of the joints beside that of the
+        springs, 7 [Nm s/rad], for an arm that swings."""
+        self._native.cartesian_impedance(target, duration, stiffness, nullspace_stiffness, linear, damping)
 
     def finish(self) -> None:
         """Ends the motion as a client does: the arm brakes, and is idle after some ticks."""

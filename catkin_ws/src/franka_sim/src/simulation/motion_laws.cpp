@@ -30,8 +30,12 @@ franka_core::ArmDynamics dynamicsOf(const RobotState& state, const ControlUnitPa
 }
 
 // Of a motion of this duration, after this time.
-double shareOf(double time, double duration) {
-  return duration > 0.0 ? franka_core::smoothStep(time / duration) : 1.0;
+double shareOf(double time, double duration, TargetMotion motion) {
+  if (duration <= 0.0) {
+    return 1.0;
+  }
+  return motion == TargetMotion::kLinear ? time / duration
+                                         : franka_core::smoothStep(time / duration);
 }
 
 }  // namespace
@@ -39,17 +43,19 @@ double shareOf(double time, double duration) {
 JointLaw::JointLaw(const RobotState& state) noexcept
     : stiffness_(kJointSpring), from_(state.q_d), to_(state.q_d), desired_(state.q_d) {}
 
-void JointLaw::setTarget(const std::array<double, 7>& q, double duration) noexcept {
+void JointLaw::setTarget(const std::array<double, 7>& q, double duration,
+                         TargetMotion motion) noexcept {
   from_ = desired_;
   to_ = q;
   time_ = 0.0;
   duration_ = duration;
+  motion_ = motion;
 }
 
 std::array<double, 7> JointLaw::torque(const RobotState& state,
                                        const ControlUnitParameters& unit) noexcept {
   time_ = std::min(time_ + kTick, duration_);
-  const double share = shareOf(time_, duration_);
+  const double share = shareOf(time_, duration_, motion_);
   std::array<double, 7> dq_d;
   for (std::size_t i = 0; i < desired_.size(); i++) {
     const double next = from_[i] + share * (to_[i] - from_[i]);
@@ -69,16 +75,18 @@ CartesianLaw::CartesianLaw(const RobotState& state) noexcept
       desired_(state.O_T_EE_d),
       q_(state.q_d) {}
 
-void CartesianLaw::setTarget(const std::array<double, 16>& O_T_EE, double duration) noexcept {
+void CartesianLaw::setTarget(const std::array<double, 16>& O_T_EE, double duration,
+                             TargetMotion motion) noexcept {
   from_ = desired_;
   to_ = O_T_EE;
   time_ = 0.0;
   duration_ = duration;
+  motion_ = motion;
 }
 
 void CartesianLaw::advance() noexcept {
   time_ = std::min(time_ + kTick, duration_);
-  const double share = shareOf(time_, duration_);
+  const double share = shareOf(time_, duration_, motion_);
   const Eigen::Map<const Eigen::Matrix4d> from(from_.data()), to(to_.data());
   Eigen::Map<Eigen::Matrix4d> desired(desired_.data());
   const Eigen::Matrix3d turn = from.topLeftCorner<3, 3>().transpose() * to.topLeftCorner<3, 3>();

@@ -74,12 +74,14 @@ void SimulatedRobot::start(const MoveRequest& motion) {
   }
   refresh();
   motion_ = motion;
+  shaping_ = {};
   finishing_ = false;
 }
 
 void SimulatedRobot::command(const MoveRequest& motion, const RobotCommand& command) {
   start(motion);
   input_ = command;
+  shaping_ = {};
 }
 
 // Before version 10, clients send velocities of zero along with torques.
@@ -91,10 +93,12 @@ MoveRequest SimulatedRobot::torqueMotion() const noexcept {
   return motion;
 }
 
-void SimulatedRobot::commandTorques(const std::array<double, 7>& tau) {
+void SimulatedRobot::commandTorques(const std::array<double, 7>& tau,
+                                    const TorqueShaping& shaping) {
   RobotCommand torques;
   torques.tau_J_d = tau;
   command(torqueMotion(), torques);
+  shaping_ = shaping;
 }
 
 template <typename Law>
@@ -148,7 +152,8 @@ void SimulatedRobot::observe() noexcept {
 }
 
 const RobotCommand* SimulatedRobot::nextCommand() noexcept {
-  if (const auto* command = std::get_if<RobotCommand>(&input_)) {
+  const auto* command = std::get_if<RobotCommand>(&input_);
+  if (command != nullptr) {
     sent_ = *command;
   } else {
     sent_ = {};
@@ -156,6 +161,11 @@ const RobotCommand* SimulatedRobot::nextCommand() noexcept {
     auto* joint_law = std::get_if<JointLaw>(&input_);
     sent_.tau_J_d = joint_law != nullptr ? joint_law->torque(state_, unit)
                                          : std::get<CartesianLaw>(input_).torque(state_, unit);
+  }
+  for (std::size_t i = 0; i < sent_.tau_J_d.size(); i++) {
+    sent_.tau_J_d[i] -= shaping_.damping[i] * state_.dq[i];
+  }
+  if (command == nullptr || shaping_.limit_rate) {
     limitRate(state_.tau_J_d, robot_.unit().limits().arm.dtau, sent_.tau_J_d);
   }
   sent_.message_id = state_.message_id;

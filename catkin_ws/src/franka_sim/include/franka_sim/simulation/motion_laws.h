@@ -14,14 +14,19 @@
 
 namespace franka_sim {
 
-/// A spring and damper at every joint (JointImpedance), whose target moves smoothly (smoothStep).
+/// How a target moves: from rest to rest (smoothStep), or at constant speed, for targets that
+/// follow each other.
+enum class TargetMotion { kSmooth, kLinear };
+
+/// A spring and damper at every joint (JointImpedance), whose target moves.
 class JointLaw {
  public:
   /// Begins at the state's desired position.
   explicit JointLaw(const franka_core::RobotState& state) noexcept;
 
   /// @param q [rad] @param duration of the way to it [s]
-  void setTarget(const std::array<double, 7>& q, double duration) noexcept;
+  void setTarget(const std::array<double, 7>& q, double duration,
+                 TargetMotion motion = TargetMotion::kSmooth) noexcept;
   void setStiffness(const std::array<double, 7>& K) noexcept { stiffness_ = K; }  ///< [Nm/rad]
   /// The torque of one tick, without gravity [Nm].
   std::array<double, 7> torque(const franka_core::RobotState& state,
@@ -32,17 +37,18 @@ class JointLaw {
   std::array<double, 7> from_, to_;
   std::array<double, 7> desired_;
   double time_{0.0}, duration_{0.0};
+  TargetMotion motion_{TargetMotion::kSmooth};
 };
 
-/// A spring and damper at the stiffness frame (cartesianImpedance), whose target moves smoothly
-/// (smoothStep).
+/// A spring and damper at the stiffness frame (cartesianImpedance), whose target moves.
 class CartesianLaw {
  public:
   /// Begins at the state's desired pose.
   explicit CartesianLaw(const franka_core::RobotState& state) noexcept;
 
   /// @param O_T_EE 4x4 column-major @param duration of the way to it [s]
-  void setTarget(const std::array<double, 16>& O_T_EE, double duration) noexcept;
+  void setTarget(const std::array<double, 16>& O_T_EE, double duration,
+                 TargetMotion motion = TargetMotion::kSmooth) noexcept;
   void setStiffness(const std::array<double, 6>& K) noexcept { stiffness_ = K; }  ///< [N/m, Nm/rad]
   void setNullspaceStiffness(double K) noexcept { nullspace_stiffness_ = K; }     ///< [Nm/rad]
   /// The torque of one tick, without gravity [Nm].
@@ -57,6 +63,7 @@ class CartesianLaw {
   std::array<double, 16> from_, to_, desired_;
   std::array<double, 7> q_;  ///< of the null space [rad]
   double time_{0.0}, duration_{0.0};
+  TargetMotion motion_{TargetMotion::kSmooth};
 };
 
 }  // namespace franka_sim

@@ -20,6 +20,12 @@ class RequestRefused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What is done at 1 kHz to torques that a slow program commands in steps, or to those of a law.
+struct TorqueShaping {
+  bool limit_rate{false};           ///< they change no faster than the robot allows; laws always
+  std::array<double, 7> damping{};  ///< times the joint velocity is subtracted [Nm s/rad]
+};
+
 /// A robot of a Simulation, commanded from the same process. Its rules are those of the FCI. A
 /// command or a law starts a motion and is sent in every tick until the next one. Called by one
 /// thread.
@@ -41,11 +47,13 @@ class SimulatedRobot {
   void command(const franka_core::fci::MoveRequest& motion,
                const franka_core::RobotCommand& command);
   /// The same for torques, with the request that clients of this robot send.
-  void commandTorques(const std::array<double, 7>& tau);
+  void commandTorques(const std::array<double, 7>& tau, const TorqueShaping& shaping = {});
   /// The law that drives the arm; a torque motion is started if none runs. A law replaces torques
   /// and the other law, and then begins anew. @throws as command
   JointLaw& jointLaw();
   CartesianLaw& cartesianLaw();
+  /// Damps the joints beside the law that runs, until its motion ends or torques are commanded.
+  void setDamping(const std::array<double, 7>& damping) noexcept { shaping_.damping = damping; }
   /// Ends the motion as a client does at the end of its work; the robot brakes. Nothing without
   /// one.
   void finish() noexcept;
@@ -86,6 +94,7 @@ class SimulatedRobot {
   franka_core::fci::MoveRequest motion_;  ///< the running one
   std::variant<std::monostate, franka_core::RobotCommand, JointLaw, CartesianLaw> input_;
   franka_core::RobotCommand sent_;
+  TorqueShaping shaping_;  ///< of the running motion
   bool finishing_{false};
   bool recovering_{false};
   bool served_{false};
