@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Worlds with robots in this process; pyfranka/sim gives them their Python interface.
 #include <franka_sim/robot/parameter_checks.h>
+#include <franka_sim/simulation/files.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -559,6 +560,8 @@ void bindSimulation(py::module_& module) {
       .def("close", &Shared::close);
   bindWorld(simulation);
   bindBatch(module);
+  module.def("world_file", &franka_sim::worldFile, py::arg("name"),
+             "The file of a world by its name, as Simulation takes it.");
 }
 
 }  // namespace pyfranka

@@ -1,0 +1,173 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The tasks: their worlds, their random beginnings, and what counts as success.
+
+A goal is a vector: a position x, y, z in the world [m], and flags that are 0 or 1. A task has succeeded when
+the position is nearer than its tolerance and all flags are as desired.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import ClassVar
+
+import numpy
+
+from pyfranka.sim import Simulation
+
+__all__ = ["TASKS", "HandOver", "PickAndPlace", "Push", "Reach", "Task"]
+
+Vector = numpy.ndarray
+FLAG_COST = 0.1  # in the dense reward, of a flag that is not as desired [m] (chosen here)
+# Of worlds/stone.xml, push.xml and hand_over.xml [m].
+TABLE = 0.419823
+TRAY, TRAY_TOP = (0.004103, 0.219654), 0.443112
+STONE_AT, STONE_HALF = (0.000286, -0.221972), (0.0125, 0.016, 0.032)
+CUBE_HALF = 0.025
+LYING_AT = (-0.3, 0.0, 0.4725)
+
+
+def turned(axis: Sequence[float], angle: float) -> Vector:
+    """The quaternion w, x, y, z of a turn about a unit axis [rad]."""
+    return numpy.array([numpy.cos(angle / 2), *(numpy.sin(angle / 2) * numpy.asarray(axis))])
+
+
+class Task:
+    """What a task is; it has no state. Positions are in the world."""
+
+    name: ClassVar[str]
+    world: ClassVar[str] = ""
+    body: ClassVar[str] = ""  # the object, if there is one
+    bases: ClassVar[tuple[tuple[float, ...], ...]] = ((0.0, 0.0, 0.0, 0.0),)  # a robot each: x, y, z, yaw
+    uses_hand: ClassVar[bool] = False
+    workspace: ClassVar[tuple[tuple[float, ...], tuple[float, ...]]]  # lowest, highest x, y, z of targets [m]
+    flags: ClassVar[tuple[float, ...]] = ()  # the desired ones
+    tolerance: ClassVar[float] = 0.02  # [m]
+    steps: ClassVar[int]  # of an episode at 20 Hz
+
+    def draw_goal(self, random: numpy.random.Generator, body: Vector) -> Vector:
+        """A goal position, for an object at this position."""
+        raise NotImplementedError
+
+    def draw_body(self, random: numpy.random.Generator) -> Vector:
+        """A pose of the object: x, y, z and w, x, y, z. Only for tasks with one."""
+        raise NotImplementedError
+
+    def achieved(self, sim: Simulation, place: Vector, tools: Sequence[Vector]) -> Vector:
+        """The goal that is reached now. place: of the object; tools: of the end effectors, x, y, z each."""
+        return place
+
+    def reach(self, place: Vector, tools: Sequence[Vector]) -> float:
+        """Mean distance of the end effectors from the object [m]."""
+        away = [place - tool for tool in tools]
+        return sum(math.sqrt(way @ way) for way in away) / len(away)
+
+    @classmethod
+    def success(cls, achieved: Vector, desired: Vector) -> Vector:
+        """Whether goals are reached; both ... x size."""
+        near = numpy.linalg.norm((achieved - desired)[..., :3], axis=-1) < cls.tolerance
+        return near & (numpy.abs((achieved - desired)[..., 3:]) < 0.5).all(axis=-1)
+
+    @classmethod
+    def dense(cls, achieved: Vector, desired: Vector, reach: Vector | float) -> Vector:
+        """The dense reward: minus all that is missing [m]."""
+        missing = numpy.linalg.norm((achieved - desired)[..., :3], axis=-1)
+        return -(missing + FLAG_COST * numpy.abs((achieved - desired)[..., 3:]).sum(axis=-1) + reach)
+
+
+class Reach(Task):
+    """The end effector goes to a point in the air."""
+
+    name, steps = "Reach", 50
+    workspace = ((0.2, -0.5, 0.05), (0.75, 0.5, 0.8))
+
+    def draw_goal(self, random, body):
+        return random.uniform((0.3, -0.3, 0.15), (0.6, 0.3, 0.6))
+
+    def achieved(self, sim, place, tools):
+        return tools[0].copy()
+
+    def reach(self, place, tools):
+        return 0.0
+
+
+class Push(Task):
+    """The closed hand pushes a cube over a table to a point on it."""
+
+    name, steps = "Push", 200
+    world, body, bases = "push.xml", "cube", ((-0.5, 0.0, 0.0, 0.0),)
+    workspace = ((-0.25, -0.3, TABLE + 0.012), (0.25, 0.3, 0.7))
+
+    def draw_body(self, random):
+        x, y = random.uniform((-0.05, -0.15), (0.07, 0.15))
+        return numpy.array([x, y, TABLE + CUBE_HALF, *turned((0, 0, 1), random.uniform(-0.3, 0.3))])
+
+    def draw_goal(self, random, body):
+        while True:  # one try in five is too near
+            x, y = random.uniform((-0.05, -0.2), (0.15, 0.2))
+            if numpy.hypot(x - body[0], y - body[1]) > 0.1:
+                return numpy.array([x, y, TABLE + CUBE_HALF])
+
+
+class PickAndPlace(Task):
+    """The stone goes from the blue tray to the red one, where it rests, let go.
+
+    Flag: whether the stone rests: something touches it, and no robot.
+    """
+
+    name, steps = "PickAndPlace", 300
+    world, body, bases = "stone.xml", "stone", ((-0.5, 0.0, 0.0, 0.0),)
+    uses_hand, flags, tolerance = True, (1.0,), 0.05
+    workspace = ((-0.25, -0.35, 0.44), (0.25, 0.35, 0.8))
+
+    def draw_body(self, random):
+        x, y = random.uniform((-0.05, -0.03), (0.05, 0.03)) + STONE_AT
+        return numpy.array([x, y, TRAY_TOP + STONE_HALF[2], *turned((0, 0, 1), random.uniform(-0.4, 0.4))])
+
+    def draw_goal(self, random, body):
+        x, y = random.uniform((-0.03, -0.01), (0.03, 0.01)) + TRAY
+        return numpy.array([x, y, TRAY_TOP + STONE_HALF[2]])
+
+    def achieved(self, sim, place, tools):
+        held, lies = touched_by(sim, self.body)
+        return numpy.array([*place, float(lies and not any(held))])
+
+
+class HandOver(Task):
+    """The first robot takes the stone, which the second one cannot reach, and hands it over to the second
+    one, which holds it at a point in the air.
+
+    Flags: whether the first robot touches the stone; the second; anything else.
+    """
+
+    name, steps = "HandOver", 400
+    world, body = "hand_over.xml", "stone"
+    bases = ((-0.75, 0.0, 0.0, 0.0), (0.75, 0.0, 0.0, numpy.pi))
+    uses_hand, flags, tolerance = True, (0.0, 1.0, 0.0), 0.05
+    workspace = ((-0.4, -0.3, 0.44), (0.4, 0.3, 0.9))
+
+    def draw_body(self, random):
+        x, y = random.uniform((-0.008, -0.004), (0.008, 0.004))
+        # It lies on one of its sides, along x.
+        w, _, _, z = turned((0, 0, 1), random.uniform(-0.15, 0.15))
+        half = numpy.sqrt(0.5)
+        return numpy.array([LYING_AT[0] + x, y, LYING_AT[2], *(half * numpy.array([w, -z, w, z]))])
+
+    def draw_goal(self, random, body):
+        return random.uniform((0.2, -0.1, 0.55), (0.3, 0.1, 0.7))
+
+    def achieved(self, sim, place, tools):
+        held, lies = touched_by(sim, self.body)
+        return numpy.array([*place, *map(float, held), float(lies)])
+
+
+def touched_by(sim: Simulation, body: str) -> tuple[list[bool], bool]:
+    """Whether each robot, and whether anything else touches a body."""
+    others = {c.body2 if c.body1 == body else c.body1 for c in sim.contacts() if body in (c.body1, c.body2)}
+    held = [any(other.startswith(f"{robot}_") for other in others) for robot in sim]
+    robots = tuple(f"{robot}_" for robot in sim)
+    return held, any(not other.startswith(robots) for other in others)
+
+
+TASKS: dict[str, type[Task]] = {task.name: task for task in (Reach, Push, PickAndPlace, HandOver)}

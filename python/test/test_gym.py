@@ -1,0 +1,424 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""pyfranka.gym: the tasks as environments of Gymnasium."""
+
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pyfranka.gym
+import pytest
+from gymnasium.error import ClosedEnvironmentError, ResetNeeded
+from gymnasium.utils.env_checker import check_env
+from pyfranka.gym import scripted_policy
+
+TASKS = ("Reach", "Push", "PickAndPlace", "HandOver")
+CONTROLS = ("torque", "joint_delta", "cartesian_delta")
+
+
+def make(task, **options):
+    return gymnasium.make(f"pyfranka/{task}-v0", **options)
+
+
+def make_vec(task, count, **options):
+    return gymnasium.make_vec(f"pyfranka/{task}-v0", num_envs=count, **options)
+
+
+def same(one, other):
+    return all((one[name] == other[name]).all() for name in one) and one.keys() == other.keys()
+
+
+def play(env, seed):
+    """An episode by its script: the last info, its steps, and the largest and the last reward."""
+    observation, info = env.reset(seed=seed)
+    policy, rewards, done = scripted_policy(env), [], False
+    while not done:
+        observation, reward, terminated, truncated, info = env.step(policy(observation))
+        rewards.append(reward)
+        done = terminated or truncated
+    return info, rewards
+
+
+@pytest.mark.parametrize("task", TASKS)
+@pytest.mark.parametrize("control", CONTROLS)
+def test_the_checker_of_gymnasium_passes(task, control):
+    env = make(task, control=control)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        check_env(env.unwrapped, skip_render_check=True)
+    assert all("infinity" in str(warning.message) for warning in caught), "state has no bounds"
+    env.close()
+
+
+def test_the_checker_of_gymnasium_passes_with_pictures():
+    env = make("Reach", observation="state+pictures", size=(32, 24), render_mode="rgb_array")
+    check_env(env.unwrapped, skip_render_check=True)
+    observation, _ = env.reset(seed=1)
+    assert observation["picture"].shape == (24, 32, 3) and observation["picture"].std() > 5.0
+    assert (env.render() == observation["picture"]).all()
+    env.close()
+
+
+def test_the_checker_of_stable_baselines3_passes(long_run):
+    if not long_run:
+        pytest.skip("Long form only.")
+    checker = pytest.importorskip(
+        "stable_baselines3.common.env_checker", reason="stable-baselines3 is not installed (it brings torch)."
+    )
+    for task in TASKS:
+        for control in CONTROLS:
+            checker.check_env(make(task, control=control), warn=True)
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_its_script_solves_a_task(task, name, long_run):
+    env = make(task, robot=name)
+    for seed in range(20 if long_run else 2 if task == "HandOver" else 4):
+        info, rewards = play(env, seed)
+        assert info["is_success"], (seed, info)
+        assert info["reflexes"] == 0, (seed, info)
+        assert rewards[-1] == 0.0 and set(rewards[:-1]) == {-1.0}, "sparse"
+    env.close()
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_its_script_solves_a_task_of_a_realistic_robot(task, name, long_run):
+    if not long_run:
+        pytest.skip("Long form only.")
+    env = make(task, robot=name, randomize={"realism": "recorded"})
+    assert sum(play(env, seed)[0]["is_success"] for seed in range(10)) >= 8
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("task", ("PickAndPlace", "HandOver"))
+def test_random_actions_never_fail(task, control):
+    env = make(task, control=control, max_episode_steps=10**6)
+    env.action_space.seed(1)
+    env.reset(seed=1)
+    for _ in range(200):
+        observation, reward, terminated, _, info = env.step(env.action_space.sample())
+        assert all(np.isfinite(part).all() for part in observation.values()) and np.isfinite(reward)
+        assert not terminated
+    if control == "cartesian_delta":
+        assert info["reflexes"] == 0
+    env.close()
+
+
+def test_the_same_seed_and_actions_give_the_same_bits(name):
+    def run(env):
+        env.action_space.seed(7)
+        seen = [env.reset(seed=5)[0]]
+        return seen + [env.step(env.action_space.sample())[0] for _ in range(12)]
+
+    env = make("PickAndPlace", robot=name, realism="recorded")
+    first = run(env)
+    env.reset(seed=6)
+    env.step(env.action_space.sample())
+    again = run(env)
+    env.close()
+    other = make("PickAndPlace", robot=name, realism="recorded")
+    fresh = run(other)
+    other.close()
+    for one, two, three in zip(first, again, fresh):
+        assert same(one, two) and same(one, three)
+    assert not same(first[0], env_of_another_seed(name))
+
+
+def env_of_another_seed(name):
+    env = make("PickAndPlace", robot=name, realism="recorded")
+    observation, _ = env.reset(seed=8)
+    env.close()
+    return observation
+
+
+def test_actions_mean_what_the_page_says():
+    env = make("Reach")
+    layout = env.unwrapped.layout
+    observation, _ = env.reset(seed=1)
+    before = observation["observation"][layout["panda.position"]].copy()
+    for _ in range(20):
+        observation, *_ = env.step(np.array([0, 0.5, 0, 0, 0, 0], dtype=np.float32))
+    for _ in range(10):
+        observation, *_ = env.step(np.zeros(6, dtype=np.float32))
+    way = observation["observation"][layout["panda.position"]] - before
+    assert way == pytest.approx([0, 0.125, 0], abs=0.01), "half of 0.25 m/s for a second"
+    env.close()
+
+    env = make("Reach", control="joint_delta")
+    observation, _ = env.reset(seed=1)
+    q = observation["observation"][layout["panda.q"]].copy()
+    for _ in range(20):
+        observation, *_ = env.step(np.array([0.5, 0, 0, 0, 0, 0, -0.5], dtype=np.float32))
+    for _ in range(10):
+        observation, *_ = env.step(np.zeros(7, dtype=np.float32))
+    moved = observation["observation"][layout["panda.q"]] - q
+    assert moved == pytest.approx([0.5, 0, 0, 0, 0, 0, -0.5], abs=0.02), "half of 1 rad/s for a second"
+    env.close()
+
+
+@pytest.mark.parametrize("frequency", [2, 100])
+def test_the_frequency_changes_neither_speed_nor_time(frequency):
+    env = make("Reach", frequency=frequency, max_episode_steps=1000)
+    layout = env.unwrapped.layout
+    observation, _ = env.reset(seed=1, options={"goal": [0.9, 0.9, 0.9]})
+    before = observation["observation"][layout["panda.position"]].copy()
+    for _ in range(frequency):
+        observation, *_ = env.step(np.array([0, 0.5, 0, 0, 0, 0], dtype=np.float32))
+    assert env.unwrapped.simulation.ticks == 1000
+    way = observation["observation"][layout["panda.position"]] - before
+    assert way[1] == pytest.approx(0.125, abs=0.02)
+    env.close()
+
+
+def test_goals_rewards_and_success_agree():
+    env = make("PickAndPlace", reward="dense")
+    info, rewards = play(env, seed=1)
+    assert info["is_success"] and rewards[0] < -0.6 and rewards[-1] > -0.1
+    assert np.mean(rewards[-10:]) > np.mean(rewards[:10]) + 0.4
+    env.close()
+
+    sparse = make("PickAndPlace").unwrapped
+    tray, lying = np.array([0.0, 0.2, 0.475]), np.array([1.0])
+    desired = np.array([*tray, *lying])
+    away = np.stack([desired, desired + [0.04, 0, 0, 0], desired + [0.06, 0, 0, 0], desired - [0, 0, 0, 1]])
+    infos = [{"reach": 0.1}] * 4
+    assert sparse.compute_reward(away, np.tile(desired, (4, 1)), infos).tolist() == [0, 0, -1, -1]
+    assert sparse.compute_reward(away[2], desired, infos[0]) == -1.0
+    sparse.close()
+
+
+def test_a_stone_that_is_held_over_the_tray_is_no_success():
+    env = make("PickAndPlace", max_episode_steps=1000)
+    observation, _ = env.reset(seed=1)
+    policy, touched, nearest = scripted_policy(env), False, 1.0
+    for _ in range(200):
+        action = policy(observation)
+        if touched:
+            action[-1] = -1.0  # never lets go
+        observation, _, terminated, _, info = env.step(action)
+        touched = touched or observation["achieved_goal"][2] > 0.5
+        away = (observation["achieved_goal"] - observation["desired_goal"])[:3]
+        nearest = min(nearest, np.linalg.norm(away))
+        assert not terminated and not info["is_success"]
+    assert touched and nearest < 0.02 and observation["achieved_goal"][3] == 0.0
+    env.close()
+
+
+def test_reset_takes_options():
+    env = make("PickAndPlace")
+    q = [0.1, -0.7, 0.0, -2.3, 0.0, 1.6, 0.8]
+    options = {"q": q, "object": [0.02, -0.2, 0.475], "goal": [0.0, 0.23, 0.475]}
+    observation, _ = env.reset(seed=1, options=options)
+    layout = env.unwrapped.layout
+    assert observation["observation"][layout["panda.q"]] == pytest.approx(q)
+    assert observation["observation"][layout["stone.position"]] == pytest.approx(options["object"])
+    assert observation["desired_goal"] == pytest.approx([*options["goal"], 1.0])
+    assert observation["observation"][layout["panda.width"]] == pytest.approx(0.08, abs=1e-3), "open"
+    for option, value, sentence in [
+        ("q", [9.0] * 7, "Joint 1 of"),
+        ("object", [1, 2], "3 or 7 finite"),
+        ("object", [0, 0, 1, 2, 0, 0, 0], "length 1"),
+        ("goal", [np.nan] * 3, "3 finite"),
+        ("colour", 1, "not 'colour'"),
+    ]:
+        with pytest.raises(ValueError, match=sentence):
+            env.reset(options={option: value})
+    env.close()
+
+
+def struck(env):
+    """The first step after a blow to the hand that causes a reflex."""
+    env.reset(seed=1)
+    env.step(np.zeros(7, dtype=np.float32))
+    env.unwrapped.simulation.push("panda_hand", [0, 0, 150], ticks=10)
+    for _ in range(5):
+        _, _, terminated, _, info = env.step(np.zeros(7, dtype=np.float32))
+        if info["reflexes"]:
+            break
+    return terminated, info
+
+
+def test_a_reflex_is_recovered_or_ends_the_episode():
+    env = make("Reach", control="joint_delta", on_reflex="terminate")
+    terminated, info = struck(env)
+    assert terminated and info["reflexes"] == 1 and not info["is_success"]
+    env.close()
+    env = make("Reach", control="joint_delta")
+    terminated, info = struck(env)
+    assert not terminated and info["reflexes"] == 1
+    robot = env.unwrapped.simulation["panda"]
+    for _ in range(20):
+        *_, truncated, info = env.step(np.array([0.5, 0, 0, 0, 0, 0, 0], dtype=np.float32))
+    assert robot.moving and not robot.state.current_errors and info["reflexes"] == 1, "it moves again"
+    assert robot.state.dq[0] == pytest.approx(0.5, abs=0.1) and not truncated
+    env.close()
+
+
+def test_an_arm_that_cannot_be_recovered_ends_the_episode():
+    env = make("Reach", control="torque")
+    env.reset(seed=1)
+    sim = env.unwrapped.simulation
+    sim["panda"].command(torque=[0, 0, 0, 10, 0, 0, 0], limit_rate=True, damping=[10.0] * 7)
+    sim.step(4000)
+    assert "joint_position_limits_violation" in str(sim["panda"].state.current_errors)
+    ended = [env.step(np.zeros(7, dtype=np.float32))[3] for _ in range(25)]
+    assert not any(ended[:15]) and ended[24], "after a second"
+    env.close()
+
+
+def test_torques_do_not_drive_a_joint_against_its_limit(name):
+    env = make("Reach", robot=name, control="torque", max_episode_steps=10**6)
+    env.reset(seed=1, options={"goal": [2, 2, 2]})
+    for joint in range(7):
+        for sign in (1, -1):
+            action = np.zeros(7, dtype=np.float32)
+            action[joint] = sign
+            env.reset(seed=1, options={"goal": [2, 2, 2]})
+            for _ in range(80):
+                *_, info = env.step(action)
+            errors = str(env.unwrapped.simulation[name].state.last_motion_errors)
+            assert "position_limits" not in errors, (joint, sign)
+    env.close()
+
+
+def test_each_episode_may_have_another_robot_and_another_stone():
+    ranges = {"mass": (0.5, 2.0), "friction": (0.8, 1.2), "base_height": (-0.01, 0.01), "load": (0.0, 0.2)}
+    env = make("PickAndPlace", randomize={"realism": ["real", "recorded"], **ranges})
+    seen, forces = set(), set()
+    for seed in (1, 2, 1):
+        env.reset(seed=seed)
+        sim = env.unwrapped.simulation
+        robot = sim["panda"]
+        sim.step(500)
+        pressed = sum(c.force[2] for c in sim.contacts() if c.body2 == "stone")
+        pressed -= sum(c.force[2] for c in sim.contacts() if c.body1 == "stone")
+        forces.add(round(pressed / 9.81, 4))
+        seen.add((robot.setup.base[2], robot.setup.realism, float(robot.state.m_load), sim.hash()))
+    assert len(seen) == 2, "the same seed, the same episode"
+    assert len(forces) == 2 and all(0.5 * 0.1 < mass < 2.0 * 0.11 for mass in forces), "the stone's weight"
+    env.close()
+
+
+def test_worlds_of_a_vector_equal_single_environments():
+    vector = make_vec("PickAndPlace", 3, threads=2)
+    assert isinstance(vector.unwrapped, pyfranka.gym.VectorEnvironment)
+    vector.action_space.seed(1)
+    actions = [vector.action_space.sample() for _ in range(6)]
+    rows = [vector.reset(seed=10)[0]] + [vector.step(action)[0] for action in actions]
+    for i in range(3):
+        env = make("PickAndPlace")
+        single = [env.reset(seed=10 + i)[0]] + [env.step(action[i])[0] for action in actions]
+        for row, observation in zip(rows, single):
+            assert same({name: values[i] for name, values in row.items()}, observation)
+        env.close()
+    vector.close()
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep", "Disabled"])
+def test_worlds_of_a_vector_are_reset_as_gymnasium_does(mode):
+    """The reference is Gymnasium's own SyncVectorEnv."""
+    kind = gymnasium.vector.AutoresetMode(mode)
+    ours = make_vec("Reach", 2, max_episode_steps=4, autoreset_mode=mode)
+    reference = gymnasium.make_vec(
+        "pyfranka/Reach-v0",
+        num_envs=2,
+        vectorization_mode="sync",
+        vector_kwargs={"autoreset_mode": kind},
+        max_episode_steps=4,
+    )
+    assert ours.metadata["autoreset_mode"] == kind
+    ours.action_space.seed(2)
+    first, second = ours.reset(seed=3), reference.reset(seed=3)
+    assert same(first[0], second[0]) and first[1].keys() == second[1].keys()
+    for k in range(10):
+        action = ours.action_space.sample()
+        one, two = ours.step(action), reference.step(action)
+        assert same(one[0], two[0]), k
+        for mine, theirs in zip(one[1:4], two[1:4]):
+            assert (mine == theirs).all(), k
+        assert one[4].keys() == two[4].keys(), k
+        if "final_obs" in two[4]:
+            assert same(one[4]["final_obs"][0], two[4]["final_obs"][0])
+        if mode == "Disabled" and one[3].any():
+            with pytest.raises(ResetNeeded, match="0, 1 have ended"):
+                ours.step(action)
+            for env in (ours, reference):
+                env.reset(options={"reset_mask": np.array([True, True])})
+    ours.close()
+    reference.close()
+
+
+def test_bad_input_is_refused_with_a_sentence():
+    for sentence, arguments in {
+        "task is one of Reach": {"task": "Cook"},
+        "robot is one of panda, fr3, not 'ur5'": {"robot": "ur5"},
+        "control is one of torque": {"control": "mind"},
+        "observation is one of": {"observation": "smell"},
+        "reward is one of": {"reward": "huge"},
+        "on_reflex is one of": {"on_reflex": "ignore"},
+        "render_mode is one of": {"render_mode": "human"},
+        "frequency is 1 to 1000 Hz": {"frequency": 30},
+        "size is width and height": {"size": (0, 10)},
+        "'reel' is not known": {"realism": "reel"},
+        "no camera 'nowhere'": {"camera": "nowhere"},
+        "randomize: 'colour' is not known": {"randomize": {"colour": 1}},
+        "randomize: mass is that of an object": {"randomize": {"mass": (1, 2)}},
+        "randomize: load needs a lowest": {"randomize": {"load": 1}},
+        "randomize: load can be from 0 to 3": {"randomize": {"load": (2, 1)}},
+    }.items():
+        for kind in (pyfranka.gym.Environment, pyfranka.gym.VectorEnvironment):
+            with pytest.raises((ValueError, RuntimeError), match=sentence):
+                kind(**{"task": "Reach", **arguments})
+    with pytest.raises(ValueError, match="one realism only"):
+        pyfranka.gym.VectorEnvironment(2, task="Reach", randomize={"load": (0, 1)})
+    with pytest.raises(ValueError, match="num_envs is 1 or more"):
+        pyfranka.gym.VectorEnvironment(0, task="Reach")
+    with pytest.raises(ValueError, match="need cartesian_delta"):
+        scripted_policy(make("Reach", control="torque"))
+
+
+def test_calls_at_the_wrong_time_are_refused_with_a_sentence():
+    for env, shape in (
+        (pyfranka.gym.Environment("Reach"), (6,)),
+        (pyfranka.gym.VectorEnvironment(2, task="Reach"), (2, 6)),
+    ):
+        with pytest.raises(ResetNeeded, match="before the first step"):
+            env.step(np.zeros(shape))
+        env.reset(seed=1)
+        before = [sim.ticks for sim in (env._batch if shape == (2, 6) else [env.simulation])]
+        for action, sentence in (
+            (np.zeros(3), "has the shape"),
+            (np.full(shape, np.nan), "finite"),
+            (np.full(shape, np.inf), "finite"),
+            ("left", "array of numbers"),
+        ):
+            with pytest.raises(ValueError, match=sentence):
+                env.step(action)
+        assert before == [sim.ticks for sim in (env._batch if shape == (2, 6) else [env.simulation])]
+        env.close()
+        env.close()
+        for call in (env.reset, lambda env=env, shape=shape: env.step(np.zeros(shape)), env.render):
+            with pytest.raises(ClosedEnvironmentError, match="is closed"):
+                call()
+
+
+def test_tasks_are_found_by_the_name_of_their_module():
+    code = "import gymnasium; gymnasium.make('pyfranka.gym:pyfranka/Reach-v0').reset(seed=1)"
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
+
+
+def test_the_example_of_the_documentation_runs(capsys):
+    page = Path(__file__).resolve().parents[2] / "docs" / "gym.md"
+    code = page.read_text().partition("```python\n")[2].partition("```")[0]
+    exec(compile(code, str(page), "exec"), {})
+    assert capsys.readouterr().out.split() == ["True", "0"]
+
+
+def test_without_gymnasium_the_rest_of_pyfranka_works():
+    code = (
+        "import sys; sys.modules['gymnasium'] = None; import pyfranka.sim; pyfranka.sim.Simulation().step()"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
