@@ -7,6 +7,7 @@ import time
 
 import numpy
 import pyfranka.sim
+from environments import environments
 from report import figure
 
 TICKS = 10000
@@ -110,3 +111,4 @@ def python() -> None:
     figure("torque law in Python: times real time", own, "x", 35, at_least=True)
     memory()
     batches()
+    environments()
