@@ -36,9 +36,8 @@ OF_THE_SYSTEM = {
 }
 # Entry points of modules: pyproject.toml must declare them as soon as the sources have the module.
 OF_MODULES = {
-    "pytest_plugin": ("pytest11", "pyfranka", "pyfranka.pytest_plugin"),
+    "pytest_plugin": ("pytest11", "pyfranka.pytest_plugin", "pyfranka.pytest_plugin"),
     "sweeps": ("console_scripts", "pyfranka-sweep", "pyfranka.sweeps:main"),
-    "gym": ("gymnasium.envs", "__root__", "pyfranka.gym:register_environments"),
     "meshes": ("console_scripts", "pyfranka-meshes", "pyfranka.meshes:main"),
 }
 

@@ -27,7 +27,7 @@ from pyfranka import libfranka
 HERE = Path(__file__).resolve().parent
 SCRIPTS = HERE / "other_packages"
 PACKAGES = {"panda": "panda_py.libfranka", "pylibfranka": "pylibfranka"}
-ROBOTS = {"panda": ("panda", "127.0.57.1"), "pylibfranka": ("fr3", "127.0.57.2")}
+ROBOTS = {"panda": "panda", "pylibfranka": "fr3"}
 
 # Differences that stay (docs/python.md): where the packages contradict pyfranka, pyfranka's API stays.
 OTHER_DEFAULTS = {("constructor Robot", "realtime_config", "RealtimeConfig.kIgnore")}
@@ -246,9 +246,8 @@ CASES = [
 @pytest.fixture(scope="module")
 def robot(request):
     """The robot that a package can connect to; `genuine` runs a script with the package, once."""
-    kind, address = ROBOTS[request.param]
     python = client_python(request.param)
-    with simulated(kind, address, "lockstep") as sim:
+    with simulated(ROBOTS[request.param], "lockstep") as sim:
         sim.genuine = functools.cache(lambda script: run(sim, python, script))
         yield sim
 
@@ -261,13 +260,13 @@ def run(sim, python, script, imports=None):
         replaced += text.count(theirs)
         text = text.replace(theirs, ours)
     assert imports is None or replaced == 1, "one line of a script changes"
-    sim.ask("reset")
+    sim.remote.reset()
     environment = dict(os.environ) if imports else {"PATH": os.environ["PATH"]}
     done = subprocess.run(
         [python, "-c", text, sim.address], capture_output=True, text=True, timeout=120, env=environment
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    return json.loads(done.stdout.splitlines()[-1]), sim.ask("hash")
+    return json.loads(done.stdout.splitlines()[-1]), sim.remote.hash()
 
 
 def same(mine, theirs):

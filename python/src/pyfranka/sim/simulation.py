@@ -94,7 +94,9 @@ class Simulation(Mapping):
         """Ends the simulation: all further calls raise RuntimeError. Clients lose their robots."""
         self._native.close()
 
-    def serve(self, ip: str, robot: str | None = None, pace: str = "lockstep", patience: float = 30.0):
+    def serve(
+        self, ip: str, robot: str | None = None, pace: str = "lockstep", patience: float = 30.0
+    ) -> None:
         """Puts a robot (the only one) on the network at an address of this machine: clients connect to it as
         to a real one, and time passes in step() alone.
 
