@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy
 import pyfranka
-from pyfranka.sim import FR3, Panda, Simulation
+from pyfranka.sim import FR3, Panda, RequestRefused, Simulation
 
 STIFFNESSES = (50, 100, 200, 400, 800, 1600)  # [N/m]
 BASE = (-0.5, 0.0, 0.0)  # of the robot in the world [m]
@@ -63,8 +63,8 @@ class PickAndPlace:
             if action.done:
                 return
 
-    def run(self):
-        """Carries the stone. @returns where it is then, and whether it rests in the red tray"""
+    def carry(self):
+        """Takes the stone to the red tray. @returns whether the hand had it"""
         over = numpy.array([0.0, 0.0, ABOVE])
         goal = numpy.array([*TRAY, STONE[2] + PLACED])
         hand = self.robot.gripper
@@ -79,6 +79,14 @@ class PickAndPlace:
         self.wait(hand.move(0.08))
         self.go(goal + over)
         self.sim.step(SETTLE)
+        return grasped
+
+    def run(self):
+        """Carries the stone. @returns where it is then, and whether it rests in the red tray"""
+        try:
+            grasped = self.carry()
+        except RequestRefused:  # after a reflex: the hand met something; see mode
+            grasped = False
         where, _ = self.sim.body_pose("stone")
         beside = numpy.abs(where[:2] - TRAY)
         return {
