@@ -16,19 +16,22 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import cloudpickle
+import contact_motion
 import distributed
 import numpy
 import pyarrow.parquet
 import pyfranka
 import pyfranka.sim
 import pytest
+from contact_motion import BASE, TICKS, WORLD, down_and_back
 from PIL import Image
 from pyfranka import _sweep_run, sweeps
 
 TOP = Path(__file__).resolve().parents[2]
 DEADLINE = 120.0  # [s] of a busy machine
 MODULE = [sys.executable, "-m", "pyfranka.sweeps"]
-cloudpickle.register_pickle_by_value(sys.modules[__name__])  # workers cannot import the tests
+for module in (sys.modules[__name__], contact_motion):
+    cloudpickle.register_pickle_by_value(module)  # workers cannot import the tests
 ENVIRONMENT = {
     **os.environ,
     "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1",
@@ -502,6 +505,24 @@ def motion(case, seed):
         robot.joint_impedance(robot.state.q + 0.1, 0.2, numpy.random.default_rng(seed).uniform(100, 300, 7))
         sim.step(500)
         return {"hash": f"{robot.hash():016x}", "q": robot.state.q, "threads": os.environ["OMP_NUM_THREADS"]}
+
+
+def pressing(case, seed):
+    """The robot's hash of ten seconds with contact. test_sim.py compares it with that of a served robot."""
+    kind = {"panda": pyfranka.sim.Panda, "fr3": pyfranka.sim.FR3}[case]
+    with pyfranka.sim.Simulation(WORLD, [kind(base=BASE)]) as sim:
+        robot, first = sim[case], sim[case].state.q_d.copy()
+        robot.set_collision_behavior([100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6)
+        for k in range(TICKS):
+            robot.command(joint_positions=down_and_back(first, k))
+            sim.step()
+        return {"hash": f"{robot.hash():016x}", "moving": robot.moving}
+
+
+def test_ten_seconds_with_contact_have_the_same_hash_on_a_worker(cluster):
+    done = pyfranka.sweep(pressing, ["panda", "fr3"], cluster)
+    assert [outcome.result for outcome in done] == [pressing(outcome.case, 0) for outcome in done]
+    assert all(outcome.result["moving"] for outcome in done)
 
 
 def test_a_robot_moves_on_a_worker_as_in_this_process(cluster, monkeypatch):
