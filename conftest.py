@@ -3,6 +3,7 @@
 """Options and fixtures of every pytest run of the project."""
 
 import os
+import signal
 import sys
 from pathlib import Path
 
@@ -13,6 +14,10 @@ pytest_plugins = ["pyfranka.pytest_plugin"]  # which the wheel's entry point nam
 
 SHARED = ("tests", "tests/support", "catkin_ws/src/franka_sim_mujoco/src")
 sys.path[:0] = [str(TOP / folder) for folder in SHARED]
+
+# A shell's background jobs ignore Ctrl-C, and so would the programs that tests start and interrupt.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_addoption(parser):

@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Set
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -189,7 +189,7 @@ def package_of(path: Path) -> Path:
     return TOP
 
 
-def units_of(files: list[Path], compiled: set[Path]) -> list[Path]:
+def units_of(files: list[Path], compiled: Set[Path]) -> list[Path]:
     """Sources to check for these files; a header is checked with the source of its name in its package."""
     named = set(files)
     headers = {(package_of(path), path.stem) for path in files if path.suffix == ".h"}
@@ -215,14 +215,16 @@ def check_clang_tidy(files: list[Path], long: bool) -> bool:
     if not COMPILE_COMMANDS.exists():
         raise ToolMissing("clang-tidy needs compile_commands.json: run ./franka build, which makes it.")
     entries = json.loads(COMPILE_COMMANDS.read_text(encoding="utf-8"))
-    compiled = {Path(entry["directory"], entry["file"]) for entry in entries} & set(files)
+    # A package that is linked into the workspace is compiled under the link's name.
+    built = {path.resolve(): path for path in (Path(entry["directory"], entry["file"]) for entry in entries)}
+    compiled = built.keys() & set(files)
     units = units_of(candidates, compiled)
     left_out = [path for path in candidates if path.suffix == ".cpp" and path not in compiled]
     if left_out:
         names = ", ".join(str(path.relative_to(TOP)) for path in left_out[:3])
         print(f"clang-tidy: {len(left_out)} sources are not part of the present build ({names} ...)")
     with ThreadPoolExecutor(int(os.environ.get("FRANKA_JOBS") or os.cpu_count() or 2)) as pool:
-        findings = [text for text in pool.map(lambda path: tidy(program, path), units) if text]
+        findings = [text for text in pool.map(lambda path: tidy(program, built[path]), units) if text]
     # Each source that includes a header repeats its findings.
     lines = dict.fromkeys(line for text in findings for line in text.splitlines())
     print("\n".join(lines), end="\n" if lines else "")
