@@ -85,7 +85,7 @@ def test_the_fit_finds_hidden_friction_and_payload(robot, seed, tmp_path):
 
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
 def test_the_kinematics_of_the_fit_are_those_of_the_robots_model(robot):
-    kind = {"panda": pyfranka.sim.Panda, "fr3": pyfranka.sim.FR3}[robot]
+    kind = pyfranka.sim.KINDS[robot]
     with pyfranka.sim.Simulation(robots=[kind()], seed=3) as sim:
         sim.reset(q="random")
         arm = sim[robot]

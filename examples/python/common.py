@@ -5,7 +5,7 @@
 import argparse
 from pathlib import Path
 
-from pyfranka.sim import FR3, Panda
+from pyfranka.sim import KINDS
 
 BASE = (-0.5, 0.0, 0.0)  # of a robot at the table of stone.xml [m]
 
@@ -13,9 +13,9 @@ BASE = (-0.5, 0.0, 0.0)  # of a robot at the table of stone.xml [m]
 def options(description):
     """The command line, and the class of the robot that it asks for."""
     parser = argparse.ArgumentParser(description=description.partition("\n")[0])
-    parser.add_argument("--robot", choices=["panda", "fr3"], default="panda")
+    parser.add_argument("--robot", choices=KINDS, default="panda")
     parser.add_argument("--output", type=Path, default=Path(), metavar="FOLDER", help="of what is written")
     parser.add_argument("--episodes", type=int, default=100, help="of random_episodes.py")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
-    return arguments, {"panda": Panda, "fr3": FR3}[arguments.robot]
+    return arguments, KINDS[arguments.robot]

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy
 import pyfranka
-from pyfranka.sim import FR3, Panda, RequestRefused, Simulation
+from pyfranka.sim import KINDS, Panda, RequestRefused, Simulation
 
 STIFFNESSES = (50, 100, 200, 400, 800, 1600)  # [N/m]
 BASE = (-0.5, 0.0, 0.0)  # of the robot in the world [m]
@@ -102,7 +102,7 @@ class PickAndPlace:
 
 def case(case, seed):
     """One case of the sweep. The scene is the same for each stiffness, so the sweep's seed is not used."""
-    task = PickAndPlace({"panda": Panda, "fr3": FR3}[case["robot"]], case["stiffness"], case["scene"])
+    task = PickAndPlace(KINDS[case["robot"]], case["stiffness"], case["scene"])
     with task.sim:
         return task.run()
 

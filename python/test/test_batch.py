@@ -10,14 +10,10 @@ import contact_motion
 import numpy as np
 import pytest
 from contact_motion import TICKS, down_and_back
-from pyfranka.sim import FR3, Panda, Simulation, SimulationBatch
+from pyfranka.sim import FR3, KINDS, Panda, Simulation, SimulationBatch
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
 LOOSE = [100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6
-
-
-def kind(name):
-    return {"panda": Panda, "fr3": FR3}[name]
 
 
 def move(sim, name, way):
@@ -29,7 +25,7 @@ def move(sim, name, way):
 
 
 def test_each_world_equals_the_same_world_alone_on_any_number_of_threads(name):
-    robots = [kind(name)(base=BASE, realism="recorded")]
+    robots = [KINDS[name](base=BASE, realism="recorded")]
 
     def batch_hashes(threads):
         with SimulationBatch(4, "stone.xml", robots, seed=3, threads=threads) as batch:
@@ -50,7 +46,7 @@ def test_each_world_equals_the_same_world_alone_on_any_number_of_threads(name):
 
 
 def test_ten_seconds_with_contact_have_the_same_hash_in_a_batch(name):
-    robots = [kind(name)(base=contact_motion.BASE)]
+    robots = [KINDS[name](base=contact_motion.BASE)]
 
     def follow(sim, step):
         robot = sim[name]
@@ -74,7 +70,7 @@ def test_ten_seconds_with_contact_have_the_same_hash_in_a_batch(name):
 
 def test_observations_are_one_array_of_what_was_asked_for(name):
     names = [f"{name}.O_T_EE", "stone.pose", "time", f"{name}.width", f"{name}.tau_J"]
-    with SimulationBatch(3, "stone.xml", [kind(name)(base=BASE)], observe=names) as batch:
+    with SimulationBatch(3, "stone.xml", [KINDS[name](base=BASE)], observe=names) as batch:
         seen, layout = batch.observations, batch.layout
         assert list(layout) == names and seen.shape == (3, 16 + 7 + 1 + 1 + 7)
         assert seen.flags.c_contiguous and seen.dtype == np.float64
@@ -188,7 +184,7 @@ def test_a_world_more_costs_less_than_eight_megabytes(name):
             move(sim, name, 1)
             sim.step(200)
 
-    robots = [kind(name)(base=BASE)]
+    robots = [KINDS[name](base=BASE)]
     with SimulationBatch(1, "stone.xml", robots) as warm_up:
         use(warm_up)
         first = resident()

@@ -12,19 +12,15 @@ import pyfranka
 import pytest
 from contact_motion import SCENE, press
 from fci_session import simulated
-from pyfranka.sim import FR3, Panda, RequestRefused, Simulation, SimulationBatch
+from pyfranka.sim import FR3, KINDS, Panda, RequestRefused, Simulation, SimulationBatch
 
 ADDRESSES = {"panda": "127.0.33.11", "fr3": "127.0.33.12"}
 TORQUES = np.array([0.5, -1.0, 0.3, 0.8, 0.1, -0.2, 0.05])  # [Nm]
 
 
-def kind(name):
-    return {"panda": Panda, "fr3": FR3}[name]
-
-
 @pytest.fixture
 def sim(name):
-    with Simulation(robots=[kind(name)()]) as simulation:
+    with Simulation(robots=[KINDS[name]()]) as simulation:
         simulation.serve(ADDRESSES[name])
         yield simulation
 
@@ -79,12 +75,31 @@ def move_joint(robot, joint, way, seconds):
     robot.control_joint_positions(positions)
 
 
+def begin_motion(sim, name, client, way, seconds):
+    """Steps until the client moves joint 7 in a thread; returns that and the errors that will end it."""
+    errors = []
+
+    def move():
+        try:
+            move_joint(client, 6, way, seconds)
+        except pyfranka.Exception as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=move)
+    thread.start()
+    deadline = time.monotonic() + 30
+    while sim[name].state.robot_mode != pyfranka.RobotMode.Move:
+        assert time.monotonic() < deadline, errors
+        sim.step()
+    return thread, errors
+
+
 def test_a_client_drives_a_robot_of_the_program_with_the_bits_of_a_served_one(name):
     with simulated(name, "lockstep", *SCENE) as served:
         press(served.address, served.protocol)
         expected = served.remote.hash()
         protocol = served.protocol
-    with Simulation(contact_motion.WORLD, [kind(name)(base=contact_motion.BASE)]) as sim:
+    with Simulation(contact_motion.WORLD, [KINDS[name](base=contact_motion.BASE)]) as sim:
         robot = sim[name]
         sim.serve(ADDRESSES[name])
         client = threading.Thread(target=press, args=(ADDRESSES[name], protocol))
@@ -127,16 +142,13 @@ def test_program_and_client_take_turns(sim, name):
 def test_the_program_is_refused_while_a_client_moves_the_robot(sim, name):
     arm = sim[name]
     client = connect(name)
-    moving = threading.Thread(target=move_joint, args=(client, 6, 0.2, 1.0))
-    moving.start()
-    while arm.state.robot_mode != pyfranka.RobotMode.Move:
-        sim.step()
+    moving, errors = begin_motion(sim, name, client, way=0.2, seconds=1.0)
     sim.step(100)
     with pytest.raises(RequestRefused, match="in mode Move"):
         arm.command(torque=TORQUES)
     while moving.is_alive():
         sim.step()
-    assert not arm.state.current_errors
+    assert not errors and not arm.state.current_errors
 
 
 def test_a_client_stays_connected_while_the_program_does_other_work(sim, name):
@@ -144,18 +156,7 @@ def test_a_client_stays_connected_while_the_program_does_other_work(sim, name):
     client.set_load(0.1, [0, 0, 0], np.zeros(9))
     assert client.read_once().m_load == pytest.approx(0.1)
     assert sim[name].state.m_load == pytest.approx(0.1) and sim.ticks == 0
-    errors = []
-
-    def move():
-        try:
-            move_joint(client, 6, 0.2, 1.0)
-        except pyfranka.Exception as error:
-            errors.append(error)
-
-    moving = threading.Thread(target=move)
-    moving.start()
-    while sim[name].state.robot_mode != pyfranka.RobotMode.Move:
-        sim.step()
+    moving, errors = begin_motion(sim, name, client, way=0.2, seconds=1.0)
     sim.step(50)
     time.sleep(2.5)  # longer than a client waits for a state
     while moving.is_alive():
@@ -164,18 +165,8 @@ def test_a_client_stays_connected_while_the_program_does_other_work(sim, name):
 
 
 def test_a_reset_answers_the_client_whose_motion_it_ends(sim, name):
-    client, ended = connect(name), []
-
-    def move():
-        try:
-            move_joint(client, 6, 0.5, 100.0)
-        except pyfranka.Exception as error:
-            ended.append(error)
-
-    moving = threading.Thread(target=move)
-    moving.start()
-    while sim[name].state.robot_mode != pyfranka.RobotMode.Move:
-        sim.step()
+    client = connect(name)
+    moving, ended = begin_motion(sim, name, client, way=0.5, seconds=100.0)
     sim.step(200)
     sim.reset()
     deadline = time.monotonic() + 30

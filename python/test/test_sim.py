@@ -14,20 +14,16 @@ import pyfranka.sim
 import pytest
 from contact_motion import SCENE, TICKS, down_and_back, press
 from fci_session import go_first, go_with_all, simulated
-from pyfranka.sim import FR3, GripperOutcome, Panda, RequestRefused, Simulation
+from pyfranka.sim import FR3, KINDS, GripperOutcome, Panda, RequestRefused, Simulation
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
 LOOSE = [100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6
 TORQUES = np.array([0.5, -1.0, 0.3, 0.8, 0.1, -0.2, 0.05])  # [Nm]
 
 
-def kind(name):
-    return {"panda": Panda, "fr3": FR3}[name]
-
-
 @pytest.fixture
 def sim(name):
-    with Simulation(robots=[kind(name)()]) as simulation:
+    with Simulation(robots=[KINDS[name]()]) as simulation:
         yield simulation
 
 
@@ -49,7 +45,7 @@ def hash_over_fci(name):
 
 def test_a_motion_has_the_same_hash_in_this_process_and_over_the_network(name):
     expected, first = hash_over_fci(name)
-    with Simulation(contact_motion.WORLD, [kind(name)(base=contact_motion.BASE)]) as sim:
+    with Simulation(contact_motion.WORLD, [KINDS[name](base=contact_motion.BASE)]) as sim:
         robot = sim[name]
         robot.set_collision_behavior(*LOOSE)
         pressed = 0.0
@@ -296,13 +292,13 @@ def test_the_hand_grasps_while_the_simulation_steps(arm, sim):
 def test_realism_is_chosen_robot_by_robot(name):
     def pushed(realism, seed=1):
         """Joint 1 after a push from the side and after its end."""
-        with Simulation(robots=[kind(name)(realism=realism)], seed=seed) as sim:
+        with Simulation(robots=[KINDS[name](realism=realism)], seed=seed) as sim:
             sim.push(f"{name}_hand", [0, 8, 0], ticks=1000)
             sim.step(6000)
             return sim[name].state.q[0], sim[name].state.tau_J.copy()
 
     start = pushed("ideal")
-    with Simulation(robots=[kind(name)()]) as sim:
+    with Simulation(robots=[KINDS[name]()]) as sim:
         rest = sim[name].state.q[0]
     assert start[0] == pytest.approx(rest, abs=1e-6), "without friction it returns"
     assert abs(pushed("real")[0] - rest) > 1e-5, "friction holds it"
@@ -314,7 +310,7 @@ def test_realism_is_chosen_robot_by_robot(name):
 
 
 def test_random_joints_are_within_the_limits_and_repeat(name):
-    with Simulation("stone.xml", [kind(name)(base=BASE)], seed=4) as sim:
+    with Simulation("stone.xml", [KINDS[name](base=BASE)], seed=4) as sim:
         robot, seen = sim[name], []
         lowest, highest = robot.limits
         for _ in range(30):
@@ -335,7 +331,7 @@ def test_random_joints_are_within_the_limits_and_repeat(name):
 
 
 def test_a_snapshot_brings_the_world_back(name):
-    with Simulation("stone.xml", [kind(name)(base=BASE)]) as sim:
+    with Simulation("stone.xml", [KINDS[name](base=BASE)]) as sim:
         sim.step(300)
         snapshot, before = sim.snapshot(), sim.hash()
         sim.push("stone", [3, 0, 0], ticks=100)
@@ -394,7 +390,7 @@ def test_a_closed_simulation_says_so(sim, arm):
 
 
 def test_pictures_come_as_arrays(name):
-    with Simulation("stone.xml", [kind(name)(base=BASE)]) as sim:
+    with Simulation("stone.xml", [KINDS[name](base=BASE)]) as sim:
         picture = sim.render(width=160, height=120)
         assert picture.rgb.shape == (120, 160, 3) and picture.rgb.std() > 10.0
         with pytest.raises(RuntimeError, match="no camera"):

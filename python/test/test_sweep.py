@@ -497,7 +497,7 @@ def test_dask_is_imported_by_sweeps_only():
 
 def motion(case, seed):
     """The robot's hash of a short motion at random stiffness."""
-    kind = {"panda": pyfranka.sim.Panda, "fr3": pyfranka.sim.FR3}[case]
+    kind = pyfranka.sim.KINDS[case]
     with pyfranka.sim.Simulation(
         "stone.xml", [kind(base=(-0.5, 0, 0), realism="recorded")], seed=seed % 1000
     ) as sim:
@@ -509,7 +509,7 @@ def motion(case, seed):
 
 def pressing(case, seed):
     """The robot's hash of ten seconds with contact. test_sim.py compares it with that of a served robot."""
-    kind = {"panda": pyfranka.sim.Panda, "fr3": pyfranka.sim.FR3}[case]
+    kind = pyfranka.sim.KINDS[case]
     with pyfranka.sim.Simulation(WORLD, [kind(base=BASE)]) as sim:
         robot, first = sim[case], sim[case].state.q_d.copy()
         robot.set_collision_behavior([100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6)

@@ -13,11 +13,11 @@ import numpy
 from gymnasium import spaces
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 
-from pyfranka.sim import Simulation
+from pyfranka.sim import KINDS, Simulation
 
 from .actions import CONTROLS
 from .episode import LONGEST_OPENING, OPENING, Episode, layout_of, size_of_action
-from .randomization import ROBOTS, Randomization, Setting
+from .randomization import Randomization, Setting
 from .tasks import TASKS, Task
 
 __all__ = ["Environment", "Options"]
@@ -55,7 +55,7 @@ class Options:
 
     def __post_init__(self):
         chosen("task", self.task, tuple(TASKS))
-        chosen("robot", self.robot, tuple(ROBOTS))
+        chosen("robot", self.robot, tuple(KINDS))
         chosen("control", self.control, tuple(CONTROLS))
         chosen("observation", self.observation, OBSERVATIONS)
         chosen("reward", self.reward, REWARDS)

@@ -19,13 +19,12 @@ from xml.etree import ElementTree
 import numpy
 from _pyfranka import _sim
 
-from pyfranka.sim import FR3, Panda, Simulation
+from pyfranka.sim import KINDS, Simulation
 
 from .tasks import Task
 
-__all__ = ["ROBOTS", "Randomization", "Setting"]
+__all__ = ["Randomization", "Setting"]
 
-ROBOTS = {"panda": Panda, "fr3": FR3}
 RANGES = {  # name -> lowest and highest value that makes sense (chosen here)
     "mass": (0.1, 20.0),  # of the object, a factor
     "friction": (0.1, 10.0),  # of the object and what it lies on, a factor
@@ -51,7 +50,7 @@ class Setting:
     def robots(self, realism: str | None = None, higher: float = 0.0, load: float = 0.0) -> list:
         """For Simulation(robots=...)."""
         return [
-            ROBOTS[self.robot](
+            KINDS[self.robot](
                 name=name,
                 base=(x, y, z + higher, yaw),
                 realism=self.realism if realism is None else realism,

@@ -23,11 +23,12 @@ from pyfranka.remote import LineRefused, Remote, RemoteState
 
 from .batch import SimulationBatch
 from .robot import Action, Gripper, Robot
-from .setups import FR3, Panda
+from .setups import FR3, KINDS, Panda
 from .simulation import Contact, Picture, Simulation
 
 __all__ = [
     "FR3",
+    "KINDS",
     "Action",
     "ArmModel",
     "Contact",

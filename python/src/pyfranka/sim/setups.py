@@ -81,3 +81,7 @@ class FR3(_Setup):
 
     __doc__ += _Setup.__doc__.partition("\n")[2]
     kind: typing.ClassVar[str] = "fr3"
+
+
+# The kinds of robots by their names.
+KINDS: dict[str, type[_Setup]] = {kind.kind: kind for kind in (Panda, FR3)}

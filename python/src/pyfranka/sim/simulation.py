@@ -102,8 +102,8 @@ class Simulation(Mapping):
 
         pace: "lockstep", a tick waits for the answer of a client in motion, or "realtime", ticks follow the
         clock. patience: after so many seconds without an answer in lock-step a client counts as lost. Both
-        are those of the first call. A robot moves either for a client or for command(); whoever comes second
-        is refused. While the program does other work, a thread keeps the connections alive.
+        are those of the first call. A robot moves either for a client or for command(); the second one is
+        refused. While the program does other work, a thread keeps the connections alive.
 
         Raises ValueError, KeyError; RuntimeError where the address cannot be used.
         """
