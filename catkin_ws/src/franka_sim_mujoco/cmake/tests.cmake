@@ -1,7 +1,16 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 
-catkin_add_gtest(${PROJECT_NAME}_parts_test test/parts_test.cpp TIMEOUT 240)
+catkin_add_gtest(${PROJECT_NAME}_parts_test
+  test/command_shaper_test.cpp
+  test/controller_check_test.cpp
+  test/files_test.cpp
+  test/gripper_mailbox_test.cpp
+  test/pace_test.cpp
+  test/request_queue_test.cpp
+  test/robot_type_test.cpp
+  test/sim_arm_test.cpp
+  TIMEOUT 240)
 if(TARGET ${PROJECT_NAME}_parts_test)
   # Test helpers of franka_sim, which only the source space has.
   target_include_directories(${PROJECT_NAME}_parts_test PRIVATE

@@ -1,0 +1,187 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// Commands of controllers on their way to the control unit.
+
+#include <franka_sim/robot/motion/joint_motion.h>
+#include <franka_sim_mujoco/command_shaper.h>
+#include <franka_sim_mujoco/sim_arm.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "robot/arm_fixture.h"
+#include "robot/transform_sweep.h"
+
+namespace franka_sim_mujoco {
+namespace {
+
+franka_sim::MotionLimits limitsOf(unsigned protocol) {
+  return franka_sim::motionLimitsOfProtocol(protocol);
+}
+
+TEST(CommandShaper, PassesCommandsWithinTheLimits) {
+  ShapingOptions options;
+  options.cutoff_frequency = 1000.0;
+  franka_core::RobotState state{};
+  state.message_id = 7;
+  ArmCommands desired;
+  desired.torque.fill(3.0);
+  desired.velocity.fill(1e-6);
+  const auto mode = franka_hw::ControlMode::JointTorque | franka_hw::ControlMode::JointVelocity;
+  const franka_core::RobotCommand command =
+      shapeCommand(options, mode, desired, state, limitsOf(5));
+  EXPECT_EQ(7u, command.message_id);
+  EXPECT_EQ(desired.torque, command.tau_J_d) << "torques are limited only where reflexes act";
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_NEAR(1e-6, command.dq_c[i], 1e-15);
+  }
+  options.torques = true;
+  EXPECT_NEAR(1.0, shapeCommand(options, mode, desired, state, limitsOf(5)).tau_J_d[3], 1e-5);
+}
+
+TEST(CommandShaper, PassesNonFiniteCommandsToTheRobot) {
+  ArmCommands desired;
+  desired.position[2] = std::nan("");
+  desired.pose[0] = 2.0;
+  const franka_core::RobotState state{};
+  const auto position =
+      shapeCommand({}, franka_hw::ControlMode::JointPosition, desired, state, limitsOf(5));
+  EXPECT_TRUE(std::isnan(position.q_c[2]));
+  ShapingOptions limited;
+  limited.cutoff_frequency = 1000.0;
+  const auto pose =
+      shapeCommand(limited, franka_hw::ControlMode::CartesianPose, desired, state, limitsOf(5));
+  EXPECT_EQ(2.0, pose.O_T_EE_c[0]);
+}
+
+/// An arm under ros_control whose Cartesian pose controller has just started.
+struct PoseControlledArm {
+  PoseControlledArm(const franka_sim::ControlUnitParameters& parameters,
+                    const ShapingOptions& shaping)
+      : plant(parameters.model, franka_sim::test::kReady),
+        arm(parameters, plant, options(shaping)) {
+    plant.payload = parameters.end_effector;
+    arm.read(ros::Time(1));
+    arm.control(franka_hw::ControlMode::CartesianPose, franka_hw::ControlMode::None);
+  }
+  static SimArmOptions options(const ShapingOptions& shaping) {
+    SimArmOptions options;
+    options.shaping = shaping;
+    return options;
+  }
+  void tick() {
+    arm.write();
+    plant.step();
+    arm.read(ros::Time(1));
+  }
+
+  franka_sim::test::FakeArm plant;
+  SimArm arm;
+};
+
+TEST(CommandShaper, PoseHandlesAcceptTheSamePosesAsTheRobot) {
+  franka_sim::ControlUnitParameters parameters = franka_sim::test::pandaWithHand();
+  for (const bool reflexes : {false, true}) {
+    for (const bool limited : {false, true}) {
+      for (const double cutoff : {100.0, 1000.0}) {
+        parameters.rules = reflexes ? franka_sim::InterfaceRules::kRosControlWithReflexes
+                                    : franka_sim::InterfaceRules::kRosControl;
+        ShapingOptions shaping;
+        shaping.rate_limiting = limited;
+        shaping.cutoff_frequency = cutoff;
+        const std::array<double, 16> pose =
+            PoseControlledArm(parameters, shaping).arm.commands().pose;
+        for (const franka_sim::test::PerturbedMatrix& perturbed :
+             franka_sim::test::perturbations(pose)) {
+          PoseControlledArm controlled(parameters, shaping);
+          ASSERT_EQ(SimArm::Switch::kDone, controlled.arm.switchResult());
+          controlled.arm.commands().pose = perturbed.matrix;
+          controlled.tick();
+          controlled.tick();
+          const bool runs = controlled.arm.state().robot_mode == franka::RobotMode::kMove;
+          EXPECT_EQ(perturbed.accepted, runs) << perturbed << ", reflexes " << reflexes
+                                              << ", limited " << limited << ", cutoff " << cutoff;
+          EXPECT_EQ(perturbed.accepted ? 0u : 1u, controlled.arm.lastAbort().count) << perturbed;
+          EXPECT_EQ(
+              !perturbed.accepted,
+              controlled.arm.lastAbort().errors[franka_core::indexOf(
+                  franka_core::RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag)]);
+        }
+      }
+    }
+  }
+}
+
+/// The robot itself checks the shaped commands of a controller that jumps.
+class ShapedMotion : public testing::TestWithParam<unsigned> {};
+
+TEST_P(ShapedMotion, IsNeverRefused) {
+  const franka_sim::MotionLimits limits = limitsOf(GetParam());
+  for (const double cutoff : {100.0, 1000.0}) {
+    ShapingOptions options;
+    options.cutoff_frequency = cutoff;
+    franka_sim::JointMotion motion;
+    franka_core::RobotState state{};
+    state.q_d = {{0.0, -0.8, 0.0, -2.0, 0.0, 1.6, 0.0}};
+    motion.start(state.q_d);
+    ArmCommands desired;
+    for (int tick = 0; tick < 4000; ++tick) {
+      desired.velocity.fill(tick / 250 % 2 == 0 ? 0.7 : -0.7);  // jumps every quarter of a second
+      const auto command =
+          shapeCommand(options, franka_hw::ControlMode::JointVelocity, desired, state, limits);
+      ASSERT_FALSE(motion.takeVelocities(command.dq_c, limits)) << tick;
+      state.q_d = motion.last().q;
+      state.dq_d = motion.last().dq;
+      state.ddq_d = motion.last().ddq;
+    }
+    EXPECT_NEAR(-0.7, state.dq_d[0], 1e-2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PandaAndFr3, ShapedMotion, testing::Values(5u, 10u));
+
+/// An FR3's velocity limits fall towards the joints' ends faster than joints 5 and 7 can brake.
+class ShapedMotionToTheEnds : public testing::TestWithParam<unsigned> {};
+
+TEST_P(ShapedMotionToTheEnds, ComesToRestWithoutRefusal) {
+  const franka_sim::MotionLimits limits = limitsOf(GetParam());
+  for (const double towards : {-20.0, 20.0}) {
+    ShapingOptions options;
+    options.cutoff_frequency = 1000.0;
+    franka_sim::JointMotion motion;
+    franka_core::RobotState state{};
+    state.q_d = {{0.0, -0.8, 0.0, -2.0, 0.0, 1.6, 0.0}};
+    motion.start(state.q_d);
+    ArmCommands desired;
+    desired.velocity.fill(towards);
+    std::array<double, 7> fastest{};
+    for (int tick = 0; tick < 10000; ++tick) {
+      const auto command =
+          shapeCommand(options, franka_hw::ControlMode::JointVelocity, desired, state, limits);
+      ASSERT_FALSE(motion.takeVelocities(command.dq_c, limits)) << tick << " " << towards;
+      state.q_d = motion.last().q;
+      state.dq_d = motion.last().dq;
+      state.ddq_d = motion.last().ddq;
+      for (std::size_t i = 0; i < 7; ++i) {
+        fastest[i] = std::max(fastest[i], std::abs(state.dq_d[i]));
+      }
+    }
+    for (std::size_t i = 0; i < 7; ++i) {
+      EXPECT_GT(fastest[i], 1.0) << i;
+      EXPECT_NEAR(0.0, state.dq_d[i], 1e-2) << i;
+      EXPECT_LT(
+          towards > 0 ? limits.arm.q_max[i] - state.q_d[i] : state.q_d[i] - limits.arm.q_min[i],
+          0.25)
+          << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fr3, ShapedMotionToTheEnds, testing::Values(6u, 9u, 10u));
+
+}  // namespace
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,73 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// The pace of simulated time and how often /clock is published.
+
+#include <franka_sim_mujoco/pace.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <limits>
+
+#include "sentences.h"
+
+namespace franka_sim_mujoco {
+namespace {
+
+TEST(Pace, RefusesInvalidFactors) {
+  for (const double factor : {-1.0, 0.001, std::numeric_limits<double>::quiet_NaN(),
+                              std::numeric_limits<double>::infinity()}) {
+    EXPECT_TRUE(contains(sentence([&] { paceOf(factor); }), "is wrong: it must be 0")) << factor;
+  }
+  EXPECT_EQ(franka_sim::fci::PaceMode::kFreeRunning, paceOf(0.0).mode);
+  EXPECT_EQ(franka_sim::fci::PaceMode::kPatient, paceOf(kSlowestPace).mode);
+}
+
+TEST(Pace, PublishesTheClockLessOftenBeyondRealTime) {
+  EXPECT_EQ(1000.0, clockRateOf(kSlowestPace));
+  EXPECT_EQ(1000.0, clockRateOf(1.0));
+  for (const double factor : {0.0, 1.01, 30.0}) {
+    EXPECT_GE(clockRateOf(factor), 100.0) << factor;
+    EXPECT_LE(clockRateOf(factor), 250.0) << factor;
+  }
+}
+
+std::int64_t sleepsOfThisThread() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nvcsw;
+}
+
+TEST(ShortSleeps, InterruptAThreadThatNeverWaits) {
+  ShortSleeps short_sleeps;
+  const std::int64_t before = sleepsOfThisThread();
+  const std::int64_t end = monotonicNanoseconds() + 20000000000;
+  while (sleepsOfThisThread() < before + 3 && monotonicNanoseconds() < end) {
+    short_sleeps.sleepIfDue();
+  }
+  EXPECT_EQ(before + 3, sleepsOfThisThread());
+}
+
+double secondsFor(double factor, int ticks) {
+  int done = 0;
+  franka_sim::fci::Host host([&] { ++done; }, paceOf(factor));
+  const std::int64_t start = monotonicNanoseconds();
+  for (int i = 0; i < ticks; ++i) {
+    host.tick();
+  }
+  EXPECT_EQ(ticks, done);
+  return 1e-9 * static_cast<double>(monotonicNanoseconds() - start);
+}
+
+TEST(Pace, KeepsThePaceWithoutDrift) {
+  // Never faster than requested; how much slower depends on the machine's load.
+  EXPECT_GE(secondsFor(1.0, 200), 0.199);
+  EXPECT_GE(secondsFor(2.0, 200), 0.099);
+  // A host that follows the clock takes a hundred seconds; one that does not, half a second of a
+  // processor, which may be shared.
+  EXPECT_LT(secondsFor(0.0, 100000), 25.0);
+}
+
+}  // namespace
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,116 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// Whether a description is that of a Panda or of an FR3.
+
+#include <franka_sim_mujoco/robot_type.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "sentences.h"
+
+namespace franka_sim_mujoco {
+namespace {
+
+/// Limits of joints 1 to 7 in the manufacturer's descriptions: lower, upper [rad], velocity
+/// [rad/s].
+struct Limits {
+  std::array<double, 7> lower, upper, velocity;
+};
+constexpr Limits kPandaUrdf{{{-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973}},
+                            {{2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973}},
+                            {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}}};
+constexpr Limits kFr3Urdf{{{-2.3093, -1.5133, -2.4937, -2.7478, -2.48, 0.8521, -2.6895}},
+                          {{2.3093, 1.5133, 2.4937, -0.4461, 2.48, 4.2094, 2.6895}},
+                          {{2.0, 1.0, 1.5, 1.25, 3.0, 1.5, 3.0}}};
+constexpr Limits kFr3Ros2Urdf{{{-2.9007, -1.8361, -2.9007, -3.077, -2.8763, 0.4398, -3.0508}},
+                              {{2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508}},
+                              {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}}};
+
+/// Ranges that both robots can reach; velocities are kept.
+Limits narrowed(Limits limits) {
+  limits.lower = {{-1.0, -1.0, -1.0, -2.5, -1.0, 1.0, -1.0}};
+  limits.upper = {{1.0, 1.0, 1.0, -0.5, 1.0, 3.0, 1.0}};
+  return limits;
+}
+
+Limits slowed(Limits limits) {
+  limits.velocity.fill(0.5);
+  return limits;
+}
+
+std::string joints(const std::string& arm_id, const Limits& limits) {
+  std::ostringstream text;
+  text << "<link name='" << arm_id << "_link0'/>";
+  for (std::size_t i = 0; i < 7; ++i) {
+    text << "<link name='" << arm_id << "_link" << i + 1 << "'/><joint name='" << arm_id << "_joint"
+         << i + 1 << "' type='revolute'><parent link='" << arm_id << "_link" << i
+         << "'/><child link='" << arm_id << "_link" << i + 1
+         << "'/><axis xyz='0 0 1'/><limit lower='" << limits.lower[i] << "' upper='"
+         << limits.upper[i] << "' velocity='" << limits.velocity[i] << "' effort='87'/></joint>";
+  }
+  return text.str();
+}
+
+std::string carried(const std::string& arm_id) {
+  return "<joint name='" + arm_id + "_mount' type='fixed'><parent link='base'/><child link='" +
+         arm_id + "_link0'/></joint>";
+}
+
+RobotType tell(const std::string& name, const std::string& parts,
+               const std::optional<std::string>& asked = {}, const std::string& arm_id = "arm") {
+  urdf::Model urdf;
+  EXPECT_TRUE(urdf.initString("<robot name='" + name + "'>" + parts + "</robot>"));
+  return tellRobotType(asked, urdf, arm_id);
+}
+
+TEST(RobotType, IsDetectedByTheJointsNotByTheName) {
+  for (const Limits& fr3 :
+       {kFr3Urdf, kFr3Ros2Urdf, slowed(kFr3Urdf), narrowed(kFr3Urdf), narrowed(kFr3Ros2Urdf)}) {
+    EXPECT_EQ("fr3", tell("my_machine", joints("arm", fr3)).name);
+    EXPECT_EQ("fr3", tell("panda", joints("arm", fr3)).name);
+  }
+  for (const Limits& panda : {kPandaUrdf, slowed(kPandaUrdf), narrowed(kPandaUrdf)}) {
+    EXPECT_EQ("panda", tell("my_machine", joints("arm", panda)).name);
+    EXPECT_EQ("panda", tell("fr3", joints("arm", panda)).name);
+  }
+  EXPECT_TRUE(
+      contains(tell("a", joints("arm", kFr3Urdf)).why, "positions that the URDF allows arm"));
+  EXPECT_TRUE(contains(tell("a", joints("arm", narrowed(kFr3Urdf))).why, "velocities"));
+}
+
+TEST(RobotType, IsDetectedForEachOfSeveralArms) {
+  const std::string both = "<link name='base'/>" + joints("left", kFr3Urdf) + carried("left") +
+                           joints("right", kPandaUrdf) + carried("right");
+  EXPECT_EQ("fr3", tell("two_arms", both, {}, "left").name);
+  EXPECT_EQ("panda", tell("two_arms", both, {}, "right").name);
+}
+
+TEST(RobotType, FollowsTheNameIfTheJointsAreAmbiguous) {
+  for (const std::string& parts :
+       {joints("arm", slowed(narrowed(kFr3Urdf))), joints("other", kFr3Urdf)}) {
+    EXPECT_EQ("fr3", tell("fr3", parts).name);
+    EXPECT_EQ("panda", tell("my_machine", parts).name);
+    EXPECT_TRUE(contains(tell("my_machine", parts).why, "'my_machine'"));
+    EXPECT_EQ("", tell("my_machine", parts, "fr3").warning);
+  }
+}
+
+TEST(RobotType, ParameterOverridesTheJointsAndWarns) {
+  const RobotType agreed = tell("my_machine", joints("arm", kFr3Urdf), "fr3");
+  EXPECT_EQ("fr3", agreed.name);
+  EXPECT_EQ("", agreed.warning);
+  const RobotType contradicted = tell("fr3", joints("arm", kFr3Urdf), "panda");
+  EXPECT_EQ("panda", contradicted.name);
+  EXPECT_TRUE(contains(contradicted.warning, "looks like fr3: the positions"));
+  EXPECT_TRUE(isRobotType("panda") && isRobotType("fr3"));
+  EXPECT_FALSE(isRobotType("") || isRobotType("FR3") || isRobotType("ur5"));
+}
+
+}  // namespace
+}  // namespace franka_sim_mujoco
