@@ -91,6 +91,7 @@ sim_test(fci_test
     test/fci/hostile_clients_test.cpp
     test/fci/host_rules_test.cpp
     test/fci/host_test.cpp
+    test/fci/json_test.cpp
     test/fci/line_server_test.cpp
     test/fci/own_client_test.cpp
     test/fci/robot_server_test.cpp
