@@ -1,0 +1,17 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Desk: the web interface of a Franka robot's control unit, for robots that franka_sim serves.
+
+    franka_desk --robot 127.0.0.1
+
+Programs that log in to a robot before they use the FCI, and browsers, find what they find at a real one
+(docs/desk.md). It needs aiohttp and cryptography: the extra `pyfranka[desk]`, or Debian's packages. Desk
+talks to the robot over its control interface only (docs/franka_sim.md).
+"""
+
+from pyfranka.desk.desk import Desk
+from pyfranka.desk.robot import Refused, Robot, RobotGone
+from pyfranka.desk.server import make_app
+from pyfranka.desk.settings import Limits, Options, Settings
+
+__all__ = ["Desk", "Limits", "Options", "Refused", "Robot", "RobotGone", "Settings", "make_app"]

@@ -1,0 +1,118 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a request may do what it asks for: its login, its control token, and where it comes from."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import typing
+import urllib.parse
+
+from aiohttp import web
+
+from pyfranka.desk.answers import DeskError
+from pyfranka.desk.limits import address_of
+from pyfranka.desk.routes import Call, Login, Token
+from pyfranka.desk.sessions import User
+
+if typing.TYPE_CHECKING:
+    from pyfranka.desk.desk import Desk
+
+COOKIE = "authorization"
+SAFE_METHODS = {"GET", "HEAD", "OPTIONS"}
+OWN_SITES = {"same-origin", "none"}  # of the header Sec-Fetch-Site
+ROLES = {Login.SAFETY: {"Admin", "SafetyOperator"}, Login.ADMIN: {"Admin"}}
+
+
+def check_origin(request: web.Request, changes: bool) -> None:
+    """Refuses what a page of another origin makes a browser send; clients that are no browser send neither
+    header. changes: whether the request may change something, or opens a WebSocket."""
+    if not changes and request.method in SAFE_METHODS:
+        return
+    site = request.headers.get("Sec-Fetch-Site", "none")
+    origin = request.headers.get("Origin")
+    foreign = origin is not None and urllib.parse.urlsplit(origin).netloc.lower() != request.host.lower()
+    if foreign or site not in OWN_SITES:
+        raise DeskError(403, "Forbidden", "Requests from pages of another origin are refused.")
+
+
+async def user_of(request: web.Request, desk: Desk) -> User | None:
+    """Who sends the request: by a login (cookie or header), or by name and password. None without either.
+    Raises DeskError (401) for a wrong name or password."""
+    header = request.headers.get("Authorization", "")
+    if header.startswith("Basic "):
+        return await _user_of_basic(request, desk, header.removeprefix("Basic "))
+    for token in (request.cookies.get(COOKIE, ""), header):
+        name = desk.sessions.name(token) if token else None
+        user = desk.users.get(name) if name is not None else None
+        if user is not None:
+            return user
+    return None
+
+
+async def check_password(request: web.Request, desk: Desk, user: typing.Callable[[], User | None]) -> User:
+    """The user that a comparison of passwords gives. An address that has sent many wrong ones waits before
+    each further comparison. Raises DeskError (401)."""
+    address, throttle = address_of(request), desk.gate.wrong_logins
+    delay = throttle.delay(address)
+    if delay > 0.0:
+        throttle.use(address)
+        await throttle.wait(address, delay)
+    found = user()
+    if found is None:
+        throttle.use(address)
+        raise DeskError(401, "WrongCredentials", "User or password is wrong.")
+    return found
+
+
+async def _user_of_basic(request: web.Request, desk: Desk, word: str) -> User:
+    try:
+        name, _, password = base64.b64decode(word, validate=True).decode().partition(":")
+    except (binascii.Error, ValueError):
+        name = password = ""
+    return await check_password(request, desk, lambda: desk.users.by_password(name, password))
+
+
+def check_login(user: User | None, login: Login) -> None:
+    """Raises DeskError: 401 without a login, 403 if the role is too low."""
+    if login is Login.NONE:
+        return
+    if user is None:
+        raise DeskError(401, "Unauthorized", "Log in first.")
+    if login in ROLES and user.role not in ROLES[login]:
+        raise DeskError(403, "Forbidden", f"The role {user.role} may not do this; it needs {login.value}.")
+
+
+def check_token(call: Call, rule: Token) -> None:
+    """Raises DeskError: 400 without a control token, 423 with one that is not the active one."""
+    if rule is Token.NONE or not call.desk.profile.tokens:
+        return
+    sent = call.request.headers.get("X-Control-Token", "")
+    candidates = [sent] if sent else []
+    if rule is Token.HEADER_OR_FORM and not sent:
+        candidates = form_tokens(call)
+    if not candidates and rule is not Token.HEADER_LOCKED:
+        raise DeskError(
+            400,
+            "MissingControlToken",
+            "The header X-Control-Token is missing. Request control first and send its token.",
+        )
+    if not any(call.desk.tokens.is_active(token) for token in candidates):
+        raise not_in_control()
+
+
+def not_in_control() -> DeskError:
+    """The token is not that of the one who has control."""
+    return DeskError(423, "Locked", "This token does not have control of the robot. Request control first.")
+
+
+def form_tokens(call: Call) -> list[str]:
+    """What the field `token` of a form may mean: clients send the token in base64."""
+    word = call.form().get("token", "")
+    if not word:
+        return []
+    try:
+        return [word, base64.b64decode(word, validate=True).decode()]
+    except (binascii.Error, ValueError):
+        return [word]

@@ -1,0 +1,147 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The program franka_desk."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import contextlib
+import errno
+import os
+import secrets
+import signal
+import sys
+from collections.abc import Sequence
+
+from pyfranka.desk.profiles import PROFILES
+from pyfranka.desk.robot import PORT, Robot
+from pyfranka.desk.settings import USER, Options, Settings
+
+PASSWORD = "FRANKA_DESK_PASSWORD"
+HTTPS, OTHER_HTTPS = 443, 8443
+FIRST_REPORT = 10.0  # [s] to wait for the robots before Desk listens (chosen here)
+NICE = 5  # robots come first (chosen here)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the program; @returns its exit status."""
+    words = _parser().parse_args(arguments)
+    try:
+        settings, generated = _settings(words)
+        robots = [_place(word, PORT) for word in words.robot or ["127.0.0.1"]]
+        listen = _place(words.listen, 0) if words.listen else None
+    except ValueError as error:
+        print(f"franka_desk: {error}", file=sys.stderr)
+        return 2
+    if generated:
+        print(f"franka_desk: user {settings.user}, password {settings.password}", flush=True)
+    with contextlib.suppress(OSError):
+        os.nice(NICE)
+    try:
+        return asyncio.run(_run(robots, listen, settings, words.child))
+    except OSError as error:
+        print(f"franka_desk: {error.strerror or error}", file=sys.stderr)
+        return 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="franka_desk",
+        description="The web interface of Franka robots, for robots that franka_sim serves.",
+        epilog=f"The password comes from the variable {PASSWORD}; without it a new one is printed.",
+    )
+    parser.add_argument(
+        "--robot",
+        action="append",
+        metavar="ADDRESS[:PORT]",
+        help=f"a robot's control interface (127.0.0.1:{PORT}); may be given several times",
+    )
+    parser.add_argument(
+        "--listen",
+        metavar="ADDRESS:PORT",
+        help=f"where Desk listens; further robots at the next ports (the robots' addresses, port {HTTPS}, or "
+        f"{OTHER_HTTPS} if that is not allowed)",
+    )
+    parser.add_argument("--user", default=USER, help="name of the first user (%(default)s)")
+    parser.add_argument("--profile", default="", choices=["", *PROFILES], help="generation of the interface")
+    parser.add_argument(
+        "--option",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="see docs/desk.md; may be repeated",
+    )
+    parser.add_argument("--child", action="store_true", help="end when standard input ends")
+    return parser
+
+
+def _settings(words: argparse.Namespace) -> tuple[Settings, bool]:
+    password = os.environ.pop(PASSWORD, "")
+    options = Options.of(words.option)
+    settings = Settings(password or secrets.token_urlsafe(12), words.user, words.profile, options)
+    return settings, not password
+
+
+def _place(word: str, port: int) -> tuple[str, int]:
+    address, colon, number = word.rpartition(":")
+    if not colon:
+        return word, port
+    if not number.isdigit() or not int(number) < 65536 or not address:
+        raise ValueError(f"'{word}' is no ADDRESS:PORT.")
+    return address.strip("[]"), int(number)
+
+
+async def _run(
+    places: list[tuple[str, int]], listen: tuple[str, int] | None, settings: Settings, child: bool
+) -> int:
+    from pyfranka.desk.server import app_of, make_desks  # aiohttp takes a while
+
+    robots = [Robot(*place) for place in places]
+    await asyncio.gather(*(robot.start(FIRST_REPORT) for robot in robots))
+    desks = make_desks(robots, settings)
+    sites = []
+    for number, robot in enumerate(robots):
+        sites.append(await _open(app_of(desks, number), _ports(listen, robot, number)))
+    for desk, site in zip(desks, sites):
+        print(f"franka_desk: robot at {desk.robot.place}: https://{site.address}:{site.port}", flush=True)
+    await _end(child)
+    for site in sites:
+        await site.cleanup()
+    for desk in desks:
+        await desk.close()
+        await desk.robot.stop()
+    return 0
+
+
+def _ports(listen: tuple[str, int] | None, robot: Robot, number: int) -> list[tuple[str, int]]:
+    if listen is None:
+        return [(robot.address, HTTPS), (robot.address, OTHER_HTTPS)]
+    return [(listen[0], listen[1] + number if listen[1] else 0)]
+
+
+async def _open(app, places: list[tuple[str, int]]):
+    from pyfranka.desk.certificate import tls_context
+    from pyfranka.desk.server import Site
+
+    for address, port in places:
+        site = Site(app, address, port, tls_context(address))
+        try:
+            await site.open()
+            return site
+        except OSError as error:
+            if (address, port) == places[-1] or error.errno not in (errno.EACCES, errno.EPERM):
+                raise
+    raise AssertionError("there is no place")
+
+
+async def _end(child: bool) -> None:
+    """Returns when the program shall end."""
+    loop, end = asyncio.get_running_loop(), asyncio.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(number, end.set)
+    if child:
+        loop.add_reader(sys.stdin.fileno(), lambda: os.read(sys.stdin.fileno(), 4096) or end.set())
+    await end.wait()
+    if child:
+        loop.remove_reader(sys.stdin.fileno())

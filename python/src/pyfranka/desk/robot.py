@@ -1,0 +1,231 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A client of one robot's control interface for asyncio: its report twenty times a second, and lines."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import re
+from collections.abc import Callable
+
+from pyfranka.desk.report import Report, report_of
+
+PORT = 1340
+PERIOD = 0.05  # [s] between two reports (chosen here: a press of a button lasts longer)
+PAUSE = 0.5  # [s] before the next attempt to reach a robot that is gone (chosen here)
+REPORT_LIMIT = 5.0  # [s] for the answer to one report (chosen here: a busy machine)
+LINE_LIMIT = 120.0  # [s] for any other line (chosen here: the longest motion)
+CONNECT_LIMIT = 5.0  # [s] (chosen here)
+LONGEST_ANSWER = 8 << 20  # [bytes] (chosen here: a world of many shapes)
+# Lines at a time; the control interface accepts eight clients.
+LINES, URGENT_LINES = 3, 2
+CODE = re.compile(r"(?P<code>[A-Z][A-Za-z]+): (?P<sentence>.+)")
+CODES = {
+    "NotReady",
+    "BrakesClosed",
+    "EmergencyStopPressed",
+    "SelfTestRunning",
+    "RecoverableErrorActive",
+    "JointRecoveryRequired",
+    "WrongOperatingMode",
+    "MotionActive",
+    "NoAckRequired",
+    "NotHomed",
+    "NoHand",
+}
+
+
+class Refused(Exception):
+    """The robot has refused a line. code: one of CODES, or empty; sentence: the robot's own."""
+
+    def __init__(self, code: str, sentence: str):
+        super().__init__(sentence)
+        self.code, self.sentence = code, sentence
+
+
+class RobotGone(Exception):
+    """The robot does not answer; the text is a sentence."""
+
+
+class Robot:
+    """One robot's control interface. Everything runs in one event loop.
+
+    report: the newest report, or None before the first one and while the robot is gone; problem: why there is
+    none. number: of the newest report, counted from one. start() begins to ask for reports; requests of
+    Desk's clients are answered from the newest one, so that they never reach the robot.
+    """
+
+    def __init__(self, address: str, port: int = PORT, period: float = PERIOD):
+        self.address, self.port, self.period = address, port, period
+        self.report: Report | None = None
+        self.problem = f"The robot at {self.place} has not answered yet."
+        self.number = 0
+        self._asked = self._published = 0
+        self._listeners: list[Callable[[], None]] = []
+        self._lines, self._urgent = asyncio.Semaphore(LINES), asyncio.Semaphore(URGENT_LINES)
+        self._running: dict[str, asyncio.Task[str]] = {}
+        self._poller: asyncio.Task[None] | None = None
+        self._first = asyncio.Event()
+
+    def __repr__(self) -> str:
+        return f"Robot({self.address!r}, {self.port})"
+
+    @property
+    def place(self) -> str:
+        """Where it is, for messages."""
+        return f"{self.address}, port {self.port}"
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Calls the listener after each report, and when the robot is gone, in the order of these calls."""
+        self._listeners.append(listener)
+
+    async def start(self, limit: float = 0.0) -> None:
+        """Begins to ask for reports; waits up to that many seconds for the first one."""
+        self._poller = asyncio.get_running_loop().create_task(self._poll())
+        if limit:
+            with contextlib.suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(self._first.wait(), limit)
+
+    async def stop(self) -> None:
+        """Ends what runs."""
+        tasks = [*self._running.values(), *([self._poller] if self._poller else [])]
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+    async def send(self, line: str, urgent: bool = False) -> str:
+        """Sends a line; returns what follows `ok`. The report is then one of after its effect.
+
+        Equal lines at the same time are sent once. urgent: does not wait for other lines. A caller that is
+        cancelled leaves the line to its end. Raises Refused or RobotGone.
+        """
+        if "\n" in line or "\r" in line:
+            raise ValueError("A line has no line break.")
+        task = self._running.get(line)
+        if task is None:
+            task = asyncio.get_running_loop().create_task(self._send(line, urgent))
+            self._running[line] = task
+            task.add_done_callback(lambda done: self._ended(line, done))
+        return await asyncio.shield(task)
+
+    async def refresh(self) -> Report:
+        """A report of the robot after this call. Raises RobotGone."""
+        async with _Connection(self.address, self.port) as connection:
+            await self._ask_report(connection)
+        if self.report is None:
+            raise RobotGone(self.problem)
+        return self.report
+
+    # ---- lines -------------------------------------------------------------------------------------------
+
+    def _ended(self, line: str, task: asyncio.Task[str]) -> None:
+        self._running.pop(line, None)
+        if not task.cancelled():
+            task.exception()  # which nobody may have waited for
+
+    async def _send(self, line: str, urgent: bool) -> str:
+        async with self._urgent if urgent else self._lines:
+            async with _Connection(self.address, self.port) as connection:
+                try:
+                    return await connection.ask(line, LINE_LIMIT)
+                finally:
+                    with contextlib.suppress(RobotGone, Refused):
+                        await self._ask_report(connection)
+
+    # ---- reports -----------------------------------------------------------------------------------------
+
+    async def _poll(self) -> None:
+        while True:
+            try:
+                async with _Connection(self.address, self.port) as connection:
+                    while True:
+                        await self._ask_report(connection)
+                        await asyncio.sleep(self.period)
+            except (RobotGone, Refused) as error:
+                self._lose(str(error))
+            await asyncio.sleep(PAUSE)
+
+    # An answer may overtake an older one on another connection: the older one is dropped.
+    async def _ask_report(self, connection: _Connection) -> None:
+        self._asked += 1
+        number = self._asked
+        text = await connection.ask("report", REPORT_LIMIT)
+        if number < self._published:
+            return
+        self._published = number
+        try:
+            self.report = report_of(text)
+        except ValueError as error:
+            raise RobotGone(
+                f"The report of the robot at {self.place} cannot be read: {error}. Use franka_sim and "
+                "franka_desk of the same version."
+            ) from None
+        self.number += 1
+        self.problem = ""
+        self._first.set()
+        self._tell()
+
+    def _lose(self, problem: str) -> None:
+        if self.report is not None or self.problem != problem:
+            self.report, self.problem = None, problem
+            self._tell()
+
+    def _tell(self) -> None:
+        for listener in self._listeners:
+            listener()
+
+
+class _Connection:
+    """One TCP connection, on which lines are answered one after the other."""
+
+    def __init__(self, address: str, port: int):
+        self._address, self._port = address, port
+        self._place = f"{address}, port {port}"
+
+    async def __aenter__(self) -> _Connection:
+        opening = asyncio.open_connection(self._address, self._port, limit=LONGEST_ANSWER)
+        try:
+            self._reader, self._writer = await asyncio.wait_for(opening, CONNECT_LIMIT)
+        except TimeoutError:
+            raise RobotGone(f"The robot at {self._place} does not answer.") from None
+        except OSError as error:
+            raise RobotGone(
+                f"There is no control interface at {self._place} ({error.strerror or error}). Start "
+                "franka_sim there, without --control-port 0."
+            ) from None
+        return self
+
+    async def __aexit__(self, *error) -> None:
+        self._writer.close()
+
+    async def ask(self, line: str, limit: float) -> str:
+        try:
+            self._writer.write(line.encode() + b"\n")
+            await self._writer.drain()
+            data = await asyncio.wait_for(self._reader.readuntil(b"\n"), limit)
+        except TimeoutError:
+            raise RobotGone(
+                f"The robot at {self._place} has not answered '{line[:80]}' within {limit:g} s."
+            ) from None
+        except (OSError, asyncio.IncompleteReadError):
+            raise RobotGone(
+                f"The robot at {self._place} went away before it answered '{line[:80]}'."
+            ) from None
+        except asyncio.LimitOverrunError:
+            raise RobotGone(
+                f"The answer of the robot at {self._place} to '{line[:80]}' is too long."
+            ) from None
+        return _value(data.decode(errors="replace").rstrip("\r\n"), self._place)
+
+
+def _value(answer: str, place: str) -> str:
+    word, _, rest = answer.partition(" ")
+    if word == "ok":
+        return rest
+    if word != "error:":
+        raise RobotGone(f"What answers at {place} is no control interface of franka_sim: '{answer[:80]}'.")
+    match = CODE.fullmatch(rest)
+    if match and match["code"] in CODES:
+        raise Refused(match["code"], match["sentence"])
+    raise Refused("", rest)

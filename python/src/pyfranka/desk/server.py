@@ -1,0 +1,215 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The web application: finds what a request means, checks it, and answers."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import importlib
+import logging
+import re
+import ssl
+import urllib.parse
+from collections.abc import Sequence
+
+from aiohttp import web
+
+from pyfranka.desk import access, legacy
+from pyfranka.desk.answers import DeskError, bad_request, empty_answer, json_answer, refusal, unavailable
+from pyfranka.desk.desk import Desk
+from pyfranka.desk.limits import Gate
+from pyfranka.desk.robot import Refused, Robot, RobotGone
+from pyfranka.desk.routes import Call, Route, Routes
+from pyfranka.desk.sessions import Users
+from pyfranka.desk.settings import Settings
+
+# Newer aiohttp wants keys of a type of their own.
+_key = getattr(web, "AppKey", lambda name, kind: name)
+DESKS = _key("desks", list)  # of all robots
+DESK = _key("desk", Desk)  # of the robot at whose address the application listens
+GATE = _key("gate", Gate)
+ROUTES = Routes([*legacy.ROUTES])
+OTHER_ROBOT = re.compile(r"/robots/(\d{1,3})(/.*)")
+HANDSHAKE_TIME = 10.0  # [s] for TLS (chosen here)
+log = logging.getLogger("franka_desk")
+
+
+def make_desks(robots: Sequence[Robot], settings: Settings) -> list[Desk]:
+    """Desks of robots, with the same users. Needs a running event loop."""
+    users, gate = Users(settings.user, settings.password), Gate(settings.limits)
+    desks = [Desk(robot, settings, users, gate) for robot in robots]
+    for desk in desks:
+        desk.all = desks
+    return desks
+
+
+def make_app(robots: Sequence[Robot], settings: Settings) -> web.Application:
+    """The application of the first robot. The paths of the others are below /robots/N, counted from 0."""
+    return app_of(make_desks(robots, settings), 0)
+
+
+def app_of(desks: list[Desk], own: int) -> web.Application:
+    """The application of one of the robots."""
+    app = web.Application(middlewares=[_finish], client_max_size=desks[own].settings.limits.body)
+    app[DESKS], app[DESK], app[GATE] = desks, desks[own], desks[own].gate
+    with contextlib.suppress(ModuleNotFoundError):
+        importlib.import_module("pyfranka.desk.page_api").add_page(app)
+    app.router.add_route("*", "/{path:.*}", _dispatch)
+    return app
+
+
+class Site:
+    """One robot's application at an address of its own, with TLS. It can close and open again."""
+
+    def __init__(self, app: web.Application, address: str, port: int, context: ssl.SSLContext):
+        self._app, self.address, self.port, self._context = app, address, port, context
+        self._runner: web.AppRunner | None = None
+        self._listening: asyncio.AbstractServer | None = None
+
+    async def open(self) -> None:
+        """Listens. Raises OSError if it may not."""
+        if self._runner is None:
+            self._runner = web.AppRunner(self._app, access_log=None)
+            await self._runner.setup()
+        assert self._runner.server is not None
+        self._listening = await asyncio.get_running_loop().create_server(
+            self._app[GATE].factory(self._runner.server),
+            self.address,
+            self.port,
+            ssl=self._context,
+            ssl_handshake_timeout=HANDSHAKE_TIME,
+        )
+        self.port = self._listening.sockets[0].getsockname()[1]
+
+    async def close(self) -> None:
+        """Refuses new connections and ends the others."""
+        if self._listening is not None:
+            self._listening.close()
+            self._listening = None
+        if self._runner is not None and self._runner.server is not None:
+            await self._runner.server.shutdown(0.1)
+
+    async def cleanup(self) -> None:
+        """Ends it for ever."""
+        await self.close()
+        if self._runner is not None:
+            await self._runner.cleanup()
+
+
+@web.middleware
+async def _finish(request: web.Request, handler) -> web.StreamResponse:
+    """Limits and errors of every request, those of pages too."""
+    v1 = _path_of(request).startswith("/api/")
+    try:
+        await request.app[GATE].enter(request)
+        answer = await handler(request)
+    except DeskError as error:
+        answer = error.answer(v1)
+    except Refused as refused:
+        answer = refusal(refused).answer(v1)
+    except RobotGone as error:
+        answer = unavailable(str(error)).answer(v1)
+    except web.HTTPException as error:
+        if error.status < 400:
+            raise
+        answer = DeskError(error.status, (error.reason or "").replace(" ", ""), f"{error.text}.").answer(v1)
+    except (asyncio.CancelledError, ConnectionError):
+        raise
+    except Exception:
+        log.exception("%s %s", request.method, _path_of(request))
+        answer = DeskError(500, "InternalError", "Desk has made a mistake; its log says more.").answer(v1)
+    if not answer.prepared:
+        answer.headers.setdefault("Server", "franka_desk")
+        answer.headers.setdefault("Cache-Control", "no-store")
+        answer.headers.setdefault("X-Content-Type-Options", "nosniff")
+        answer.headers.setdefault("X-Frame-Options", "DENY")
+    return answer
+
+
+async def _dispatch(request: web.Request) -> web.StreamResponse:
+    desk, path = _desk_and_path(request)
+    body = await _body(request)
+    matches = ROUTES.find(path, desk.profile)
+    if not matches:
+        return _not_found(path, desk)
+    method = "GET" if request.method == "HEAD" else request.method
+    for route, words in matches:
+        if route.method == method:
+            return await _answer(route, Call(desk, request, path, body, None, words))
+    allowed = ", ".join(sorted({route.method for route, _ in matches}))
+    error = DeskError(405, "MethodNotAllowed", f"{path} has no {request.method[:20]}, only {allowed}.")
+    answer = error.answer(path.startswith("/api/"))
+    answer.headers["Allow"] = allowed
+    return answer
+
+
+async def _answer(route: Route, call: Call) -> web.StreamResponse:
+    access.check_origin(call.request, route.socket)
+    call.user = await access.user_of(call.request, call.desk)
+    access.check_login(call.user, route.login)
+    access.check_token(call, route.token)
+    # A client that goes away does not leave an action half done.
+    work = asyncio.get_running_loop().create_task(_run(route, call))
+    return await asyncio.shield(work)
+
+
+async def _run(route: Route, call: Call) -> web.StreamResponse:
+    value = await route.handler(call)
+    if isinstance(value, web.StreamResponse):
+        return value
+    if value is None:
+        return empty_answer(204 if call.path.startswith("/api/") else 200)
+    return json_answer(value)
+
+
+def _path_of(request: web.Request) -> str:
+    """The path without its query, as it was sent; leading slashes may be repeated."""
+    path = urllib.parse.unquote(request.raw_path.partition("?")[0], errors="replace")
+    return "/" + path.lstrip("/")
+
+
+def _desk_and_path(request: web.Request) -> tuple[Desk, str]:
+    path = _path_of(request)
+    match = OTHER_ROBOT.fullmatch(path)
+    if match is None:
+        return request.app[DESK], path
+    desks = request.app[DESKS]
+    number = int(match[1])
+    if number >= len(desks):
+        raise DeskError(404, "NotFound", f"There is no robot {number}; there are {len(desks)}.")
+    return desks[number], match[2]
+
+
+async def _body(request: web.Request) -> bytes:
+    limits = request.app[GATE].limits
+    try:
+        return await asyncio.wait_for(request.read(), limits.body_time)
+    except TimeoutError:
+        raise DeskError(408, "RequestTimeout", "The body has not come in time.") from None
+    except web.HTTPRequestEntityTooLarge:
+        raise DeskError(413, "TooLarge", f"The body has more than {limits.body} bytes.") from None
+    except (web.HTTPException, ConnectionError):
+        raise
+    except Exception:
+        raise bad_request("The body could not be read.") from None
+
+
+def _not_found(path: str, desk: Desk) -> web.Response:
+    if path.startswith("/desk/"):
+        shown = path.removeprefix("/desk")[:200]
+        for sign, name in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;")):
+            shown = shown.replace(sign, name)
+        text = f'<!DOCTYPE html><title>404</title><p>No handler accepted "{shown}"</p>'
+        return web.Response(text=text, status=404, content_type="text/html")
+    if path.startswith("/api/") and desk.profile.v1:
+        return DeskError(404, "NotFound", f"There is nothing at {path[:200]}.").answer(True)
+    return web.Response(text="File not found", status=404)
+
+
+def own_desk(request: web.Request) -> Desk:
+    """The Desk that a request of a page means: by /robots/N, or the one of this address."""
+    return _desk_and_path(request)[0]
+
+
+__all__ = ["DESK", "DESKS", "GATE", "Site", "app_of", "make_app", "make_desks", "own_desk"]
