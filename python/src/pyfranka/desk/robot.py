@@ -51,14 +51,16 @@ class RobotGone(Exception):
 class Robot:
     """One robot's control interface. Everything runs in one event loop.
 
-    report: the newest report, or None before the first one and while the robot is gone; problem: why there is
-    none. number: of the newest report, counted from one. start() begins to ask for reports; requests of
-    Desk's clients are answered from the newest one, so that they never reach the robot.
+    report: the newest report, or None before the first one and while the robot is gone; text: the same in
+    JSON; problem: why there is none. number: of the newest report, counted from one. start() begins to ask
+    for reports; requests of Desk's clients are answered from the newest one, so that they never reach the
+    robot.
     """
 
     def __init__(self, address: str, port: int = PORT, period: float = PERIOD):
         self.address, self.port, self.period = address, port, period
         self.report: Report | None = None
+        self.text = ""
         self.problem = f"The robot at {self.place} has not answered yet."
         self.number = 0
         self._asked = self._published = 0
@@ -111,7 +113,7 @@ class Robot:
 
     async def refresh(self) -> Report:
         """A report of the robot after this call. Raises RobotGone."""
-        async with _Connection(self.address, self.port) as connection:
+        async with Connection(self.address, self.port) as connection:
             await self._ask_report(connection)
         if self.report is None:
             raise RobotGone(self.problem)
@@ -126,7 +128,7 @@ class Robot:
 
     async def _send(self, line: str, urgent: bool) -> str:
         async with self._urgent if urgent else self._lines:
-            async with _Connection(self.address, self.port) as connection:
+            async with Connection(self.address, self.port) as connection:
                 try:
                     return await connection.ask(line, LINE_LIMIT)
                 finally:
@@ -138,7 +140,7 @@ class Robot:
     async def _poll(self) -> None:
         while True:
             try:
-                async with _Connection(self.address, self.port) as connection:
+                async with Connection(self.address, self.port) as connection:
                     while True:
                         await self._ask_report(connection)
                         await asyncio.sleep(self.period)
@@ -147,7 +149,7 @@ class Robot:
             await asyncio.sleep(PAUSE)
 
     # An answer may overtake an older one on another connection: the older one is dropped.
-    async def _ask_report(self, connection: _Connection) -> None:
+    async def _ask_report(self, connection: Connection) -> None:
         self._asked += 1
         number = self._asked
         text = await connection.ask("report", REPORT_LIMIT)
@@ -155,7 +157,7 @@ class Robot:
             return
         self._published = number
         try:
-            self.report = report_of(text)
+            self.report, self.text = report_of(text), text
         except ValueError as error:
             raise RobotGone(
                 f"The report of the robot at {self.place} cannot be read: {error}. Use franka_sim and "
@@ -168,7 +170,7 @@ class Robot:
 
     def _lose(self, problem: str) -> None:
         if self.report is not None or self.problem != problem:
-            self.report, self.problem = None, problem
+            self.report, self.text, self.problem = None, "", problem
             self._tell()
 
     def _tell(self) -> None:
@@ -176,14 +178,22 @@ class Robot:
             listener()
 
 
-class _Connection:
+class Connection:
     """One TCP connection, on which lines are answered one after the other."""
 
     def __init__(self, address: str, port: int):
         self._address, self._port = address, port
         self._place = f"{address}, port {port}"
 
-    async def __aenter__(self) -> _Connection:
+    async def __aenter__(self) -> Connection:
+        await self.open()
+        return self
+
+    async def __aexit__(self, *error) -> None:
+        self.close()
+
+    async def open(self) -> None:
+        """Connects. Raises RobotGone."""
         opening = asyncio.open_connection(self._address, self._port, limit=LONGEST_ANSWER)
         try:
             self._reader, self._writer = await asyncio.wait_for(opening, CONNECT_LIMIT)
@@ -194,12 +204,14 @@ class _Connection:
                 f"There is no control interface at {self._place} ({error.strerror or error}). Start "
                 "franka_sim there, without --control-port 0."
             ) from None
-        return self
 
-    async def __aexit__(self, *error) -> None:
+    def close(self) -> None:
+        """Ends the connection."""
         self._writer.close()
 
     async def ask(self, line: str, limit: float) -> str:
+        """What follows `ok` in the answer to a line, which must come within that time [s]. Raises Refused or
+        RobotGone; after the latter the connection is of no use."""
         try:
             self._writer.write(line.encode() + b"\n")
             await self._writer.drain()

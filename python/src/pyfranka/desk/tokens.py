@@ -81,6 +81,12 @@ class Tokens:
             self._set_pending(None, "withdrawn")
             self._on_change()
 
+    def time_left(self) -> float:
+        """Time in which the forced request can still be confirmed [s]; 0 without one."""
+        if self._timer is None:
+            return 0.0
+        return max(0.0, self._timer.when() - asyncio.get_running_loop().time())
+
     def confirm_at_robot(self) -> None:
         """Someone has pressed the circle button: grants a forced request."""
         if self.pending is not None and self.pending.force:
