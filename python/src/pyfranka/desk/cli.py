@@ -103,6 +103,7 @@ async def _run(
     sites = []
     for number, robot in enumerate(robots):
         sites.append(await _open(app_of(desks, number), _ports(listen, robot, number)))
+        desks[number].power.site = sites[-1]
     for desk, site in zip(desks, sites):
         print(f"franka_desk: robot at {desk.robot.place}: https://{site.address}:{site.port}", flush=True)
     await _end(child)

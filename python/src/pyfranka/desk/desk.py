@@ -6,16 +6,26 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import time
 from collections.abc import Callable, Coroutine
 
+from aiohttp import WSCloseCode, web
+
+from pyfranka.desk import status
 from pyfranka.desk.answers import unavailable
+from pyfranka.desk.configuration import Configuration
+from pyfranka.desk.end_effectors import EndEffectors
 from pyfranka.desk.limits import Gate
+from pyfranka.desk.power import Power
 from pyfranka.desk.profiles import PROFILES, Profile, profile_of
 from pyfranka.desk.report import Report
 from pyfranka.desk.robot import Refused, Robot, RobotGone
 from pyfranka.desk.sessions import Sessions, User, Users
 from pyfranka.desk.settings import Settings
 from pyfranka.desk.tokens import Tokens
+
+RESTART = 2.0  # [s] that a restart of the software takes (chosen here)
+ATTEMPT = 0.5  # [s] between two attempts to switch an FCI on that is always on (chosen here)
 
 
 class Desk:
@@ -30,8 +40,18 @@ class Desk:
         self._profile = PROFILES.get(settings.profile)
         self._watchers: set[asyncio.Event] = set()
         self._tasks: set[asyncio.Task] = set()
+        self._switching_off: asyncio.Task | None = None
         self._last: Report | None = None
+        self._on_buttons: set[Callable[[dict[str, bool]], None]] = set()
+        self._sockets: set[web.WebSocketResponse] = set()
         self._on_report: list[Callable[[Report | None, Report], None]] = []
+        self.power = Power(self)
+        self.end_effectors = EndEffectors(self)
+        self.configuration = Configuration(self)
+        self.fci_desired = False  # it becomes active as soon as the robot's rules allow it
+        self.last_task: str | None = None
+        self._restarted = 0.0
+        self._next_attempt = 0.0
         robot.listen(self._follow)
 
     @property
@@ -55,6 +75,15 @@ class Desk:
             desk.sessions.add(token, user.name)
         return token
 
+    @property
+    def startup(self) -> str:
+        """Phase of the software's start."""
+        return "Started" if time.monotonic() >= self._restarted else "Starting"
+
+    def restart(self) -> None:
+        """Starts the robot's software again, as a Panda can."""
+        self._restarted = time.monotonic() + RESTART
+
     # ---- changes -----------------------------------------------------------------------------------------
 
     def on_report(self, listener: Callable[[Report | None, Report], None]) -> None:
@@ -76,6 +105,29 @@ class Desk:
         finally:
             self._watchers.discard(event)
 
+    @contextlib.contextmanager
+    def button_changes(self, listener: Callable[[dict[str, bool]], None]):
+        """Calls the listener with the Pilot's buttons that change."""
+        self._on_buttons.add(listener)
+        try:
+            yield
+        finally:
+            self._on_buttons.discard(listener)
+
+    @contextlib.contextmanager
+    def open_socket(self, socket: web.WebSocketResponse):
+        """A WebSocket that is closed when the robot goes down."""
+        self._sockets.add(socket)
+        try:
+            yield
+        finally:
+            self._sockets.discard(socket)
+
+    async def close_sockets(self) -> None:
+        """Tells all of them that the robot goes down."""
+        closing = [socket.close(code=WSCloseCode.GOING_AWAY) for socket in self._sockets]
+        await asyncio.gather(*closing, return_exceptions=True)
+
     # Control first, then what is told to clients: who sees the circle button pressed has control already.
     def _follow(self) -> None:
         before, now = self._last, self.robot.report
@@ -85,7 +137,27 @@ class Desk:
                 self.tokens.confirm_at_robot()
             for listener in self._on_report:
                 listener(before, now)
+            self._keep_fci(before, now)
+            if changes := status.changed_buttons(before, now):
+                for tell in list(self._on_buttons):
+                    tell(changes)
         self.changed()
+
+    # Where there are no tokens the FCI is always on; elsewhere it may have been desired before its time.
+    def _keep_fci(self, before: Report | None, now: Report) -> None:
+        stopped = now.inputs.x31 and before is not None and not before.inputs.x31
+        if stopped and before.fci and self.options.fci_after_stop:
+            self.fci_desired = True
+        if (
+            not (self.fci_desired or not self.profile.tokens)
+            or now.fci
+            or time.monotonic() < self._next_attempt
+        ):
+            return
+        if now.power and now.brakes_open and not now.brakes_moving and not now.inputs.x31:
+            self.fci_desired = False
+            self._next_attempt = time.monotonic() + ATTEMPT
+            self.begin(self.robot.send("fci on"))
 
     # ---- work beside requests ----------------------------------------------------------------------------
 
@@ -97,8 +169,9 @@ class Desk:
         return task
 
     async def settle(self) -> None:
-        """Waits for what a loss of control has begun."""
-        await asyncio.gather(*self._tasks)
+        """Waits until a loss of control has had its effect."""
+        if self._switching_off is not None:
+            await self._switching_off
 
     async def close(self) -> None:
         """Ends all work."""
@@ -109,7 +182,7 @@ class Desk:
     def _control_lost(self) -> None:
         if self.options.fci_after_release or self.robot.report is None or not self.robot.report.fci:
             return
-        self.begin(self.robot.send("fci off", urgent=True))
+        self._switching_off = self.begin(self.robot.send("fci off", urgent=True))
 
 
 async def _quietly(work: Coroutine) -> None:

@@ -1,12 +1,29 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The older interface: paths below /admin/api and /desk/api."""
+"""The older interface: paths below /admin/api and /desk/api. Success is 200, mostly without a body."""
 
 from __future__ import annotations
 
-from pyfranka.desk.access import COOKIE, check_password
-from pyfranka.desk.answers import bad_request, text_answer
-from pyfranka.desk.routes import Call, Login, Route
+import hashlib
+
+from aiohttp import web
+
+from pyfranka.desk import actions, checks
+from pyfranka.desk.access import COOKIE, check_login, check_password, check_token
+from pyfranka.desk.answers import bad_request, empty_answer, text_answer
+from pyfranka.desk.end_effectors import GENERIC, GRIPPER, PUMP, lists_of, load_of_lists
+from pyfranka.desk.routes import Call, Login, Route, Token, on_fr3, on_panda
+from pyfranka.desk.status import JOINTS, RECOVERABLE
+
+PROFILES = "/admin/api/end-effector/profiles"
+ERROR_IDS = {
+    **{name.lower(): name for name in RECOVERABLE},
+    "jointposition": "jointPositionError",
+}
+GUIDING_MODES = ("translation", "rotation", "free", "user")
+PILOT_MODES = {"one": "desk", "desk": "desk", "robot": "robot"}
+
+# ---- login -----------------------------------------------------------------------------------------------
 
 
 async def login(call: Call):
@@ -29,7 +46,296 @@ async def logout(call: Call):
             call.desk.sessions.close(token)
 
 
+async def login_page(call: Call):
+    """For people; with pages installed there is a better one."""
+    text = (
+        "<!DOCTYPE html><title>Desk</title><p>This robot's Desk has no pages here, only its interfaces.</p>"
+    )
+    return web.Response(text=text, content_type="text/html")
+
+
+async def first_start(call: Call):
+    """Whether the robot has never been set up."""
+    return False
+
+
+# ---- brakes, FCI, modes ----------------------------------------------------------------------------------
+
+
+async def unlock(call: Call):
+    """Opens the brakes, one joint after the other."""
+    await actions.unlock(call.desk)
+
+
+async def lock(call: Call):
+    """Closes the brakes. It needs no control: it is safe."""
+    await actions.lock(call.desk)
+
+
+async def activate_fci(call: Call):
+    """With the token as header or in the form."""
+    await actions.activate_fci(call.desk)
+
+
+async def deactivate_fci(call: Call):
+    """With the token as header or in the form."""
+    await actions.deactivate_fci(call.desk)
+
+
+async def execution_mode(call: Call):
+    """For tasks and the FCI."""
+    await call.desk.robot.send("operating_mode execution")
+
+
+async def programming_mode(call: Call):
+    """For guiding by hand; switches the FCI off."""
+    await call.desk.robot.send("operating_mode programming")
+
+
+async def guiding_mode(call: Call):
+    """Which directions are free."""
+    mode = _mode(call)
+    if mode not in GUIDING_MODES:
+        raise bad_request(f"mode is one of {', '.join(GUIDING_MODES)}.")
+    line = f"guiding_mode {mode}"
+    if mode == "user":
+        line += "".join(" on" if free else " off" for free in call.desk.report.guiding.axes)
+    await call.desk.robot.send(line)
+
+
+async def pilot_mode(call: Call):
+    """What the Pilot's arrow keys are for."""
+    mode = _mode(call)
+    if mode not in PILOT_MODES:
+        raise bad_request(f"mode is one of {', '.join(PILOT_MODES)}.")
+    await call.desk.robot.send(f"navigation {PILOT_MODES[mode]}")
+
+
+# ---- the arm ---------------------------------------------------------------------------------------------
+
+
+async def homing(call: Call):
+    """Finds the range of the hand; returns at the end."""
+    await call.desk.robot.send("hand homing")
+
+
+async def start_task(call: Call):
+    """The simulated robot has no tasks: each ends at once."""
+    call.desk.last_task = checks.text(call.form().get("id"), "id")
+
+
+async def stop_task(call: Call):
+    """None runs."""
+
+
+async def reset_errors(call: Call):
+    """Automatic error recovery."""
+    if call.desk.report.errors:
+        await call.desk.robot.send("recover")
+
+
+async def fold(call: Call):
+    """Moves to the pose for transport; returns at the end."""
+    await actions.move_to_pack_pose(call.desk)
+
+
+async def restart(call: Call):
+    """Closes the brakes and starts the software again."""
+    await actions.lock(call.desk)
+    call.desk.restart()
+
+
+async def position_errors(call: Call):
+    """Joints that have lost their position while the robot was off."""
+    return list(call.desk.report.joint_position_error)
+
+
+async def reset_position_error(call: Call):
+    """Takes a joint's present position as right."""
+    word = call.words[0]
+    if not word.isdigit() or not int(word) < JOINTS:
+        raise bad_request(f"A joint's number is 0 to {JOINTS - 1}.")
+    if call.desk.report.joint_position_error[int(word)]:
+        await call.desk.robot.send(f"inject jointPositionErrorDemand {int(word) + 1} off")
+
+
+# ---- the system ------------------------------------------------------------------------------------------
+
+
+async def reboot(call: Call):
+    """Answers first."""
+    call.desk.power.reboot()
+
+
+async def shut_down(call: Call):
+    """Answers first."""
+    call.desk.power.shut_down()
+
+
+async def system_version(call: Call):
+    """The version, and two lines that name its source."""
+    version = version_of(call)
+    return "\n".join([version, *(hashlib.sha1((version + part).encode()).hexdigest() for part in "ab")])
+
+
+def version_of(call: Call) -> str:
+    """Of the robot's software."""
+    return call.desk.options.version or call.desk.profile.version
+
+
+async def nameplate(call: Call):
+    """Who the robot is."""
+    return {"serialNumber": call.desk.options.serial_number, "armId": call.desk.report.arm_id}
+
+
+async def features(call: Call):
+    """What is installed."""
+    return {"fci": True}
+
+
+async def acknowledge(call: Call):
+    """Confirms a recoverable error."""
+    word = call.request.query.get("error_id", "")
+    name = ERROR_IDS.get(word.lower())
+    if name is None:
+        raise bad_request(f"error_id is one of {', '.join(ERROR_IDS.values())}.")
+    await actions.acknowledge(call.desk, name)
+
+
+async def self_test(call: Call):
+    """Starts the test; its end is seen in the states."""
+    await actions.self_test(call.desk, wait=False)
+    return {"code": "SuccessResponse"}
+
+
+# ---- end effectors ---------------------------------------------------------------------------------------
+
+
+async def selection(call: Call):
+    """A Panda's device."""
+    return call.desk.end_effectors.selection
+
+
+async def select(call: Call):
+    """A Panda's device."""
+    name = call.json()
+    if name not in (GENERIC, GRIPPER, PUMP):
+        raise bad_request(f"The end effector is {GENERIC}, {GRIPPER} or {PUMP}.")
+    call.desk.end_effectors.selection = name
+
+
+async def end_effector(call: Call):
+    """What a Panda assumes at its flange."""
+    return lists_of(call.desk)
+
+
+async def set_end_effector(call: Call):
+    """What a Panda assumes at its flange, from now on."""
+    await call.desk.end_effectors.set_load(load_of_lists(call.object()))
+
+
+async def profiles(call: Call):
+    """All of an FR3."""
+    return call.desk.end_effectors.list()
+
+
+async def active_profile(call: Call):
+    """The one that an FR3 assumes."""
+    return call.desk.end_effectors.active()
+
+
+async def add_profile(call: Call):
+    """A new one, which is not active."""
+    return {"id": call.desk.end_effectors.add(call.object())}
+
+
+async def change_profile(call: Call):
+    """The active one is changed only by who has control."""
+    if call.desk.end_effectors.is_active(call.words[0]):
+        check_token(call, Token.HEADER_LOCKED)
+    await call.desk.end_effectors.change(call.words[0], call.object())
+
+
+async def delete_profile(call: Call):
+    """One that is not active."""
+    call.desk.end_effectors.delete(call.words[0])
+
+
+async def activate_profile(call: Call):
+    """The body is its id, as a JSON string."""
+    await call.desk.end_effectors.activate(checks.text(call.json(), "The body"))
+
+
+async def _power_without_login(call: Call, action):
+    if not call.desk.options.power_without_login:
+        check_login(call.user, Login.USER)
+    await action(call)
+    return empty_answer(200)
+
+
+def _mode(call: Call) -> str:
+    return call.form().get("mode", "").strip('"')
+
+
+def _power(path: str, action) -> Route:
+    return Route("POST", path, lambda call: _power_without_login(call, action), login=Login.NONE)
+
+
+def _shutdown_errors(prefix: str) -> list[Route]:
+    path = f"{prefix}/robot/shutdown-position-error"
+    return [
+        Route("GET", path, position_errors, where=on_panda),
+        Route("DELETE", f"{path}/<joint>", reset_position_error, token=Token.HEADER, where=on_panda),
+    ]
+
+
 ROUTES = [
     Route("POST", "/admin/api/login", login, login=Login.NONE),
     Route("POST", "/admin/api/logout", logout),
+    Route("GET", "/admin/login", login_page, login=Login.NONE),
+    Route("GET", "/admin/api/first-start", first_start, login=Login.NONE),
+    Route("POST", "/desk/api/robot/open-brakes", unlock, token=Token.HEADER, where=on_panda),
+    Route("POST", "/desk/api/robot/close-brakes", lock, where=on_panda),
+    Route("POST", "/desk/api/joints/unlock", unlock, token=Token.HEADER, where=on_fr3),
+    Route("POST", "/desk/api/joints/lock", lock, where=on_fr3),
+    Route("POST", "/desk/api/system/fci", activate_fci, token=Token.HEADER_OR_FORM, where=on_fr3),
+    Route("DELETE", "/desk/api/system/fci", deactivate_fci, token=Token.HEADER_OR_FORM, where=on_fr3),
+    Route("POST", "/desk/api/operating-mode/execution", execution_mode, token=Token.HEADER, where=on_fr3),
+    Route("POST", "/desk/api/operating-mode/programming", programming_mode, token=Token.HEADER, where=on_fr3),
+    Route("PUT", "/desk/api/robot/guiding/mode", guiding_mode, token=Token.HEADER),
+    Route("PUT", "/desk/api/navigation/mode", pilot_mode, token=Token.HEADER),
+    Route("POST", "/desk/api/gripper/homing", homing, token=Token.HEADER),
+    Route("POST", "/desk/api/execution", start_task),
+    Route("DELETE", "/desk/api/execution", stop_task),
+    Route("POST", "/desk/api/robot/reset-errors", reset_errors, token=Token.HEADER),
+    Route("POST", "/desk/api/robot/fold", fold, token=Token.HEADER),
+    Route("POST", "/desk/api/robot/restart", restart, where=on_panda),
+    *_shutdown_errors("/desk/api"),
+    *_shutdown_errors("/admin/api"),
+    _power("/admin/api/reboot", reboot),
+    _power("/desk/api/reboot", reboot),
+    _power("/admin/api/shutdown", shut_down),
+    Route("GET", "/admin/api/system-version", system_version, login=Login.NONE),
+    Route("GET", "/admin/api/robot/nameplate", nameplate),
+    Route("GET", "/admin/api/features", features),
+    Route(
+        "POST",
+        "/admin/api/safety/recoverable-safety-errors/acknowledge",
+        acknowledge,
+        token=Token.HEADER,
+        where=on_fr3,
+    ),
+    Route("POST", "/admin/api/safety/td2-tests/execute", self_test, token=Token.HEADER, where=on_fr3),
+    Route("GET", "/admin/api/end-effectors/selection", selection, where=on_panda),
+    Route("PUT", "/admin/api/end-effectors/selection", select, token=Token.HEADER, where=on_panda),
+    Route("GET", "/admin/api/end-effector-configuration", end_effector, where=on_panda),
+    Route(
+        "POST", "/admin/api/end-effector-configuration", set_end_effector, token=Token.HEADER, where=on_panda
+    ),
+    Route("GET", PROFILES, profiles, where=on_fr3),
+    Route("POST", PROFILES, add_profile, where=on_fr3),
+    Route("GET", f"{PROFILES}/active", active_profile, where=on_fr3),
+    Route("PUT", f"{PROFILES}/active", activate_profile, token=Token.HEADER_LOCKED, where=on_fr3),
+    Route("PUT", f"{PROFILES}/<id>", change_profile, where=on_fr3),
+    Route("DELETE", f"{PROFILES}/<id>", delete_profile, where=on_fr3),
 ]

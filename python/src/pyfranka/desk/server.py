@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 from aiohttp import web
 
-from pyfranka.desk import access, legacy
+from pyfranka.desk import access, control, legacy, sockets, v1
 from pyfranka.desk.answers import DeskError, bad_request, empty_answer, json_answer, refusal, unavailable
 from pyfranka.desk.desk import Desk
 from pyfranka.desk.limits import Gate
@@ -29,7 +29,7 @@ _key = getattr(web, "AppKey", lambda name, kind: name)
 DESKS = _key("desks", list)  # of all robots
 DESK = _key("desk", Desk)  # of the robot at whose address the application listens
 GATE = _key("gate", Gate)
-ROUTES = Routes([*legacy.ROUTES])
+ROUTES = Routes([*legacy.ROUTES, *control.ROUTES, *v1.ROUTES, *sockets.ROUTES])
 OTHER_ROBOT = re.compile(r"/robots/(\d{1,3})(/.*)")
 HANDSHAKE_TIME = 10.0  # [s] for TLS (chosen here)
 log = logging.getLogger("franka_desk")
@@ -100,25 +100,27 @@ class Site:
 @web.middleware
 async def _finish(request: web.Request, handler) -> web.StreamResponse:
     """Limits and errors of every request, those of pages too."""
-    v1 = _path_of(request).startswith("/api/")
+    newer = _path_of(request).startswith("/api/")
     try:
         await request.app[GATE].enter(request)
         answer = await handler(request)
     except DeskError as error:
-        answer = error.answer(v1)
+        answer = error.answer(newer)
     except Refused as refused:
-        answer = refusal(refused).answer(v1)
+        answer = refusal(refused).answer(newer)
     except RobotGone as error:
-        answer = unavailable(str(error)).answer(v1)
+        answer = unavailable(str(error)).answer(newer)
     except web.HTTPException as error:
         if error.status < 400:
             raise
-        answer = DeskError(error.status, (error.reason or "").replace(" ", ""), f"{error.text}.").answer(v1)
+        answer = DeskError(error.status, (error.reason or "").replace(" ", ""), f"{error.text}.").answer(
+            newer
+        )
     except (asyncio.CancelledError, ConnectionError):
         raise
     except Exception:
         log.exception("%s %s", request.method, _path_of(request))
-        answer = DeskError(500, "InternalError", "Desk has made a mistake; its log says more.").answer(v1)
+        answer = DeskError(500, "InternalError", "Desk has made a mistake; its log says more.").answer(newer)
     if not answer.prepared:
         answer.headers.setdefault("Server", "franka_desk")
         answer.headers.setdefault("Cache-Control", "no-store")
@@ -129,6 +131,7 @@ async def _finish(request: web.Request, handler) -> web.StreamResponse:
 
 async def _dispatch(request: web.Request) -> web.StreamResponse:
     desk, path = _desk_and_path(request)
+    desk.power.check()
     body = await _body(request)
     matches = ROUTES.find(path, desk.profile)
     if not matches:
@@ -149,6 +152,8 @@ async def _answer(route: Route, call: Call) -> web.StreamResponse:
     call.user = await access.user_of(call.request, call.desk)
     access.check_login(call.user, route.login)
     access.check_token(call, route.token)
+    if route.socket:
+        return await _run(route, call)
     # A client that goes away does not leave an action half done.
     work = asyncio.get_running_loop().create_task(_run(route, call))
     return await asyncio.shield(work)

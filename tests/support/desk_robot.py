@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import copy
 import json
+import threading
 
 OPEN, CLOSED = [False] * 7, [True] * 7
 IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
@@ -63,7 +64,7 @@ REPORT = {
 
 class ScriptedRobot:
     """report: what it reports. answers: by line or its first word, an answer or a function of the words.
-    lines: what was sent, without `report`."""
+    lines: what was sent, without `report`. It serves in a thread of its own."""
 
     def __init__(self, **changes):
         self.report = {**copy.deepcopy(REPORT), **changes}
@@ -71,13 +72,19 @@ class ScriptedRobot:
         self.lines = []
         self.raw_report = None  # instead of the report
 
-    async def __aenter__(self):
-        self._server = await asyncio.start_server(self._serve, "127.0.0.1", 0)
+    def __enter__(self):
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
+        self._thread.start()
+        opening = asyncio.start_server(self._serve, "127.0.0.1", 0)
+        self._server = asyncio.run_coroutine_threadsafe(opening, self._loop).result(10)
         self.port = self._server.sockets[0].getsockname()[1]
         return self
 
-    async def __aexit__(self, *error):
-        self._server.close()
+    def __exit__(self, *error):
+        self._loop.call_soon_threadsafe(self._server.close)
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(10)
 
     async def _serve(self, reader, writer):
         with contextlib.suppress(OSError):

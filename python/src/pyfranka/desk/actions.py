@@ -1,0 +1,82 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What both interfaces let the robot do."""
+
+from __future__ import annotations
+
+import asyncio
+import typing
+
+from pyfranka.desk.answers import DeskError
+from pyfranka.desk.robot import Refused
+
+if typing.TYPE_CHECKING:
+    from pyfranka.desk.desk import Desk
+
+SELF_TEST_LIMIT = 300.0  # [s] to wait for its end (chosen here: the longest wait of a client)
+
+
+async def unlock(desk: Desk) -> None:
+    """Opens the brakes; returns when all are open."""
+    await desk.robot.send("joints unlock")
+
+
+async def lock(desk: Desk) -> None:
+    """Ends motions, switches the FCI off and closes the brakes."""
+    desk.fci_desired = False
+    if desk.report.fci:
+        await desk.robot.send("fci off", urgent=True)
+    await desk.robot.send("joints lock", urgent=True)
+
+
+async def activate_fci(desk: Desk) -> None:
+    """Lets FCI clients connect. Raises Refused by the robot's rules."""
+    report = desk.report
+    if report.fci:
+        return
+    if desk.options.fci_before_unlock and not report.brakes_open:
+        desk.fci_desired = True
+        return
+    await desk.robot.send("fci on")
+
+
+async def deactivate_fci(desk: Desk) -> None:
+    """Ends the client's motion and its connection."""
+    desk.fci_desired = False
+    if desk.report.fci:
+        await desk.robot.send("fci off", urgent=True)
+
+
+async def acknowledge(desk: Desk, name: str) -> None:
+    """Confirms a recoverable error. Raises DeskError if it is not present."""
+    try:
+        await desk.robot.send(f"acknowledge {name}")
+    except Refused as refused:
+        if refused.code != "NoAckRequired":
+            raise
+        status = desk.options.no_acknowledge_status
+        raise DeskError(status, "ActionUnavailable", refused.sentence, [refused.code]) from None
+
+
+async def self_test(desk: Desk, wait: bool) -> None:
+    """Starts the self-test; returns at once or when it has ended."""
+    await desk.robot.send("self_test")
+    if wait:
+        await asyncio.wait_for(_until_tested(desk), SELF_TEST_LIMIT)
+
+
+async def move_to_pack_pose(desk: Desk) -> None:
+    """Returns when the robot is there, or refuses it."""
+    await desk.robot.send("move pack")
+
+
+async def stop_motion(desk: Desk) -> None:
+    """Ends Desk's own motion."""
+    await desk.robot.send("move stop", urgent=True)
+
+
+async def _until_tested(desk: Desk) -> None:
+    with desk.watch() as event:
+        while desk.report.self_test.running:
+            event.clear()
+            await event.wait()

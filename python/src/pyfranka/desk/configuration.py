@@ -1,0 +1,131 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The configuration of the newer interface: end effector, network, users, mounting."""
+
+from __future__ import annotations
+
+import math
+import typing
+
+from pyfranka.desk import checks
+from pyfranka.desk.answers import bad_request
+from pyfranka.desk.end_effectors import ANGLES, Load, load_of_objects
+from pyfranka.desk.sessions import User, digest_of
+
+if typing.TYPE_CHECKING:
+    from pyfranka.desk.desk import Desk
+
+Json = dict[str, typing.Any]
+END_EFFECTORS = ("None", "FrankaHand", "CobotPump", "GenericCan", "Other")
+ROLES = ("Admin", "SafetyOperator", "Operator")
+END_EFFECTOR, NETWORK, USERS = "endEffectorConfiguration", "networkConfiguration", "userConfiguration"
+MOST_USERS = 50  # (chosen here)
+
+
+class Configuration:
+    """Kept while the program runs. The network's part is kept only: the address is the command line's."""
+
+    def __init__(self, desk: Desk):
+        self._desk = desk
+        self._end_effector: Json | None = None
+        self._network: Json = {
+            "robot": {"network": {"address": desk.robot.address, "netmask": "255.255.255.0"}},
+            "shopFloor": {"type": "Dhcp", "address": "", "netmask": ""},
+        }
+        self.mounting: Json = {"orientation": dict.fromkeys(ANGLES, 0.0)}
+
+    def get(self) -> Json:
+        """All of it; passwords are never shown."""
+        users = [{"name": user.name, "role": user.role} for user in self._desk.users]
+        return {
+            END_EFFECTOR: {"endEffector": self._end_effector or self._present_end_effector()},
+            NETWORK: self._network,
+            USERS: {"users": users},
+        }
+
+    async def patch(self, value: Json) -> None:
+        """Replaces the parts that are given, all of them or none."""
+        checks.known(value, (END_EFFECTOR, NETWORK, USERS), "The configuration")
+        effector = _end_effector(value[END_EFFECTOR]) if END_EFFECTOR in value else None
+        network = _network(value[NETWORK], self._network) if NETWORK in value else None
+        users = self._users(value[USERS]) if USERS in value else None
+        if effector is not None:
+            await self._desk.end_effectors.set_load(effector[1])
+            self._end_effector = effector[0]
+        if network is not None:
+            self._network = network
+        if users is not None:
+            self._set_users(users)
+
+    def set_mounting(self, value: Json) -> None:
+        """The base's orientation; the simulated world's gravity stays."""
+        angles = checks.members(value.get("orientation"), ANGLES, "orientation", 2 * math.pi)
+        self.mounting = {"orientation": dict(zip(ANGLES, angles))}
+
+    def _present_end_effector(self) -> Json:
+        active = self._desk.end_effectors.active()
+        inertial, name = active["inertial"], "Other"
+        if inertial["mass"] == 0.0:
+            name = "None"
+        elif active["deviceId"] == "ee-gripper":
+            name = "FrankaHand"
+        return {"name": name, "params": {**inertial, "transformation": active["tcp"]}}
+
+    # A password that is not given stays.
+    def _users(self, value: typing.Any) -> list[User]:
+        entries = value.get("users") if isinstance(value, dict) else None
+        if not isinstance(entries, list) or not 0 < len(entries) <= MOST_USERS:
+            raise bad_request(f"users is a list of 1 to {MOST_USERS} users.")
+        users = [self._user(entry) for entry in entries]
+        if len({user.name for user in users}) < len(users):
+            raise bad_request("Two users have the same name.")
+        if not any(user.role == "Admin" for user in users):
+            raise bad_request("One user at least has the role Admin.")
+        return users
+
+    def _user(self, entry: typing.Any) -> User:
+        if not isinstance(entry, dict):
+            raise bad_request("A user is an object with name, password and role.")
+        name = checks.text(entry.get("name"), "name")
+        if ":" in name or not name.isprintable():
+            raise bad_request("A user's name has printable characters without a colon.")
+        role = entry.get("role")
+        if role not in ROLES:
+            raise bad_request(f"role is one of {', '.join(ROLES)}.")
+        known = self._desk.users.get(name)
+        if known is not None and entry.get("password") is None:
+            return User(name, known.digest, role)
+        return User(name, digest_of(name, checks.text(entry.get("password"), "password")), role)
+
+    def _set_users(self, users: list[User]) -> None:
+        digests = {user.name: user.digest for user in users}
+        for user in self._desk.users:
+            if digests.get(user.name) != user.digest:
+                for desk in self._desk.all:
+                    desk.sessions.close_of(user.name)
+        self._desk.users.replace(users)
+
+
+def _end_effector(value: typing.Any) -> tuple[Json, Load]:
+    entry = value.get("endEffector") if isinstance(value, dict) else None
+    if not isinstance(entry, dict) or entry.get("name") not in END_EFFECTORS:
+        raise bad_request(f"endEffector needs a name: {', '.join(END_EFFECTORS)}.")
+    params = entry.get("params")
+    if entry["name"] == "None" and params is None:
+        return {"name": "None", "params": None}, Load()
+    if not isinstance(params, dict):
+        raise bad_request("endEffector needs params: mass, centerOfMass, inertia, transformation.")
+    return {"name": entry["name"], "params": params}, load_of_objects(params, params.get("transformation"))
+
+
+def _network(value: typing.Any, present: Json) -> Json:
+    if not isinstance(value, dict):
+        raise bad_request("networkConfiguration is an object.")
+    checks.known(value, present, "networkConfiguration")
+    for part in value.values():
+        if not isinstance(part, dict):
+            raise bad_request("The parts of networkConfiguration are objects.")
+    shop_floor = value.get("shopFloor", present["shopFloor"])
+    if shop_floor.get("type") not in ("Static", "Dhcp"):
+        raise bad_request("shopFloor.type is Static or Dhcp.")
+    return {**present, **value}

@@ -1,0 +1,106 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Reboot and shutdown: Desk is gone while the robot is off."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+import typing
+
+from pyfranka.desk.answers import unavailable
+from pyfranka.desk.report import Report
+from pyfranka.desk.robot import Refused, RobotGone
+
+if typing.TYPE_CHECKING:
+    from pyfranka.desk.desk import Desk
+    from pyfranka.desk.server import Site
+
+BRIEFLY = 0.3  # [s] in which Desk still answers (chosen here)
+PAUSE = 0.5  # [s] between two attempts to switch the robot on (chosen here)
+
+
+class Power:
+    """down: whether the robot is off or boots. site: where its Desk listens; it closes meanwhile."""
+
+    def __init__(self, desk: Desk):
+        self.down = False
+        self.site: Site | None = None
+        self._desk = desk
+        self._task: asyncio.Task | None = None
+        desk.on_report(self._follow)
+
+    def check(self) -> None:
+        """Raises DeskError (503) while the robot is off."""
+        if self.down:
+            raise unavailable("The robot is off or boots.")
+
+    def reboot(self) -> None:
+        """Takes the robot away and brings it back."""
+        self._begin(self._reboot())
+
+    def shut_down(self) -> None:
+        """Takes the robot away; the control interface's line `power on` brings it back."""
+        self._begin(self._shut_down())
+
+    def _begin(self, work: typing.Coroutine) -> None:
+        if self._task is None or self._task.done():
+            self._task = self._desk.begin(work)
+        else:
+            work.close()
+
+    async def _reboot(self) -> None:
+        await asyncio.sleep(BRIEFLY)
+        begin = time.monotonic()
+        await self._go_down()
+        await self._send("power off")
+        duration = self._desk.options.boot_time or self._desk.profile.boot
+        await asyncio.sleep(max(0.0, begin + duration - time.monotonic()))
+        await self._send("power on")
+        await self._come_back()
+
+    async def _shut_down(self) -> None:
+        await asyncio.sleep(BRIEFLY)
+        await self._go_down()
+        await self._send("power off")
+        await self._wait_and_come_back()
+
+    # Someone has switched it off at the control interface.
+    def _follow(self, before: Report | None, now: Report) -> None:
+        if not now.power and (self._task is None or self._task.done()):
+            self._begin(self._was_switched_off())
+
+    async def _was_switched_off(self) -> None:
+        await self._go_down()
+        await self._wait_and_come_back()
+
+    async def _wait_and_come_back(self) -> None:
+        with self._desk.watch() as event:
+            while self._desk.robot.report is None or not self._desk.robot.report.power:
+                event.clear()
+                await event.wait()
+        await self._come_back()
+
+    async def _go_down(self) -> None:
+        self.down = True
+        self._desk.sessions.clear()
+        self._desk.tokens.clear()
+        self._desk.fci_desired = False
+        await self._desk.close_sockets()
+        if self.site is not None:
+            await self.site.close()
+
+    async def _come_back(self) -> None:
+        self.down = False
+        if self.site is not None:
+            await self.site.open()
+
+    async def _send(self, line: str) -> None:
+        while True:
+            try:
+                await self._desk.robot.send(line, urgent=True)
+                return
+            except Refused:
+                return  # it is so already
+            except RobotGone:
+                await asyncio.sleep(PAUSE)

@@ -1,0 +1,81 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What stands between the robot and work after an error, and how it is confirmed (newer interface)."""
+
+from __future__ import annotations
+
+import typing
+
+from pyfranka.desk.actions import acknowledge
+from pyfranka.desk.answers import DeskError, bad_request
+from pyfranka.desk.report import Report
+
+if typing.TYPE_CHECKING:
+    from pyfranka.desk.desk import Desk
+
+Json = dict[str, typing.Any]
+SAFETY_ERRORS = ("fsoeConnectionError", "environmentDataTimeout")
+SAFE_INPUTS = {
+    "safeInputErrorX31": "x31",
+    "safeInputErrorX32": "x32",
+    "safeInputErrorX33": "x33",
+    "safeInputErrorX4": "x4",
+    "guidingEnablingDevice": "guidingEnableButton",
+}
+# Only a person at the robot ends these.
+AT_ROBOT = ("JointPositionError", "JointLimitViolation")
+TYPES = (
+    "SafetyError",
+    "GenericJointError",
+    "SafeInputUnacknowledged",
+    "SelfTestsElapsed",
+    "LifetimeStatusExceeded",
+    "SafetyRuleViolation",
+    *AT_ROBOT,
+)
+
+
+def recovery(report: Report) -> Json | None:
+    """What has to be recovered first."""
+    found = report.recoverable
+    if errors := [name for name in SAFETY_ERRORS if name in found]:
+        return {"type": "SafetyError", "safetyErrors": errors}
+    if "genericJointError" in found:
+        return {"type": "GenericJointError"}
+    if inputs := [word for name, word in SAFE_INPUTS.items() if name in found]:
+        return {"type": "SafeInputUnacknowledged", "safeInputs": inputs}
+    if "td2Timeout" in found:
+        return {"type": "SelfTestsElapsed"}
+    if "jointPositionError" in found or any(report.joint_position_error):
+        return {"type": "JointPositionError"}
+    if any(report.joint_limit_violation):
+        return {"type": "JointLimitViolation"}
+    return None
+
+
+async def confirm(desk: Desk, value: Json) -> None:
+    """Acknowledges the errors of a type; without one, what has to be recovered first."""
+    present = recovery(desk.report) or {}
+    kind = value.get("type", present.get("type", ""))
+    if kind and kind not in TYPES:
+        raise bad_request(f"type is one of {', '.join(TYPES)}.")
+    if kind in AT_ROBOT and kind == present.get("type"):
+        raise DeskError(
+            424, "ActionUnavailable", "A joint has to be recovered at the robot.", ["JointRecoveryRequired"]
+        )
+    names = [name for name in _names(kind) if name in desk.report.recoverable]
+    if not names:
+        raise DeskError(
+            424, "ActionUnavailable", "Nothing of this type has to be confirmed.", ["NoAckRequired"]
+        )
+    for name in names:
+        await acknowledge(desk, name)
+
+
+def _names(kind: str) -> typing.Sequence[str]:
+    return {
+        "SafetyError": SAFETY_ERRORS,
+        "GenericJointError": ("genericJointError",),
+        "SafeInputUnacknowledged": tuple(SAFE_INPUTS),
+        "SelfTestsElapsed": ("td2Timeout",),
+    }.get(kind, ())

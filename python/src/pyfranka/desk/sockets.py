@@ -1,0 +1,199 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""WebSockets. Each one's path also answers a plain GET, with what it would send first."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import typing
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from aiohttp import WSMsgType, web
+
+from pyfranka.desk import status
+from pyfranka.desk.answers import json_answer
+from pyfranka.desk.limits import address_of
+from pyfranka.desk.routes import Call, Login, Route, Where, everywhere, on_fr3, with_tokens, with_v1
+
+if typing.TYPE_CHECKING:
+    from pyfranka.desk.desk import Desk
+
+PING = 30.0  # [s] between two pings, which find clients that are gone (chosen here)
+LONGEST_MESSAGE = 4096  # [bytes] of a client, which has nothing to send (chosen here)
+WRITE_LIMIT = 10.0  # [s] for a client to take a message (chosen here)
+UNREAD_EVENTS = 1000  # of a client that does not read (chosen here)
+VOLATILE = {"sequenceNumber", "timeToTd2"}  # members that alone are no change
+
+
+@dataclass(frozen=True)
+class Topic:
+    """What a WebSocket sends: snapshots, with a period [s] or on changes and once a second."""
+
+    path: str
+    snapshot: Callable[[Desk], typing.Any]
+    period: float = 1.0
+    on_change: bool = True
+    login: Login = Login.USER
+    where: Where = everywhere
+
+
+def _connected(desk: Desk) -> typing.Any:
+    return {"connectionStatus": "connected"}
+
+
+TOPICS = [
+    Topic("/admin/api/control-token", status.control_token, login=Login.NONE, where=with_tokens),
+    Topic("/admin/api/system-status", status.system_status, login=Login.NONE, where=on_fr3),
+    Topic("/admin/api/safety/status", status.safety_status, login=Login.NONE, where=on_fr3),
+    Topic("/admin/api/startup-phase", lambda desk: {"tag": desk.startup}, login=Login.NONE),
+    Topic("/admin/api/processes", lambda desk: "Up", on_change=False),
+    Topic("/admin/api/end-effector", lambda desk: desk.end_effectors.active()),
+    Topic("/desk/api/robot/configuration", status.robot_configuration, 0.1, False),
+    Topic("/desk/api/system/status", status.hardware_status, 0.5, False),
+    Topic("/desk/api/robot/status", status.robot_status),
+    Topic("/desk/api/robot/gripper_state", status.gripper_state, 1 / 15, False),
+    Topic("/desk/api/events/gripper/hardware", status.gripper_hardware),
+    Topic("/desk/api/pilot/hardware", _connected),
+    Topic("/desk/api/base-leds/hardware", _connected),
+    Topic("/desk/api/robot/guiding/mode", lambda desk: desk.report.guiding.mode),
+    Topic("/desk/api/robot/guiding/configuration", status.guiding_configuration),
+    Topic("/desk/api/navigation/mode", lambda desk: desk.report.navigation),
+    Topic("/desk/api/notification", lambda desk: []),
+    Topic("/desk/api/execution", status.execution),
+    Topic("/desk/api/timelines", lambda desk: []),
+    Topic("/desk/api/skills", lambda desk: []),
+    Topic("/desk/api/groups", lambda desk: []),
+]
+
+
+def _handler(topic: Topic):
+    async def handle(call: Call):
+        if not _is_upgrade(call.request):
+            return json_answer(topic.snapshot(call.desk))
+        topic.snapshot(call.desk)  # an error is an answer, not an end of the socket
+        return await _serve(call, lambda send: _send_snapshots(call.desk, topic, send))
+
+    return handle
+
+
+async def navigation_events(call: Call):
+    """The Pilot's buttons: all of them first, then those that change."""
+    if not _is_upgrade(call.request):
+        return json_answer(status.pressed_buttons(call.desk.report))
+    queue: asyncio.Queue[dict[str, bool]] = asyncio.Queue(UNREAD_EVENTS)
+    first = status.pressed_buttons(call.desk.report)
+
+    def offer(changes: dict[str, bool]) -> None:
+        if not queue.full():  # otherwise sending takes too long, which ends the socket
+            queue.put_nowait(changes)
+
+    with call.desk.button_changes(offer):
+        return await _serve(call, lambda send: _send_queue(first, queue, send))
+
+
+async def server_sent_events(call: Call):
+    """The state of the newer interface as an event stream."""
+    from pyfranka.desk.v1 import system  # which has the route of this handler
+
+    response = web.StreamResponse(headers={"Content-Type": "text/event-stream", "Cache-Control": "no-store"})
+    topic = Topic("", lambda desk: {"system": system(desk), "controlToken": status.control_token(desk)})
+    text = json.dumps(topic.snapshot(call.desk))
+    with call.desk.gate.sockets.one(address_of(call.request)):
+        await response.prepare(call.request)
+        if call.request.method == "HEAD":
+            return response
+        await response.write(f"data: {text}\n\n".encode())
+
+        async def send(value: typing.Any) -> None:
+            data = f"data: {json.dumps(value)}\n\n".encode()
+            await asyncio.wait_for(response.write(data), WRITE_LIMIT)
+
+        with contextlib.suppress(ConnectionError, asyncio.TimeoutError):
+            await _send_snapshots(call.desk, topic, send, lambda: call.request.transport is not None)
+    return response
+
+
+ROUTES = [
+    *(
+        Route("GET", topic.path, _handler(topic), login=topic.login, where=topic.where, socket=True)
+        for topic in TOPICS
+    ),
+    Route("GET", "/desk/api/navigation/events", navigation_events, socket=True),
+    Route("GET", "/api/system/sse", server_sent_events, login=Login.NONE, where=with_v1, socket=True),
+]
+
+
+def _is_upgrade(request: web.Request) -> bool:
+    return request.headers.get("Upgrade", "").lower() == "websocket"
+
+
+async def _serve(call: Call, work: Callable[[Callable], typing.Awaitable[None]]) -> web.WebSocketResponse:
+    """Runs the work, which sends, until the client closes."""
+    socket = web.WebSocketResponse(heartbeat=PING, max_msg_size=LONGEST_MESSAGE, compress=False)
+    with call.desk.gate.sockets.one(address_of(call.request)):
+        await socket.prepare(call.request)
+
+        async def send(value: typing.Any) -> None:
+            await asyncio.wait_for(socket.send_str(json.dumps(value)), WRITE_LIMIT)
+
+        sender = asyncio.get_running_loop().create_task(_until_gone(work(send)))
+        with call.desk.open_socket(socket):
+            try:
+                await _read(socket, sender)
+            finally:
+                sender.cancel()
+                await asyncio.gather(sender, return_exceptions=True)
+    return socket
+
+
+# Reading answers pings and sees the end.
+async def _read(socket: web.WebSocketResponse, sender: asyncio.Task) -> None:
+    sender.add_done_callback(lambda _: asyncio.get_running_loop().create_task(socket.close()))
+    async for message in socket:
+        if message.type is WSMsgType.ERROR:
+            return
+
+
+async def _until_gone(work: typing.Awaitable[None]) -> None:
+    with contextlib.suppress(ConnectionError, asyncio.TimeoutError, RuntimeError):
+        await work
+
+
+async def _send_snapshots(
+    desk: Desk, topic: Topic, send: Callable, goes_on: Callable[[], bool] = lambda: True
+) -> None:
+    loop = asyncio.get_running_loop()
+    last, due = None, 0.0
+    with desk.watch() as event:
+        while goes_on():
+            if desk.robot.report is not None:
+                value = topic.snapshot(desk)
+                key = _without_volatile(value) if topic.on_change else None
+                if loop.time() >= due or key != last:
+                    await send(value)
+                    last, due = key, max(due + topic.period, loop.time() + 0.5 * topic.period)
+            with contextlib.suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(_next(event, topic, due - loop.time()), topic.period)
+
+
+async def _next(event: asyncio.Event, topic: Topic, left: float) -> None:
+    if topic.on_change:
+        event.clear()
+        await event.wait()
+    else:
+        await asyncio.sleep(max(0.0, left))
+
+
+async def _send_queue(first: dict[str, bool], queue: asyncio.Queue, send: Callable) -> None:
+    await send(first)
+    while True:
+        await send(await queue.get())
+
+
+def _without_volatile(value: typing.Any) -> typing.Any:
+    if not isinstance(value, dict):
+        return value
+    return {key: _without_volatile(each) for key, each in value.items() if key not in VOLATILE}

@@ -1,0 +1,286 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The newer interface: paths below /api. Actions answer 204 without a body."""
+
+from __future__ import annotations
+
+import asyncio
+
+from pyfranka.desk import actions, checks, status
+from pyfranka.desk.access import not_in_control
+from pyfranka.desk.answers import DeskError, bad_request, json_answer
+from pyfranka.desk.recovery import confirm, recovery
+from pyfranka.desk.routes import Call, Login, Route, Token, with_v1
+from pyfranka.desk.tokens import Request
+
+# Clients close their side after the time that they have given: an answer comes earlier, if that is long.
+LONG, EARLIER = 5.0, 0.5  # [s]
+LOOK = 0.1  # [s] between two looks whether a waiting client is still there (chosen here)
+PACK_POSE = "MoveToPackPose"
+
+
+def system(desk) -> status.Json:
+    """Of the whole robot."""
+    report, options = desk.report, desk.options
+    value = {
+        "status": desk.startup,
+        "operatingMode": {"status": status.operating_mode(report)},
+        "controlSerialNumber": options.serial_number,
+        "cloud": {"connected": False},
+    }
+    if options.time_to_td2_in_system:
+        value["safety"] = {"timeToTd2": round(report.self_test.due, 3)}
+    return value
+
+
+async def get_system(call: Call):
+    return system(call.desk)
+
+
+async def reboot(call: Call):
+    call.desk.power.reboot()
+
+
+async def shut_down(call: Call):
+    call.desk.power.shut_down()
+
+
+async def operating_mode(call: Call):
+    return {"status": status.operating_mode(call.desk.report)}
+
+
+async def change_operating_mode(call: Call):
+    desired = call.object().get("desiredOperatingMode")
+    if desired != "Execution":
+        raise bad_request("desiredOperatingMode is Execution; Programming is set in Desk.")
+    await call.desk.robot.send("operating_mode execution")
+
+
+# ---- control ---------------------------------------------------------------------------------------------
+
+
+async def control_token(call: Call):
+    active, pending = call.desk.tokens.active, call.desk.tokens.pending
+    value = {"owner": active and active.owner, "requester": pending and pending.owner}
+    if call.desk.options.token_id:
+        value["tokenId"] = active and active.id
+    return value
+
+
+async def take_control(call: Call):
+    """Waits while someone has control."""
+    body = call.object()
+    owner = checks.text(body.get("owner"), "owner")
+    timeout = body.get("timeout")
+    if timeout is not None and not checks.number(timeout, "timeout") > 0.0:
+        raise bad_request("timeout is a positive number of seconds.")
+    request = call.desk.tokens.request(owner)
+    try:
+        await _wait_for_control(call, request, timeout)
+    finally:
+        call.desk.tokens.withdraw(request)
+    value = {"token": request.token}
+    if call.desk.options.token_id:
+        value["tokenId"] = request.id
+    return value
+
+
+async def release_control(call: Call):
+    token = call.request.headers.get("X-Control-Token", "")
+    if not call.desk.tokens.is_active(token):
+        raise not_in_control()
+    call.desk.tokens.release(token)
+    await call.desk.settle()
+
+
+async def _wait_for_control(call: Call, request: Request, timeout: float | None) -> None:
+    loop = asyncio.get_running_loop()
+    end = None if timeout is None else loop.time() + timeout - (EARLIER if timeout >= LONG else 0.0)
+    while not request.answer.done():
+        if call.request.transport is None:
+            raise DeskError(424, "Withdrawn", "The client has gone.")
+        left = LOOK if end is None else min(LOOK, end - loop.time())
+        if left <= 0.0:
+            break
+        await asyncio.wait([request.answer], timeout=left)
+    answer = request.answer.result() if request.answer.done() else "timeout"
+    if answer == "replaced":
+        raise DeskError(424, "RequestOverride", "A newer request for control has replaced this one.")
+    if answer != "granted":
+        why = "The holder has not given control in time." if answer == "timeout" else "Control was not given."
+        raise DeskError(424, "Timeout", why)
+
+
+# ---- FCI, arm, end effector ------------------------------------------------------------------------------
+
+
+async def fci(call: Call):
+    return {"status": "Active" if call.desk.report.fci else "Inactive"}
+
+
+async def activate_fci(call: Call):
+    await actions.activate_fci(call.desk)
+
+
+async def deactivate_fci(call: Call):
+    await actions.deactivate_fci(call.desk)
+
+
+async def arm(call: Call):
+    return {"status": "Connected", "armType": call.desk.report.type.upper()}
+
+
+async def joints(call: Call):
+    return [
+        {"joint": number, "brakeStatus": word}
+        for number, word in enumerate(status.brakes(call.desk.report), start=1)
+    ]
+
+
+async def unlock(call: Call):
+    await actions.unlock(call.desk)
+
+
+async def lock(call: Call):
+    await actions.lock(call.desk)
+
+
+async def warnings(call: Call):
+    return {"closeToSingularity": status.close_to_singularity(call.desk.report)}
+
+
+async def start_motion(call: Call):
+    if call.object().get("type") != PACK_POSE:
+        raise bad_request(f"type is {PACK_POSE}.")
+    await actions.move_to_pack_pose(call.desk)
+
+
+async def stop_motion(call: Call):
+    await actions.stop_motion(call.desk)
+
+
+async def end_effector_power(call: Call):
+    return {"status": status.switch(call.desk.report.end_effector.power)}
+
+
+async def end_effector_on(call: Call):
+    await call.desk.robot.send("end_effector_power on")
+
+
+async def end_effector_off(call: Call):
+    await call.desk.robot.send("end_effector_power off")
+
+
+# ---- safety ----------------------------------------------------------------------------------------------
+
+
+async def self_tests(call: Call):
+    report = call.desk.report
+    remaining = report.self_test.left if report.self_test.running else report.self_test.due
+    return {"status": status.self_test_status(report), "remaining": round(max(0.0, remaining), 3)}
+
+
+async def execute_self_tests(call: Call):
+    await actions.self_test(call.desk, wait=True)
+
+
+async def get_recovery(call: Call):
+    value = recovery(call.desk.report)
+    if value is None:
+        return {}
+    top = {"type": value["type"]} if call.desk.options.recovery_type_on_top else {}
+    return {**top, "recovery": value}
+
+
+async def confirm_recovery(call: Call):
+    await confirm(call.desk, call.object({}))
+
+
+# ---- configuration, system software ----------------------------------------------------------------------
+
+
+async def configuration(call: Call):
+    return call.desk.configuration.get()
+
+
+async def change_configuration(call: Call):
+    await call.desk.configuration.patch(call.object())
+
+
+async def mounting(call: Call):
+    return call.desk.configuration.mounting
+
+
+async def set_mounting(call: Call):
+    call.desk.configuration.set_mounting(call.object())
+
+
+async def initial_configuration(call: Call):
+    """The robot has been set up already."""
+    call.object()
+
+
+async def nothing(call: Call):
+    """What the simulated robot does not have."""
+    return json_answer({})
+
+
+async def software(call: Call):
+    return {"version": call.desk.options.version or call.desk.profile.version, "status": "Current"}
+
+
+async def no_update(call: Call):
+    raise DeskError(424, "ActionUnavailable", "The simulated robot has no software to update.", ["NoUpdate"])
+
+
+def _get(path: str, handler, login: Login = Login.USER) -> Route:
+    return Route("GET", path, handler, login=login, where=with_v1)
+
+
+def _do(path: str, handler, token: Token = Token.HEADER, login: Login = Login.USER, method: str = "POST"):
+    return Route(method, path, handler, login=login, token=token, where=with_v1)
+
+
+ROUTES = [
+    _get("/api/system", get_system, Login.NONE),
+    _get("/api/system/operating-mode", operating_mode, Login.NONE),
+    _get("/api/system/control-token", control_token, Login.NONE),
+    _get("/api/fci", fci, Login.NONE),
+    _get("/api/arm", arm, Login.NONE),
+    _get("/api/arm/joints", joints, Login.NONE),
+    _get("/api/arm/warnings", warnings, Login.NONE),
+    _get("/api/end-effector/power", end_effector_power, Login.NONE),
+    _get("/api/safety/self-tests", self_tests),
+    _get("/api/safety/recovery", get_recovery),
+    _get("/api/configuration", configuration),
+    _get("/api/configuration/arm-mounting", mounting),
+    _get("/api/system/log", nothing),
+    _get("/api/system/log/public/cyclic", nothing),
+    _get("/api/system/log/public/events", nothing),
+    _get("/api/system/software", software),
+    _get("/api/system/software/status-token", nothing),
+    _get("/api/system/software/update", nothing),
+    _do("/api/system:reboot", reboot, Token.NONE),
+    _do("/api/system:shutdown", shut_down, Token.NONE),
+    _do("/api/system/operating-mode:change", change_operating_mode),
+    _do("/api/system/control-token:take", take_control, Token.NONE),
+    _do("/api/system/control-token:release", release_control),
+    _do("/api/fci:activate", activate_fci),
+    _do("/api/fci:deactivate", deactivate_fci),
+    _do("/api/arm/joints:unlock", unlock),
+    _do("/api/arm/joints:lock", lock, Token.NONE),
+    _do("/api/arm/motion:start", start_motion),
+    _do("/api/arm/motion:stop", stop_motion),
+    _do("/api/end-effector/power:on", end_effector_on),
+    _do("/api/end-effector/power:off", end_effector_off),
+    _do("/api/safety/self-tests:execute", execute_self_tests),
+    _do("/api/safety/recovery:confirm", confirm_recovery, Token.NONE, Login.SAFETY),
+    _do("/api/safety/recovery:start", confirm_recovery, Token.NONE, Login.SAFETY),
+    _do("/api/configuration", change_configuration, Token.NONE, Login.ADMIN, "PATCH"),
+    _do("/api/configuration/arm-mounting", set_mounting, Token.HEADER, Login.ADMIN, "PUT"),
+    _do("/api/configuration/initial", initial_configuration, Token.NONE, Login.ADMIN, "PUT"),
+    _do("/api/system/software/update:prepare-online", no_update, Token.NONE, Login.ADMIN),
+    _do("/api/system/software/update:prepare-offline", no_update, Token.NONE, Login.ADMIN),
+    _do("/api/system/software/update:apply", no_update, Token.NONE, Login.ADMIN),
+    _do("/api/system/software/update", nothing, Token.NONE, Login.ADMIN, "DELETE"),
+]

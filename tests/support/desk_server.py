@@ -1,0 +1,151 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Desk in a thread of this process, and a plain client of it."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import http.client
+import json
+import ssl
+import threading
+import typing
+from dataclasses import dataclass, field
+
+from pyfranka.desk import Limits, Options, Robot, Settings
+from pyfranka.desk.certificate import tls_context
+from pyfranka.desk.server import Site, app_of, make_desks
+from pyfranka.desk.sessions import digest_of
+
+USER, PASSWORD = "franka", "open-sesame"
+# Tests send wrong passwords and many requests.
+LIMITS = Limits(rate=20000.0, wrong_logins=100000)
+START_LIMIT = 60.0  # [s] for one call, on a busy machine
+
+
+@dataclass
+class Answer:
+    status: int
+    headers: dict[str, str]
+    body: bytes
+
+    @property
+    def text(self) -> str:
+        return self.body.decode()
+
+    def json(self) -> typing.Any:
+        return json.loads(self.body)
+
+
+def unverified() -> ssl.SSLContext:
+    """As clients of robots do it."""
+    context = ssl.create_default_context()
+    context.check_hostname = False
+    context.verify_mode = ssl.CERT_NONE
+    return context
+
+
+def basic(user: str = USER, password: str = PASSWORD) -> dict[str, str]:
+    """Header of the newer interface."""
+    return {"Authorization": "Basic " + base64.b64encode(f"{user}:{password}".encode()).decode()}
+
+
+@dataclass
+class DeskServer:
+    """A running Desk of one robot. host: it answers there too."""
+
+    robot_address: str
+    robot_port: int
+    folder: typing.Any  # of the certificate
+    profile: str = ""
+    options: Options = field(default_factory=Options)
+    limits: Limits = LIMITS
+
+    def __enter__(self) -> DeskServer:
+        self.loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self.loop.run_forever, daemon=True)
+        self._thread.start()
+        self.call(self._start())
+        self._connection: http.client.HTTPSConnection | None = None
+        return self
+
+    def __exit__(self, *error) -> None:
+        self.close_connection()
+        self.call(self._stop())
+        self.loop.call_soon_threadsafe(self.loop.stop)
+        self._thread.join(START_LIMIT)
+        self.loop.close()
+
+    def call(self, work: typing.Coroutine) -> typing.Any:
+        """Runs it in Desk's thread."""
+        return asyncio.run_coroutine_threadsafe(work, self.loop).result(START_LIMIT)
+
+    async def _start(self) -> None:
+        robot = Robot(self.robot_address, self.robot_port)
+        await robot.start(30.0)
+        settings = Settings(PASSWORD, USER, self.profile, self.options, self.limits)
+        desks = make_desks([robot], settings)
+        self.desk = desks[0]
+        self.site = Site(app_of(desks, 0), "127.0.0.1", 0, tls_context("127.0.0.1", self.folder))
+        self.desk.power.site = self.site
+        await self.site.open()
+        self.port = self.site.port
+
+    async def _stop(self) -> None:
+        await self.site.cleanup()
+        await self.desk.close()
+        await self.desk.robot.stop()
+
+    # ---- requests ----------------------------------------------------------------------------------------
+
+    def send(self, method: str, path: str, body: typing.Any = None, **headers: str) -> Answer:
+        """One request on the connection that is kept. body: bytes, or a value for JSON; names of headers with
+        underscores."""
+        if body is not None and not isinstance(body, bytes):
+            body = json.dumps(body).encode()
+        named = {name.replace("_", "-"): value for name, value in headers.items()}
+        if self._connection is None:
+            self._connection = self.connection()
+        self._connection.request(method, path, body, named)
+        with self._connection.getresponse() as response:
+            return Answer(response.status, dict(response.getheaders()), response.read())
+
+    def connection(self) -> http.client.HTTPSConnection:
+        """A new one."""
+        return http.client.HTTPSConnection("127.0.0.1", self.port, timeout=START_LIMIT, context=unverified())
+
+    def close_connection(self) -> None:
+        if self._connection is not None:
+            self._connection.close()
+            self._connection = None
+
+    def log_in(self) -> dict[str, str]:
+        """@returns the cookie."""
+        answer = self.send("POST", "/admin/api/login", {"login": USER, "password": digest_of(USER, PASSWORD)})
+        assert answer.status == 200, answer
+        return {"Cookie": f"authorization={answer.text}"}
+
+    def take_control(self, owner: str = USER, query: str = "", **headers: str) -> dict[str, typing.Any]:
+        """@returns id and token."""
+        answer = self.send(
+            "POST",
+            f"/admin/api/control-token/request{query}",
+            {"requestedBy": owner},
+            **(headers or self.log_in()),
+        )
+        assert answer.status == 200, answer
+        return answer.json()
+
+    def clear(self) -> None:
+        """Nobody has control, nobody is logged in."""
+
+        async def forget() -> None:
+            self.desk.tokens.clear()
+            self.desk.sessions.clear()
+
+        self.call(forget())
+
+    def refresh(self) -> None:
+        """What follows shows what the robot is now."""
+        self.call(self.desk.robot.refresh())
