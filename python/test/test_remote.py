@@ -8,7 +8,7 @@ import signal
 import socket
 import threading
 import time
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import numpy
@@ -19,7 +19,7 @@ from pyfranka.franka_sim import SimRobot
 from pyfranka.remote import LineRefused, Remote
 
 TOP = Path(__file__).resolve().parents[2]
-PARSER = TOP / "catkin_ws" / "src" / "franka_sim" / "src" / "app" / "operator_commands.cpp"
+SOURCES = sorted((TOP / "catkin_ws" / "src" / "franka_sim" / "src").glob("*/*_commands.cpp"))
 PAGE = TOP / "docs" / "franka_sim.md"
 READY = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
 # Methods that are no line of their own.
@@ -60,7 +60,10 @@ def test_each_line_of_the_program_is_a_method_and_each_method_a_line(server):
     lines = names(server["panda"].remote.help()) | names(server["left"].remote.help()) | {"help"}
     methods = {name for name, _ in inspect.getmembers(Remote, inspect.isfunction) if not name.startswith("_")}
     assert methods - HELPERS == lines
-    assert names(re.findall(r'lines\.add\(\s*"([^"]+)"', PARSER.read_text())) | {"help"} == lines
+    added = [
+        usage for source in SOURCES for usage in re.findall(r'lines\.add\(\s*"([^"]+)"', source.read_text())
+    ]
+    assert names(added) | {"help"} == lines
     table = PAGE.read_text().partition("| line | meaning |")[2].partition("\n\n")[0]
     assert names(re.findall(r"^\| `([^`]+)`", table, re.MULTILINE)) == lines
 
@@ -345,29 +348,70 @@ def test_an_address_is_needed():
 # ---- connections -----------------------------------------------------------------------------------------
 
 
-def test_a_connection_of_the_context_manager_keeps_others_out(server):
+def test_a_long_line_of_one_client_does_not_delay_the_others(franka_sim):
+    address = franka_sim("panda", pace="realtime").robot.address
+    with Remote(address) as first, Remote(address) as second:
+        begin = first.time()
+        thread = threading.Thread(target=first.step, args=(2000,))
+        thread.start()
+        while second.time() < begin + 1.0:
+            assert second.state().mode == "Idle"
+        assert thread.is_alive(), "The first client still waits for its line."
+        second.user_stop(True)
+        assert second.state().mode == "User stopped"
+        assert thread.is_alive()
+        thread.join(20)
+        assert first.time() >= begin + 2.0
+
+
+def test_steps_of_two_clients_follow_each_other_in_lock_step(server):
     address = server["panda"].address
-    with Remote(address) as first:
-        assert first.state().mode == "Idle"
+    with Remote(address) as first, Remote(address) as second:
+        first.reset()
+        begin = first.wait() and first.time()
+        threads = [
+            threading.Thread(target=remote.step, args=(ticks,))
+            for remote, ticks in ((first, 300), (second, 400))
+        ]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(20)
+        assert first.time() == pytest.approx(begin + 0.7, abs=1e-9)
+
+
+def test_a_reset_of_another_client_does_not_hold_up_a_step(server):
+    address = server["panda"].address
+    with Remote(address) as first, Remote(address) as second:
+        first.reset()
+        thread = threading.Thread(target=first.step, args=(20000,))
+        thread.start()
+        while second.time() < 0.5:
+            pass
+        second.reset()
+        thread.join(60)
+        assert not thread.is_alive()
+        assert 1.0 < second.time() < 20.0
+
+
+def test_a_ninth_client_is_refused_and_waits_for_its_turn(server):
+    address, answers = server["panda"].address, []
+    with ExitStack() as others:
+        clients = [others.enter_context(Remote(address)) for _ in range(8)]
         begin = time.monotonic()
-        with pytest.raises(LineRefused, match="Another client holds this control interface"):
+        with pytest.raises(LineRefused, match="8 clients use this control interface"):
             Remote(address).state(timeout=0.3)
         assert time.monotonic() - begin >= 0.25, "It has waited for its turn."
-        assert first.state().mode == "Idle"
-    assert Remote(address).state().mode == "Idle"
-    with first:
-        assert first.state().mode == "Idle"
-
-
-def test_a_client_waits_for_its_turn(server):
-    address, answers = server["panda"].address, []
-    with Remote(address):
+        assert all(client.state().mode == "Idle" for client in clients)
         thread = threading.Thread(target=lambda: answers.append(Remote(address).state(timeout=20)))
         thread.start()
         time.sleep(0.2)
         assert answers == []
-    thread.join(20)
-    assert [state.mode for state in answers] == ["Idle"]
+        clients[4].close()
+        thread.join(20)
+        assert [state.mode for state in answers] == ["Idle"]
+    with clients[0] as again:
+        assert again.state().mode == "Idle"
 
 
 def test_threads_share_a_remote(server):

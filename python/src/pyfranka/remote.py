@@ -34,8 +34,10 @@ NO_TURN = (1.0, 0.0, 0.0, 0.0)
 # Chosen here: `hash` and `wait` may take 10 s of simulated time on a busy machine.
 TIME_LIMIT = 60.0  # [s]
 PAUSE = 0.01  # [s] between two looks (chosen here)
-LONGEST_ANSWER = 65536  # [bytes]; the longest one, to `help`, has 700 (chosen here)
-HELD = "error: Another client holds this control interface"
+# [bytes] (chosen here) The longest answers describe large worlds.
+LONGEST_ANSWER = 1 << 24
+LONGEST_FOREIGN = 1 << 16  # of something else that listens there
+FULL = re.compile(r"error: \d+ clients use this control interface")
 STATE = re.compile(
     r"(?P<mode>.+?), client of protocol (?P<protocol>\d+), errors (?P<errors>.*), q(?P<q>(?: \S+){7})"
     r"(?:; (?P<fault>.*))?"
@@ -74,9 +76,9 @@ class Remote:
     ConnectionError where no robot is or where it goes away; TimeoutError where no answer comes in time. After
     the last two the line may have taken effect. In a motion in lock-step the effect is in the next tick.
 
-    The robot accepts one client at a time. By itself each call is a connection of its own, and waits, within
-    its limit, until no other client is connected. As a context manager a Remote holds one connection, so that
-    no other client gets between its calls. Thread-safe.
+    The robot serves eight clients at a time and executes their lines in the order of arrival. By itself each
+    call is a connection of its own; while eight others are connected, it waits within its limit. As a context
+    manager a Remote keeps one connection, which saves time and keeps its place. Thread-safe.
     """
 
     def __init__(self, address: str, port: int = PORT, timeout: float = TIME_LIMIT):
@@ -301,7 +303,7 @@ class Remote:
         except OSError:
             return False
 
-    # The answer to a line. While another client is connected, the line is refused and not executed.
+    # The answer to a line. While the robot has no room for a client, the line is refused and not executed.
     def _exchange(self, line: str, deadline: float, limit: float) -> str:
         while True:
             connection = self._connection or _Connection(self.address, self.port, deadline, limit)
@@ -309,7 +311,7 @@ class Remote:
             keep = False
             try:
                 answer = connection.ask(line, deadline, limit)
-                refused = answer.startswith(HELD)
+                refused = FULL.match(answer) is not None
                 keep = self._held and not refused
             finally:
                 if keep:
@@ -360,15 +362,19 @@ class _Connection:
 
     def _answer(self, deadline: float) -> bytes:
         data = b""
-        while b"\n" not in data and len(data) < LONGEST_ANSWER:
+        while b"\n" not in data and len(data) < (LONGEST_ANSWER if _is_answer(data) else LONGEST_FOREIGN):
             if time.monotonic() > deadline:
                 raise TimeoutError
             self._socket.settimeout(_left(deadline))
-            part = self._socket.recv(4096)
+            part = self._socket.recv(65536)
             if not part:
                 raise EOFError
             data += part
         return data.partition(b"\n")[0].rstrip(b"\r")
+
+
+def _is_answer(beginning: bytes) -> bool:
+    return any(word.startswith(beginning[: len(word)]) for word in (b"ok", b"error:"))
 
 
 # ---- words of a line -------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import socket
 import struct
 import subprocess
 import time
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
@@ -344,13 +344,19 @@ def lines_of(connection, text):
     return connection.makefile("r", newline="\n")
 
 
-def test_a_slow_control_client_and_a_second_one_get_an_error():
-    with simulated("127.0.22.17") as (send, _):
+def test_eight_control_clients_are_served_and_a_ninth_one_gets_an_error():
+    with simulated("127.0.22.17") as (send, _), ExitStack() as others:
+
+        def client(text):
+            connection = socket.create_connection(("127.0.22.17", 1340), timeout=20)
+            return lines_of(others.enter_context(connection), text)
+
         assert send("state").startswith("ok Idle")
-        with socket.create_connection(("127.0.22.17", 1340), timeout=20) as second:
-            stream = lines_of(second, "state\nhelp\n")
-            assert stream.readline().startswith("error: Another client holds this control interface")
-            assert stream.readline() == "", "and the connection ends"
+        for _ in range(7):
+            assert client("state\n").readline().startswith("ok Idle")
+        ninth = client("state\nhelp\n")
+        assert ninth.readline().startswith("error: 8 clients use this control interface")
+        assert ninth.readline() == "", "and the connection ends"
         assert send("state").startswith("ok Idle")
 
 

@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <stdexcept>
 
 namespace franka_sim {
@@ -113,6 +112,17 @@ void addWorld(LineServer& lines, fci::Host& host, World& world) {
   });
 }
 
+// Another client's `reset` must not stop the time that this line waits for.
+fci::Reply letPass(fci::Host& host, std::uint64_t ticks) {
+  const std::uint64_t end = host.ticks() + ticks;
+  host.advance(ticks);
+  return fci::Reply::when([&host, end] {
+    const bool passed = host.ticks() >= end;
+    host.advance(passed ? 0 : end - host.ticks());
+    return passed;
+  });
+}
+
 // Lines about time. In lock-step the world otherwise moves only when something happens in it.
 void addTime(LineServer& lines, fci::Host& host, const World& world) {
   lines.add("time", [&world](const Words&) {
@@ -120,20 +130,16 @@ void addTime(LineServer& lines, fci::Host& host, const World& world) {
     std::snprintf(text, sizeof(text), "%.3f", world.time());
     return std::string(text);
   });
-  const auto end = std::make_shared<std::uint64_t>(0);  // [ticks] of the host, of the last step
   lines.add(
       "step MILLISECONDS",
-      [&host, &world, end](const Words& words) {
+      [&host, &world](const Words& words) {
         const std::uint64_t ticks = toTicks(words.at(0));
         if (world.stopped()) {
           throw std::invalid_argument(world.fault());
         }
-        host.advance(ticks);
-        *end = host.ticks() + ticks;
-        return "";
+        return letPass(host, ticks);
       },
-      [&host] { return host.settled() || host.inMotion(); },
-      [&host, end] { return host.ticks() >= *end; });
+      [&host] { return host.settled() || host.inMotion(); });
   lines.add(
       "wait",
       [&host](const Words&) {

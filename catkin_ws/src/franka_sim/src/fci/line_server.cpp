@@ -15,6 +15,17 @@ namespace franka_sim::fci {
 
 namespace {
 
+/// Time for a refused client to read the reason; and how many such clients are kept at most.
+constexpr std::chrono::seconds kTimeToLeave{1};
+constexpr std::size_t kMostLeaving = 8;
+
+/// Connections accepted per call; others wait for the next call.
+constexpr int kAcceptedAtOnce = 16;
+
+/// Between two states, no further line is begun after this time (chosen here: robots in real time
+/// need most of each millisecond).
+constexpr std::chrono::microseconds kMostBusy{200};
+
 LineServer::Words split(const std::string& line) {
   std::istringstream stream(line);
   LineServer::Words words;
@@ -29,23 +40,14 @@ std::string nameIn(const std::string& line) {
   return words.empty() ? "" : words.front();
 }
 
-bool sendLine(Connection& connection, const std::string& text) {
-  const std::string line = text + "\n";
-  return connection.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
+Reply error(const std::string& sentence) {
+  return Reply([sentence]() -> std::optional<std::string> { throw std::runtime_error(sentence); });
 }
-
-/// Time for a refused client to read the reason; and how many such clients are kept at most.
-constexpr std::chrono::seconds kTimeToLeave{1};
-constexpr std::size_t kMostLeaving = 8;
-
-/// Connections accepted per call; others wait for the next call.
-constexpr int kAcceptedAtOnce = 16;
 
 }  // namespace
 
-void LineServer::add(const std::string& usage, Handler handler, Ready ready, Ready done) {
-  entries_[usage.substr(0, usage.find(' '))] = {usage, std::move(handler), std::move(ready),
-                                                std::move(done)};
+void LineServer::add(const std::string& usage, Handler handler, Ready ready) {
+  entries_[usage.substr(0, usage.find(' '))] = {usage, std::move(handler), std::move(ready)};
 }
 
 std::string LineServer::help() const {
@@ -56,23 +58,22 @@ std::string LineServer::help() const {
   return text;
 }
 
-std::string LineServer::answer(const std::string& line) const {
+Reply LineServer::execute(const std::string& line) const {
   Words words = split(line);
   if (words.empty() || words.front() == "help") {
-    return "ok " + help();
+    return help();
   }
   const auto entry = entries_.find(words.front());
   if (entry == entries_.end()) {
-    return "error: There is no command '" + words.front() + "'; help lists them.";
+    return error("There is no command '" + words.front() + "'; help lists them.");
   }
   words.erase(words.begin());
   try {
-    const std::string value = entry->second.handler(words);
-    return value.empty() ? "ok" : "ok " + value;
+    return entry->second.handler(words);
   } catch (const std::out_of_range&) {
-    return "error: Words are missing: " + entry->second.usage + ".";
-  } catch (const std::exception& error) {
-    return std::string("error: ") + error.what();
+    return error("Words are missing: " + entry->second.usage + ".");
+  } catch (const std::exception& failure) {
+    return error(failure.what());
   }
 }
 
@@ -81,94 +82,97 @@ bool LineServer::isReady(const std::string& line) const {
   return entry == entries_.end() || entry->second.ready();
 }
 
-bool LineServer::isDone() const { return !done_ || done_(); }
-
-LineServer::~LineServer() {
-  if (client_ && answer_ && isDone()) {
-    sendLine(*client_, *answer_);
-  }
-}
+LineServer::~LineServer() { published(); }
 
 void LineServer::serve() {
-  serveClient();
-  accept();
-  serveClient();
+  receiveAll();
+  if (accept()) {
+    receiveAll();
+  }
+  executeLines();
   closeLeaving();
 }
 
-void LineServer::accept() {
+void LineServer::receiveAll() {
+  for (LineClient& client : clients_) {
+    arrivals_ += client.receive(arrivals_ + 1) ? 1 : 0;
+    if (client.lineIsTooLong()) {
+      dismiss(client.releaseConnection(), "error: A line is longer than 4000 characters.");
+    }
+  }
+  clients_.remove_if([](const LineClient& client) { return client.isGone(); });
+}
+
+bool LineServer::accept() {
+  bool any = false;
   for (int accepted = 0; accepted < kAcceptedAtOnce; ++accepted) {
     sockaddr_in peer{};
     Descriptor socket = listener_.accept(peer);
     if (!socket) {
-      return;
+      break;
     }
     auto connection = std::make_unique<Connection>(std::move(socket));
-    serveClient();  // a client that reconnects at once may still occupy the slot
-    if (client_ && has_ended_) {
-      published();
-      client_.reset();
-    }
-    if (client_ && (has_spoken_ || Clock::now() - accepted_at_ < first_line_)) {
+    makeRoom();
+    if (clients_.size() < kMostClients) {
+      clients_.emplace_back(std::move(connection));
+      any = true;
+    } else {
       dismiss(std::move(connection),
-              "error: Another client holds this control interface, which takes one at a time: end "
-              "that one, then connect again.");
-      continue;
+              "error: " + std::to_string(kMostClients) +
+                  " clients use this control interface, which takes no more: end one of them, then "
+                  "connect again.");
     }
-    if (client_) {
-      dismiss(std::move(client_),
-              "error: No line has come from here within " +
-                  std::to_string(
-                      std::chrono::duration_cast<std::chrono::seconds>(first_line_).count()) +
-                  " s, and another client waits: connect again when you need to.");
-    }
-    client_ = std::move(connection);
-    accepted_at_ = Clock::now();
-    has_spoken_ = has_ended_ = waits_ = false;
-    answer_.reset();
+  }
+  return any;
+}
+
+// Clients that have just left, or have ended and wait for an answer, make room first, then the one
+// that has been silent for longest.
+void LineServer::makeRoom() {
+  if (clients_.size() < kMostClients) {
+    return;
+  }
+  receiveAll();
+  if (clients_.size() < kMostClients) {
+    return;
+  }
+  const auto ended = std::find_if(clients_.begin(), clients_.end(),
+                                  [](const LineClient& client) { return client.hasEnded(); });
+  if (ended != clients_.end()) {
+    ended->sendAnswer();
+    clients_.erase(ended);
+    return;
+  }
+  const auto latest = Clock::now() - first_line_;
+  const auto silent =
+      std::find_if(clients_.begin(), clients_.end(),
+                   [latest](const LineClient& client) { return client.isSilentSince(latest); });
+  if (silent != clients_.end()) {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(first_line_).count();
+    dismiss(silent->releaseConnection(),
+            "error: No line has come from here within " + std::to_string(seconds) +
+                " s, and another client waits: connect again when you need to.");
+    clients_.erase(silent);
   }
 }
 
-void LineServer::serveClient() {
-  constexpr std::size_t kLongestLine = 4000;
-  if (!client_) {
-    return;
-  }
-  has_ended_ = !client_->receive() || !client_->flush() || has_ended_;
-  if (answer_ || client_->hasUnsent()) {
-    return;  // a client that does not read answers gets no more
-  }
-  const Bytes stream = client_->received();
-  const std::uint8_t* const end = stream.data + stream.size;
-  const std::uint8_t* const line_end = std::find(stream.data, end, '\n');
-  if (line_end == end) {
-    if (has_ended_) {
-      client_.reset();
-    } else if (stream.size >= kLongestLine) {
-      dismiss(std::move(client_), "error: A line is longer than 4000 characters.");
+void LineServer::executeLines() {
+  clients_.sort([](const LineClient& a, const LineClient& b) { return a.arrival() < b.arrival(); });
+  for (LineClient& client : clients_) {
+    if (!client.line() || busy_ > kMostBusy || !isReady(*client.line())) {
+      continue;
     }
-    return;
-  }
-  has_spoken_ = true;
-  const std::string line(stream.data, line_end);
-  waits_ = !isReady(line);
-  if (!waits_) {
-    client_->consume(line.size() + 1);
-    answer_ = answer(line);
-    const auto entry = entries_.find(nameIn(line));
-    const bool executed = entry != entries_.end() && answer_->rfind("ok", 0) == 0;
-    done_ = executed ? entry->second.done : Ready();
+    const Clock::time_point begin = Clock::now();
+    client.answerWith(execute(*client.line()));
+    busy_ += Clock::now() - begin;
   }
 }
 
 void LineServer::published() {
-  if (client_ && answer_ && !isDone()) {
-    return;
+  busy_ = {};
+  for (LineClient& client : clients_) {
+    client.sendAnswer();
   }
-  if (client_ && answer_ && !sendLine(*client_, *answer_)) {
-    client_.reset();
-  }
-  answer_.reset();
 }
 
 void LineServer::dismiss(std::unique_ptr<Connection> connection, const std::string& sentence) {
@@ -191,9 +195,8 @@ void LineServer::closeLeaving() {
 
 void LineServer::addDescriptors(std::vector<pollfd>& fds) const {
   fds.push_back({listener_.descriptor(), POLLIN, 0});
-  if (client_ && !answer_ && !has_ended_ && !waits_) {
-    const short events = client_->hasUnsent() ? POLLIN | POLLOUT : POLLIN;
-    fds.push_back({client_->descriptor(), events, 0});
+  for (const LineClient& client : clients_) {
+    client.addDescriptor(fds);
   }
 }
 

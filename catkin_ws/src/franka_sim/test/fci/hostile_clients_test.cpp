@@ -237,7 +237,10 @@ TEST_F(HostileClients, RequestVirtualWallsInAnEndlessLoop) {
 TEST_F(HostileClients, FloodTheHandAndTheControlInterface) {
   namespace hand = franka_core::fci::gripper;
   Raw gripper(attacked_.hand.port());
-  Raw control(lines_.port());
+  std::vector<std::unique_ptr<Raw>> controls;
+  for (std::size_t i = 0; i < LineServer::kMostClients; i++) {
+    controls.push_back(std::make_unique<Raw>(lines_.port()));
+  }
   hand::RequestMessage message;
   hand::encodeRequest(0, hand::ConnectRequest{3, 1}, message);
   gripper.send(std::string(reinterpret_cast<const char*>(message.data), message.size));
@@ -247,7 +250,9 @@ TEST_F(HostileClients, FloodTheHandAndTheControlInterface) {
   const std::string lines = repeated("echo something\n", 500);
   under([&] {
     gripper.send(stops);
-    control.send(lines);
+    for (const auto& control : controls) {
+      control->send(lines);
+    }
     gripper.readAll();
   });
 }

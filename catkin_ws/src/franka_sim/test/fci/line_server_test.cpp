@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include <chrono>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -93,9 +95,11 @@ TEST_F(LineServerTest, KeepsALineUntilItIsReady) {
 
 TEST_F(LineServerTest, AnswersOnceTheEffectHasComeAbout) {
   bool effect = false;
-  server.add(
-      "act", [](const LineServer::Words& words) { return words.at(0); }, [] { return true; },
-      [&effect] { return effect; });
+  server.add("act", [&effect](const LineServer::Words& words) {
+    return Reply([&effect, word = words.at(0)] {
+      return effect ? std::optional<std::string>(word) : std::nullopt;
+    });
+  });
   Operator user(server);
   user.type("act now\ncount\n");
   tick();
@@ -113,27 +117,34 @@ TEST_F(LineServerTest, AnswersOnceTheEffectHasComeAbout) {
   EXPECT_EQ("error: Words are missing: act.\n", user.sees()) << "a refused line has no effect";
 }
 
-TEST_F(LineServerTest, AClientThatLeavesBeforeTheEffectMakesRoom) {
-  server.add(
-      "never", [](const LineServer::Words& /*words*/) { return ""; }, [] { return true; },
-      [] { return false; });
-  Operator first(server);
-  first.type("never\n");
+TEST_F(LineServerTest, AnswersAnEffectThatFailsWithASentence) {
+  bool failed = false;
+  server.add("grasp", [&failed](const LineServer::Words& /*words*/) {
+    return Reply([&failed]() -> std::optional<std::string> {
+      if (failed) {
+        throw std::runtime_error("Nothing was grasped.");
+      }
+      return {};
+    });
+  });
+  Operator user(server);
+  user.type("grasp\ncount\n");
   tick();
-  first.leave();
-  Operator second(server);
-  second.type("count\n");
+  EXPECT_EQ("(nothing)", user.sees());
+  failed = true;
   tick();
-  EXPECT_EQ("ok 1\n", second.sees());
+  EXPECT_EQ("error: Nothing was grasped.\n", user.sees());
+  tick();
+  EXPECT_EQ("ok 1\n", user.sees());
 }
 
 TEST(LineServer, GivesNoAnswerWhenItEndsBeforeTheEffect) {
   for (const bool effect : {true, false}) {
     std::optional<LineServer> server;
     server.emplace(kAddress, 0);
-    server->add(
-        "act", [](const LineServer::Words& /*words*/) { return ""; }, [] { return true; },
-        [effect] { return effect; });
+    server->add("act", [effect](const LineServer::Words& /*words*/) {
+      return Reply::when([effect] { return effect; });
+    });
     Operator user(*server);
     user.type("act\n");
     server->serve();
@@ -142,51 +153,145 @@ TEST(LineServer, GivesNoAnswerWhenItEndsBeforeTheEffect) {
   }
 }
 
-TEST_F(LineServerTest, RefusesASecondClientWithASentence) {
+TEST_F(LineServerTest, ExecutesTheLinesOfSeveralClientsInOrderOfArrival) {
+  std::string words;
+  server.add("say WORD", [&words](const LineServer::Words& said) {
+    words += said.at(0);
+    return said.at(0);
+  });
   Operator first(server);
-  first.type("count\n");
-  tick();
   Operator second(server);
-  second.type("count\n");
+  second.type("say a\nsay c\n");
   tick();
-  const std::string reply = second.sees();
-  EXPECT_EQ(0u, reply.find("error: Another client holds this control interface")) << reply;
-  EXPECT_EQ("(end)", second.sees());
-  EXPECT_EQ(1, count) << "and runs no command of it";
-  EXPECT_EQ("ok 1\n", first.sees());
-  first.leave();
-  Operator third(server);
-  third.type("count\n");
+  first.type("say b\n");
   tick();
-  EXPECT_EQ("ok 2\n", third.sees());
+  tick();
+  EXPECT_EQ("ok a\nok c\n", second.sees());
+  EXPECT_EQ("ok b\n", first.sees());
+  EXPECT_EQ("abc", words) << "a client's next line arrives when the last one has been answered";
 }
 
-TEST(LineServer, HasNoTimeLimitUntilAnotherClientComes) {
+TEST_F(LineServerTest, ALineThatIsNotReadyDelaysNoOtherClient) {
+  Operator first(server);
+  Operator second(server);
+  first.type("wait\n");
+  tick();
+  second.type("count\ncount\n");
+  tick();
+  tick();
+  EXPECT_EQ("ok 1\nok 2\n", second.sees());
+  EXPECT_EQ("(nothing)", first.sees());
+  ready = true;
+  tick();
+  EXPECT_EQ("ok done\n", first.sees());
+}
+
+TEST_F(LineServerTest, EachClientGetsTheAnswerOfItsOwnLine) {
+  int now = 0;
+  server.add("until TIME", [&now](const LineServer::Words& words) {
+    return Reply::when([&now, end = toNumber(words.at(0))] { return now >= end; });
+  });
+  Operator first(server);
+  Operator second(server);
+  first.type("until 1\n");
+  tick();
+  second.type("until 2\n");
+  tick();
+  now = 1;
+  tick();
+  EXPECT_EQ("ok\n", first.sees());
+  EXPECT_EQ("(nothing)", second.sees());
+  now = 2;
+  tick();
+  EXPECT_EQ("ok\n", second.sees());
+}
+
+TEST_F(LineServerTest, BeginsNoFurtherLineInATickAfterLongOnes) {
+  server.add("toil", [](const LineServer::Words& /*words*/) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(300);
+    while (std::chrono::steady_clock::now() < end) {
+    }
+    return "";
+  });
+  Operator first(server);
+  Operator second(server);
+  first.type("toil\n");
+  second.type("toil\n");
+  server.serve();
+  server.serve();
+  server.published();
+  EXPECT_EQ("ok\n(nothing)", first.sees() + second.sees());
+  tick();
+  EXPECT_EQ("ok\n", second.sees());
+}
+
+/// As many clients as are served at a time; each has sent a line.
+class FullLineServerTest : public LineServerTest {
+ protected:
+  FullLineServerTest() {
+    for (std::size_t i = 0; i < LineServer::kMostClients; i++) {
+      users.push_back(std::make_unique<Operator>(server));
+      users.back()->type("count\n");
+      tick();
+      EXPECT_EQ("ok " + std::to_string(i + 1) + "\n", users.back()->sees());
+    }
+  }
+
+  std::vector<std::unique_ptr<Operator>> users;
+};
+
+TEST_F(FullLineServerTest, RefusesAnotherClientWithASentence) {
+  Operator other(server);
+  other.type("count\n");
+  tick();
+  const std::string reply = other.sees();
+  EXPECT_EQ(0u, reply.find("error: 8 clients use this control interface")) << reply;
+  EXPECT_EQ("(end)", other.sees());
+  EXPECT_EQ(8, count) << "and executes no line of it";
+  users[3]->leave();
+  Operator next(server);
+  next.type("count\n");
+  tick();
+  EXPECT_EQ("ok 9\n", next.sees());
+}
+
+TEST_F(FullLineServerTest, AClientThatLeavesBeforeTheEffectMakesRoom) {
+  server.add("never",
+             [](const LineServer::Words& /*words*/) { return Reply::when([] { return false; }); });
+  users[5]->type("never\n");
+  tick();
+  users[5]->leave();
+  Operator next(server);
+  next.type("count\n");
+  tick();
+  EXPECT_EQ("ok 9\n", next.sees());
+}
+
+TEST(LineServer, HasNoTimeLimitUntilThereIsNoRoom) {
   LineServer server(kAddress, 0, std::chrono::seconds(0));
   server.add("count", [](const LineServer::Words& /*words*/) { return "1"; });
   const auto tick = [&server] {
     server.serve();
     server.published();
   };
-  Operator slow(server);
-  for (int i = 0; i < 5; i++) {
+  std::vector<std::unique_ptr<Operator>> users;
+  for (std::size_t i = 0; i < LineServer::kMostClients; i++) {
+    users.push_back(std::make_unique<Operator>(server));
     tick();
   }
-  slow.type("cou");
+  users[0]->type("cou");
   tick();
-  slow.type("nt\n");
+  users[0]->type("nt\n");
   tick();
-  EXPECT_EQ("ok 1\n", slow.sees());
-  slow.leave();
-  Operator silent(server);
-  tick();
+  EXPECT_EQ("ok 1\n", users[0]->sees());
   Operator other(server);
   other.type("count\n");
   tick();
-  const std::string reply = silent.sees();
+  const std::string reply = users[1]->sees();
   EXPECT_EQ(0u, reply.find("error: No line has come from here within")) << reply;
-  EXPECT_EQ("(end)", silent.sees());
+  EXPECT_EQ("(end)", users[1]->sees());
   EXPECT_EQ("ok 1\n", other.sees());
+  EXPECT_EQ("(nothing)", users[2]->sees());
 }
 
 TEST_F(LineServerTest, AnswersAllLinesOfAHalfClosedConnection) {

@@ -3,13 +3,14 @@
 #pragma once
 
 #include <franka_sim/fci/host.h>
+#include <franka_sim/fci/line_client.h>
 #include <franka_sim/fci/sockets.h>
 
 #include <chrono>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,49 +21,47 @@ namespace franka_sim::fci {
 /// client. Commands are executed between two ticks, by the thread that runs the host, and answered
 /// once states that show their effect have been sent.
 ///
-/// One client at a time. A second one is refused with a sentence, unless the first has not sent a
-/// line for 5 s since it came; then the first is closed with a sentence. While no other client
-/// waits, there is no time limit.
+/// Several clients at a time, each with one line in progress. Lines are executed in the order of
+/// their arrival; one that waits, or whose effect takes time, delays no line of another client.
+/// A client beyond kMostClients is refused with a sentence, unless one of the others has not sent a
+/// line for 5 s since it came; then that one is closed with a sentence. While there is room, there
+/// is no time limit.
 class LineServer final : public Service {
  public:
+  static constexpr std::size_t kMostClients = 8;
+
   using Words = std::vector<std::string>;
-  /// Gets the words after the command's name; returns the value to answer, or nothing.
+  /// Gets the words after the command's name; returns what to answer, "" for a plain "ok".
   /// @throws std::exception whose text becomes the error.
-  using Handler = std::function<std::string(const Words&)>;
-  /// Whether a command can be executed now, or has taken effect.
+  using Handler = std::function<Reply(const Words&)>;
+  /// Whether a command can be executed now.
   using Ready = std::function<bool()>;
 
-  /// @param first_line a client that has sent no line for this time is replaced by a new one
+  /// @param first_line a client that has sent no line for this time may be replaced by a new one
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
   LineServer(const std::string& address, std::uint16_t port,
              std::chrono::seconds first_line = std::chrono::seconds(5))
       : listener_(address, port), first_line_(first_line) {}
-  /// Sends the answer that is still due, to the line that ended the host; none where the effect has
-  /// not come about.
+  /// Sends the answers that are still due, such as that to the line that ended the host; none where
+  /// the effect has not come about.
   ~LineServer() override;
 
   std::uint16_t port() const noexcept { return listener_.port(); }
   /// @param usage the command as the user types it, for example "user_stop on|off"; its first word
   /// is the name.
   /// @param ready lines wait until it returns true
-  /// @param done the answer to an executed line waits until it returns true
-  void add(
-      const std::string& usage, Handler handler, Ready ready = [] { return true; },
-      Ready done = [] { return true; });
-  /// The answer to one line.
-  std::string answer(const std::string& line) const;
+  void add(const std::string& usage, Handler handler, Ready ready = [] { return true; });
 
   void serve() override;
   void published() override;
   void addDescriptors(std::vector<pollfd>& fds) const override;
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = LineClient::Clock;
   struct Entry {
     std::string usage;
     Handler handler;
     Ready ready;
-    Ready done;
   };
   /// A refused connection: it is closed once its peer has read the reason.
   struct Leaving {
@@ -70,23 +69,22 @@ class LineServer final : public Service {
     Clock::time_point until;
   };
 
-  void accept();
-  void serveClient();
+  void receiveAll();
+  /// @returns whether a client is new.
+  bool accept();
+  void makeRoom();
+  void executeLines();
+  Reply execute(const std::string& line) const;
   bool isReady(const std::string& line) const;
-  bool isDone() const;
+  std::string help() const;
   void dismiss(std::unique_ptr<Connection> connection, const std::string& sentence);
   void closeLeaving();
-  std::string help() const;
 
   Listener listener_;
   Clock::duration first_line_;
-  std::unique_ptr<Connection> client_;
-  Clock::time_point accepted_at_{};
-  bool has_spoken_{false};             ///< the client has sent a line
-  bool has_ended_{false};              ///< it sends no more, but may still wait for answers
-  bool waits_{false};                  ///< its line cannot be executed yet
-  std::optional<std::string> answer_;  ///< to its last line; kept until states have been sent
-  Ready done_;                         ///< of that line; empty: done
+  std::list<LineClient> clients_;
+  std::uint64_t arrivals_{0};  ///< lines until now
+  Clock::duration busy_{};     ///< with lines, since states were sent
   std::vector<Leaving> leaving_;
   std::map<std::string, Entry> entries_;
 };
