@@ -17,6 +17,7 @@ import pyfranka.sim
 import pytest
 from pyfranka.franka_sim import SimRobot
 from pyfranka.remote import LineRefused, Remote
+from scipy.spatial.transform import Rotation
 
 TOP = Path(__file__).resolve().parents[2]
 SOURCES = sorted((TOP / "catkin_ws" / "src" / "franka_sim" / "src").glob("*/*_commands.cpp"))
@@ -200,6 +201,103 @@ def test_places_and_pushes_in_the_world(server):
     left.remote.reset()
     left.remote.wait()
     assert left.remote.where("stone") == pytest.approx(panda.remote.where("stone"))
+
+
+def test_the_scene_describes_the_world_to_draw(server):
+    remote = server["left"].remote
+    remote.reset()
+    scene = remote.scene()
+    assert scene.robots == {"panda": "panda", "left": "fr3"}
+    for link in ("panda_link0", "panda_link7", "panda_hand", "panda_leftfinger", "left_link6", "stone"):
+        shapes = [shape for shape in scene.shapes if scene.bodies[shape.body] == link]
+        assert shapes, link
+    (stone,) = shapes
+    assert stone.kind == "box" and stone.mesh == ""
+    assert stone.size == pytest.approx([0.0125, 0.016, 0.032])
+    assert stone.color == pytest.approx([0.93, 0.92, 0.89, 1])
+    assert stone.pose == pytest.approx([0, 0, 0, 1, 0, 0, 0])
+    assert remote.scene().bodies == scene.bodies
+
+
+def test_poses_follow_the_bodies(server):
+    remote = server["panda"].remote
+    remote.reset()
+    bodies = remote.scene().bodies
+    before = remote.poses()
+    assert before.shape == (len(bodies), 7)
+    assert numpy.linalg.norm(before[:, 3:], axis=1) == pytest.approx(1.0, abs=1e-6)
+    remote.place("stone", (0.1, 0.2, 0.7), (0.6, 0, 0.8, 0))
+    remote.wait()
+    poses = remote.poses()
+    stone = bodies.index("stone")
+    assert numpy.abs(poses[stone] - before[stone])[3:].max() > 0.1, "It has been turned."
+    for body in ("stone", "panda_hand", "left_link7", "panda_link8"):
+        assert poses[bodies.index(body)][:3] == pytest.approx(remote.where(body), abs=1e-6)
+    remote.reset()
+
+
+# A grid of squares, each of two triangles, over one of 100 m: no vertex of it can be left out.
+def grid(count):
+    vertices = [(i, j, (i * j) % 7) for i in range(count) for j in range(count)]
+    faces = []
+    for i in range(count - 1):
+        for j in range(count - 1):
+            corner = i * count + j
+            faces += [(corner, corner + count, corner + 1), (corner + 1, corner + count, corner + count + 1)]
+    return vertices, faces
+
+
+def test_meshes_are_read_in_parts(franka_sim, tmp_path):
+    vertices, faces = grid(50)
+    text = " ".join(str(number) for vertex in vertices for number in vertex)
+    triangles = " ".join(str(corner) for face in faces for corner in face)
+    world = tmp_path / "world.xml"
+    world.write_text(
+        f"""<mujoco>
+        <asset><mesh name="grid" vertex="{text}" face="{triangles}" scale="0.01 0.01 0.001"/></asset>
+        <worldbody><body name="field" pos="0 5 0">
+          <geom type="mesh" mesh="grid" contype="0" conaffinity="0"/>
+        </body></worldbody></mujoco>"""
+    )
+    remote = franka_sim("panda", world=str(world)).robot.remote
+    scene = remote.scene()
+    (shape,) = (shape for shape in scene.shapes if scene.bodies[shape.body] == "field")
+    mesh = remote.mesh(shape.mesh)
+    turn = Rotation.from_quat(numpy.roll(shape.pose[3:], -1))
+    seen = turn.apply(mesh.vertices) + shape.pose[:3]
+    expected = numpy.array(vertices) * (0.01, 0.01, 0.001)
+    assert mesh.faces.shape == (len(faces), 3)
+
+    def triangles_of(points, indices):
+        return {tuple(numpy.round(corners, 4).ravel() + 0.0) for corners in points[numpy.array(indices)]}
+
+    assert triangles_of(seen, mesh.faces) == triangles_of(expected, faces)
+    part = remote.send(f"mesh {shape.mesh} 0")
+    assert 15000 < len(part) < 16000
+    for line, sentence in (
+        ("mesh stone 0", "There is no mesh 'stone'; the line scene names them"),
+        (f"mesh {shape.mesh} -1", "'-1' is no number of bytes"),
+        (f"mesh {shape.mesh} 1000000", "lies beyond them"),
+        ("mesh mesh0", "Words are missing: mesh NAME OFFSET"),
+    ):
+        with pytest.raises(LineRefused, match=sentence):
+            remote.send(line)
+
+
+def test_reading_the_scene_delays_no_state(franka_sim):
+    """Measured at the robot's own clock: simulated time follows the wall clock while the scene is read."""
+    robots = [SimRobot("panda", base=(-0.5, 0, 0)), SimRobot("fr3", base=(0, 2, 0))]
+    remote = franka_sim(*robots, world="stone.xml", pace="realtime").robot.remote
+    with remote, Remote(remote.address) as other:
+        remote.step(200)
+        thread = threading.Thread(target=other.scene)
+        begin = time.monotonic() - remote.time()
+        late = []
+        thread.start()
+        while thread.is_alive() or len(late) < 100:
+            late.append(time.monotonic() - remote.time() - begin)
+        thread.join()
+    assert max(late) < 0.05, "The host makes up for delays of up to 50 ms."
 
 
 def test_the_vacuum_gripper_has_lines_of_its_own(server):

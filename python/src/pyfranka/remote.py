@@ -13,6 +13,8 @@ Each line of the interface (docs/franka_sim.md) is a method. It needs sockets an
 
 from __future__ import annotations
 
+import base64
+import json
 import operator
 import re
 import socket
@@ -26,7 +28,7 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["PORT", "LineRefused", "Remote", "RemoteState"]
+__all__ = ["PORT", "LineRefused", "Remote", "RemoteMesh", "RemoteScene", "RemoteShape", "RemoteState"]
 
 Array = NDArray[numpy.float64]
 PORT = 1340
@@ -63,6 +65,39 @@ class RemoteState:
     errors: dict[str, str]
     q: Array
     fault: str
+
+
+@dataclass(frozen=True, eq=False)
+class RemoteShape:
+    """A shape to draw. body: its index in RemoteScene.bodies. kind: "box", "sphere", "capsule", "cylinder",
+    "ellipsoid", "plane" or "mesh". size: half sizes as in MuJoCo, 3 [m]. pose: in the body, position [m] and
+    quaternion w, x, y, z. color: red, green, blue, opacity, 0 to 1. mesh: its name, empty without one.
+    """
+
+    body: int
+    kind: str
+    size: Array
+    pose: Array
+    color: Array
+    mesh: str
+
+
+@dataclass(frozen=True)
+class RemoteScene:
+    """The world to draw. bodies: their names, links of robots included; some may be empty. robots: arm_id and
+    type ("panda" or "fr3") of each."""
+
+    bodies: list[str]
+    shapes: list[RemoteShape]
+    robots: dict[str, str]
+
+
+@dataclass(frozen=True, eq=False)
+class RemoteMesh:
+    """Triangles in the frame of each shape that has them. vertices: n x 3 [m]. faces: n x 3 indices."""
+
+    vertices: NDArray[numpy.float32]
+    faces: NDArray[numpy.uint32]
 
 
 class Remote:
@@ -229,6 +264,36 @@ class Remote:
     def where(self, body: str, timeout: float | None = None) -> Array:
         """Position of a body in the world, 3 [m]."""
         return numpy.array(self.send(f"where {_word(body, 'The name of a body')}", timeout).split(), float)
+
+    def scene(self, timeout: float | None = None) -> RemoteScene:
+        """Bodies and shapes of the world, for programs that draw it. The first call may take seconds."""
+        answer = json.loads(self.send("scene", timeout))
+        shapes = [
+            RemoteShape(
+                shape["body"],
+                shape["kind"],
+                *(numpy.array(shape[key], float) for key in ("size", "pose", "color")),
+                shape["mesh"],
+            )
+            for shape in answer["shapes"]
+        ]
+        robots = {robot["arm_id"]: robot["type"] for robot in answer["robots"]}
+        return RemoteScene([body["name"] for body in answer["bodies"]], shapes, robots)
+
+    def mesh(self, name: str, timeout: float | None = None) -> RemoteMesh:
+        """The triangles of a mesh that a shape of the scene names; read in parts, one line each."""
+        data, offset = b"", 0
+        while offset is not None:
+            answer = json.loads(self.send(f"mesh {_word(name, 'The name of a mesh')} {offset}", timeout))
+            data += base64.b64decode(answer["data"])
+            offset = answer["next"]
+        end = 12 * answer["vertices"]  # [bytes]: three numbers of four bytes each
+        vertices = numpy.frombuffer(data[:end], "<f4").reshape(-1, 3)
+        return RemoteMesh(vertices, numpy.frombuffer(data[end:], "<u4").reshape(-1, 3))
+
+    def poses(self, timeout: float | None = None) -> Array:
+        """Position [m] and quaternion w, x, y, z of each body of the scene, in its order: n x 7."""
+        return numpy.array(json.loads(self.send("poses", timeout)), float)
 
     def time(self, timeout: float | None = None) -> float:
         """Simulated time since the start or the last reset [s]."""

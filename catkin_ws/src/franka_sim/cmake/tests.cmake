@@ -80,6 +80,7 @@ sim_test(physics_test
     test/physics/sdf_meshes_test.cpp
     test/physics/sdf_text_test.cpp
     test/physics/sdf_world_test.cpp
+    test/physics/shapes_test.cpp
     test/physics/urdf_robot_test.cpp
     test/physics/world_limits_test.cpp
     test/physics/world_objects_test.cpp

@@ -19,7 +19,7 @@ thread at a time may use a simulation.
 
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState, RequestRefused, Snapshot
 
-from pyfranka.remote import LineRefused, Remote, RemoteState
+from pyfranka.remote import LineRefused, Remote, RemoteMesh, RemoteScene, RemoteShape, RemoteState
 
 from .batch import SimulationBatch
 from .robot import Action, Gripper, Robot
@@ -39,6 +39,9 @@ __all__ = [
     "Panda",
     "Picture",
     "Remote",
+    "RemoteMesh",
+    "RemoteScene",
+    "RemoteShape",
     "RemoteState",
     "RequestRefused",
     "Robot",

@@ -4,6 +4,7 @@
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/world.h>
 #include <franka_sim/simulation/files.h>
+#include <franka_sim/simulation/scene_commands.h>
 #include <sched.h>
 #include <sys/mman.h>
 
@@ -74,6 +75,14 @@ class WorldWatch {
   bool stopped_{false};
 };
 
+std::vector<SceneRobot> sceneRobots(const std::vector<ArmOptions>& arms) {
+  std::vector<SceneRobot> robots;
+  for (const ArmOptions& arm : arms) {
+    robots.push_back({arm.arm_id, arm.robot});
+  }
+  return robots;
+}
+
 void serve(const Options& options) {
   World world(worldFile(options.world), resolveUri);
   std::deque<ServedArm> arms;
@@ -101,12 +110,14 @@ void serve(const Options& options) {
   std::atomic<bool> ended{false};
   Shutdown shutdown(end_requested, ended, std::chrono::duration<double>(options.linger), robots);
   host.add(shutdown);
+  SceneText scene(world, [&options] { return sceneRobots(options.arms); });
   std::deque<fci::LineServer> lines;
   for (ServedArm& arm : arms) {
     host.add(arm.robot());
     if (arm.options().control_port != 0) {
       lines.emplace_back(arm.options().ip, arm.options().control_port);
       addOperatorCommands(lines.back(), {arm.robot(), robots, host, world, ended});
+      addSceneCommands(lines.back(), world, scene);
       host.add(lines.back());
     }
   }

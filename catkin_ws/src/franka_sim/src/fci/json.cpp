@@ -58,6 +58,11 @@ JsonWriter& JsonWriter::key(std::string_view name) {
   return *this;
 }
 
+JsonWriter& JsonWriter::null() {
+  append("null");
+  return *this;
+}
+
 JsonWriter& JsonWriter::begin(char bracket) {
   separate();
   text_ += bracket;

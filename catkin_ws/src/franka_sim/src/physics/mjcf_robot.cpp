@@ -152,15 +152,17 @@ class Writer {
     if (!all) {
       return false;
     }
+    int count = 0;
     for (const auto& [shape, is_capsule] : findCapsules(link.visuals)) {
       if (shape.shape != UrdfGeometry::Shape::kMesh) {
-        setLook(writeGeom(shape, is_capsule, pose, body), shape.rgba.value_or(kDefaultColour));
+        setLook(writeGeom(shape, is_capsule, pose, body), shape.rgba.value_or(kDefaultColour), link,
+                count++);
         continue;
       }
       for (const MeshPart& part : visualParts(shape.mesh, robot_.description.resolve)) {
         XMLElement* geom = writeGeom(shape, false, pose, body);
         setMesh(geom, part.file, shape.scale);
-        setLook(geom, part.rgba.value_or(shape.rgba.value_or(kDefaultColour)));
+        setLook(geom, part.rgba.value_or(shape.rgba.value_or(kDefaultColour)), link, count++);
       }
     }
     return true;
@@ -169,6 +171,7 @@ class Writer {
   /// For links whose visual cannot be read: collision shapes instead of a gap in the robot.
   void writeCollisionsToLookAt(const UrdfLink& link, const Eigen::Isometry3d& pose,
                                XMLElement* body) {
+    int count = 0;
     for (const auto& [shape, is_capsule] : findCapsules(link.collisions)) {
       std::vector<MeshPart> parts;
       if (shape.shape == UrdfGeometry::Shape::kMesh) {
@@ -181,7 +184,7 @@ class Writer {
       if (!parts.empty()) {
         setMesh(geom, parts.front().file, shape.scale);
       }
-      setLook(geom, kDefaultColour);
+      setLook(geom, kDefaultColour, link, count++);
     }
   }
 
@@ -223,7 +226,9 @@ class Writer {
     geom->SetAttribute("mesh", known->second.c_str());
   }
 
-  static void setLook(XMLElement* geom, const std::array<double, 4>& rgba) {
+  static void setLook(XMLElement* geom, const std::array<double, 4>& rgba, const UrdfLink& link,
+                      int number) {
+    geom->SetAttribute("name", (link.name + "/visual_" + std::to_string(number)).c_str());
     geom->SetAttribute("contype", "0");
     geom->SetAttribute("conaffinity", "0");
     geom->SetAttribute("group", "2");

@@ -147,9 +147,16 @@ std::array<double, 3> World::gravity() const {
 }
 
 Pose World::bodyPose(const std::string& body) const {
-  const Eigen::Isometry3d pose = impl_->pose(impl_->frame(body));
-  const Eigen::Quaterniond turn(pose.linear());
-  return {array(pose.translation()), {turn.w(), turn.x(), turn.y(), turn.z()}};
+  return toPose(impl_->pose(impl_->frame(body)));
+}
+
+std::vector<Pose> World::framePoses() const {
+  std::vector<Pose> poses;
+  poses.reserve(impl_->ordered_frames.size());
+  for (const NamedFrame& named : impl_->ordered_frames) {
+    poses.push_back(toPose(impl_->pose(named.frame)));
+  }
+  return poses;
 }
 
 void World::setBodyPose(const std::string& body, const Pose& pose) {

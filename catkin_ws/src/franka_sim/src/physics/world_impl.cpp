@@ -103,6 +103,22 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
   frictions.carry(old_frictions);
 }
 
+void World::Impl::orderFrames() {
+  ordered_frames.clear();
+  for (int b = 0; b < model->nbody; ++b) {
+    const std::string name = nameOf(*model, mjOBJ_BODY, b);
+    const auto found = frames.find(name);
+    const bool is_own = !name.empty() && found->second.body == b;
+    ordered_frames.push_back(
+        {name, is_own ? found->second : Frame{b, Eigen::Isometry3d::Identity()}});
+  }
+  for (const auto& [name, frame] : frames) {
+    if (!name.empty() && ordered_frames[frame.body].name != name) {
+      ordered_frames.push_back({name, frame});
+    }
+  }
+}
+
 void World::Impl::index() {
   visual_mjcf.clear();
   warned = {};
@@ -131,6 +147,7 @@ void World::Impl::index() {
       }
     }
   }
+  orderFrames();
   geom_links.clear();
   for (int g = 0; g < model->ngeom; ++g) {
     const std::string link = physics::linkOfGeom(nameOf(*model, mjOBJ_GEOM, g));

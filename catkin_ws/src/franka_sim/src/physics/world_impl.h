@@ -25,6 +25,10 @@ inline Eigen::Vector3d vector(const std::array<double, 3>& values) {
   return Eigen::Vector3d::Map(values.data());
 }
 inline std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline Pose toPose(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond turn(pose.linear());
+  return {array(pose.translation()), {turn.w(), turn.x(), turn.y(), turn.z()}};
+}
 
 /// A force at a point fixed to a body, for a number of ticks.
 struct Push {
@@ -47,6 +51,11 @@ struct Frame {
   Eigen::Isometry3d pose;
 };
 
+struct NamedFrame {
+  std::string name;
+  Frame frame;
+};
+
 struct World::Impl {
   Impl(const std::string& file, ResourceResolver resolve);
 
@@ -64,6 +73,8 @@ struct World::Impl {
   physics::JointFrictions frictions;
   physics::PlantView view;
   std::map<std::string, Frame> frames;
+  /// All bodies, in MuJoCo's order and some without a name; then the links and bodies in them.
+  std::vector<NamedFrame> ordered_frames;
   std::vector<std::string> geom_links;  ///< per geom, the link or body shown in contacts
   std::vector<Push> pushes;
   std::uint64_t ticks{0};
@@ -112,6 +123,7 @@ struct World::Impl {
   void placeInitially(const mjModel& m, mjData* d,
                       const std::vector<std::unique_ptr<physics::RobotModel>>& all) const;
   void index();
+  void orderFrames();
   void bindPlants();
   void stop(const physics::StepFault& why) noexcept;
   void applyPushes() noexcept;

@@ -64,6 +64,16 @@ std::vector<std::string> World::bodies() const {
   return names;
 }
 
+std::uint64_t World::generation() const noexcept { return impl_->generation; }
+
+std::vector<std::string> World::frames() const {
+  std::vector<std::string> names;
+  for (const NamedFrame& named : impl_->ordered_frames) {
+    names.push_back(named.name);
+  }
+  return names;
+}
+
 std::vector<std::string> World::joints() const {
   std::vector<std::string> names;
   for (int j = 0; j < impl_->model->njnt; ++j) {

@@ -34,6 +34,7 @@ class JsonWriter {
   JsonWriter& key(std::string_view name);
   template <typename Value>
   JsonWriter& value(const Value& value);
+  JsonWriter& null();
   template <typename Value>
   JsonWriter& member(std::string_view name, const Value& value) {
     return key(name).value(value);

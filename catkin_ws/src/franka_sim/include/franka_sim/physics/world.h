@@ -156,6 +156,11 @@ class World {
   std::vector<WorldCamera> cameras() const;
   /// Robots first.
   std::vector<WorldModel> models() const;
+  /// A number that changes when a robot or an object comes or goes.
+  std::uint64_t generation() const noexcept;
+  /// Names of all bodies, links included, for drawing: unnamed ones too, each once. The order is
+  /// that of framePoses(), as long as generation() is the same.
+  std::vector<std::string> frames() const;
 
   /// Plants stay valid until their robot is removed, also when other robots are added.
   /// @throws std::runtime_error when the robot has no joints `<arm_id>_joint1..7` (arm) or no
@@ -197,6 +202,8 @@ class World {
   std::array<double, 3> gravity() const;
   void setGravity(const std::array<double, 3>& gravity);  ///< [m/s^2]; a reset does not change it
   Pose bodyPose(const std::string& body) const;
+  /// Poses of all frames().
+  std::vector<Pose> framePoses() const;
   void setBodyPose(const std::string& body,
                    const Pose& pose);  ///< free bodies only; velocity becomes 0
   Twist bodyTwist(const std::string& body) const;
