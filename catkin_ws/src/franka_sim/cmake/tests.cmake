@@ -44,6 +44,7 @@ sim_test(robot_unit_test
     test/robot/command_link_test.cpp
     test/robot/error_flags_test.cpp
     test/robot/laws_test.cpp
+    test/robot/safety_controller_test.cpp
     test/robot/transform_entrances_test.cpp
     test/robot/unit_limits_test.cpp
     test/robot/unit_motion_test.cpp

@@ -311,6 +311,11 @@ bool Host::timeMustGoOn() {
   return rolling_ > 0;
 }
 
+bool Host::settlesInTime() const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.robot->settlesInTime(); });
+}
+
 void Host::giveUpOnTheSilent() {
   for (Entry& entry : entries_) {
     entry.given_up = entry.given_up || (entry.isDue() && !entry.robot->receiveCommand());
@@ -348,7 +353,9 @@ void Host::waitInLockStep() {
       return;
     }
     if (timeMustGoOn()) {
-      held_back_ = holdsRequestsBack() ? held_back_ + 1 : 0;
+      if (!settlesInTime()) {
+        held_back_ = holdsRequestsBack() ? held_back_ + 1 : 0;
+      }
       rolling_--;
       return;
     }

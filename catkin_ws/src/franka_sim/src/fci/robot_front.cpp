@@ -49,10 +49,13 @@ void RobotFront::actuate() { robot_.actuate(takeCommand()); }
 
 void RobotFront::serve(bool stops_only) {
   server_.serve(stops_only);
+  const bool tools = robot_.safety().handServed();
   if (hand_) {
+    hand_->setOpen(tools);
     hand_->serve(stops_only);
   }
   if (vacuum_) {
+    vacuum_->setOpen(tools);
     vacuum_->serve(stops_only);
   }
 }
@@ -100,7 +103,7 @@ bool RobotFront::settling() const {
   const bool abandoned =
       state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
   const UnitStatus status = robot_.unit().status();
-  return status.settling || abandoned || !status.resting;
+  return status.settling || abandoned || !status.resting || robot_.safety().busy();
 }
 
 bool RobotFront::handBusy() const {

@@ -25,6 +25,19 @@ std::string toText(const std::array<double, 7>& values) {
   return text;
 }
 
+std::string errorNames(const ControlUnit& unit) {
+  const std::array<bool, franka_core::kErrorCount>& errors = unit.state().errors;
+  std::string text;
+  for (std::size_t i = 0; i < errors.size(); i++) {
+    text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
+    const std::string detail = errors[i] ? detailOf(unit, i) : "";
+    text += detail.empty() ? "" : " (" + detail + ")";
+  }
+  return text.empty() ? " none" : text;
+}
+
+}  // namespace
+
 std::string detailOf(const ControlUnit& unit, std::size_t error) {
   const UnitStatus status = unit.status();
   if (error == indexOf(RobotError::kSelfCollisionAvoidanceViolation)) {
@@ -38,19 +51,6 @@ std::string detailOf(const ControlUnit& unit, std::size_t error) {
   }
   return "";
 }
-
-std::string errorNames(const ControlUnit& unit) {
-  const std::array<bool, franka_core::kErrorCount>& errors = unit.state().errors;
-  std::string text;
-  for (std::size_t i = 0; i < errors.size(); i++) {
-    text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
-    const std::string detail = errors[i] ? detailOf(unit, i) : "";
-    text += detail.empty() ? "" : " (" + detail + ")";
-  }
-  return text.empty() ? " none" : text;
-}
-
-}  // namespace
 
 RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
                                const franka_core::ArmModel& arm) {

@@ -65,6 +65,14 @@ Status Configuration::apply(const codec::SetCartesianImpedanceRequest& request) 
   return assign(isCartesianStiffness(request.K_x), parameters_.cartesian_stiffness, request.K_x);
 }
 
+Status Configuration::apply(const SetEndEffector& request) noexcept {
+  const bool valid = isPayload(request.payload) && isFrame(request.F_T_NE);
+  assign(valid, parameters_.end_effector, request.payload);
+  const Status status = assign(valid, parameters_.F_T_NE, request.F_T_NE);
+  payload_ = franka_core::combine(parameters_.end_effector, parameters_.load);
+  return status;
+}
+
 Status Configuration::apply(const SetProtocolVersion& request) noexcept {
   const bool known = request.version >= 3 && request.version <= 10;
   return assign(known, parameters_.protocol_version, request.version);

@@ -17,7 +17,13 @@ namespace {
 template <typename Setter>
 constexpr bool kChangesFrames =
     std::is_same_v<Setter, codec::SetNEToEERequest> ||
-    std::is_same_v<Setter, codec::SetEEToKRequest> || std::is_same_v<Setter, codec::SetLoadRequest>;
+    std::is_same_v<Setter, codec::SetEEToKRequest> ||
+    std::is_same_v<Setter, codec::SetLoadRequest> || std::is_same_v<Setter, SetEndEffector>;
+
+/// The setters that move the end effector's frame.
+template <typename Setter>
+constexpr bool kMovesEndEffector =
+    std::is_same_v<Setter, codec::SetNEToEERequest> || std::is_same_v<Setter, SetEndEffector>;
 
 /// The setters that Configuration applies.
 template <typename Setter>
@@ -61,8 +67,7 @@ struct ControlUnit::Parts {
   template <typename Setter>
   Status configure(const Setter& setter) noexcept {
     // A generator computes its motion for the end effector at its start.
-    const bool fixed = std::is_same_v<Setter, codec::SetNEToEERequest> && supervisor.isMoving() &&
-                       supervisor.generates();
+    const bool fixed = kMovesEndEffector<Setter> && supervisor.isMoving() && supervisor.generates();
     if (fixed || !supervisor.acceptsSetters()) {
       return Status::kCommandNotPossibleRejected;
     }

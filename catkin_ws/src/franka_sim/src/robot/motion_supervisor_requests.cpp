@@ -41,8 +41,16 @@ bool anyError(const franka_core::RobotState& state) noexcept {
 // --- motions -------------------------------------------------------------------------------------
 
 MotionSupervisor::Answer MotionSupervisor::handle(const codec::MoveRequest& request) noexcept {
+  return fci_active_ ? startMotion(request) : Status::kCommandNotPossibleRejected;
+}
+
+MotionSupervisor::Answer MotionSupervisor::handle(const OperatorMove& request) noexcept {
+  return startMotion(request.move);
+}
+
+MotionSupervisor::Answer MotionSupervisor::startMotion(const codec::MoveRequest& request) noexcept {
   const bool with_generator = request.motion_generator_mode != MotionGeneratorMode::kNone;
-  if (!estimator_.started() || !fci_active_ || mode() != RobotMode::kIdle ||
+  if (!estimator_.started() || mode() != RobotMode::kIdle ||
       (with_generator && rest_.isBraking())) {
     return Status::kCommandNotPossibleRejected;
   }

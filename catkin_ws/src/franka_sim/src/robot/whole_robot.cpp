@@ -14,12 +14,17 @@ namespace {
 // Force laws of the fingers: gains of the original's FrankaGripperSim (decision 29).
 constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
 
+constexpr unsigned kOldestFr3Version = 6;
+
 }  // namespace
 
 WholeRobot::WholeRobot(const ControlUnitParameters& unit, ArmPlant& arm,
                        const std::optional<Hand>& hand,
                        const std::optional<VacuumGripperParameters>& vacuum, unsigned command_delay)
-    : unit_(unit), arm_(arm) {
+    : unit_(unit),
+      arm_(arm),
+      safety_(unit_, unit.protocol_version >= kOldestFr3Version),
+      operator_motion_(unit_) {
   link_.setDelay(command_delay);
   if (hand) {
     hand_plant_ = hand->plant;
@@ -54,7 +59,16 @@ void WholeRobot::restart() noexcept {
 void WholeRobot::renew() {
   unit_ = ControlUnit(unit_.configuration());
   halted_ = false;
+  safety_.start(safety_.rules());
   restart();
+}
+
+void WholeRobot::setPower(bool on) {
+  const bool starts = on && !safety_.state().power;
+  safety_.setPower(on);
+  if (starts) {
+    renew();
+  }
 }
 
 void WholeRobot::observe() noexcept {
@@ -66,8 +80,12 @@ void WholeRobot::observe() noexcept {
 }
 
 void WholeRobot::actuate(const franka_core::RobotCommand* command) noexcept {
+  safety_.step();
   const franka_core::RobotCommand* passed = link_.pass(command);
   hashing_ = hashing_ || passed != nullptr;
+  if (operator_motion_.active()) {
+    passed = operator_motion_.command();
+  }
   if (hashing_) {
     updateHash();
   }

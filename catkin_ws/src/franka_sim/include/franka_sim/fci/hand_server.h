@@ -40,6 +40,8 @@ class HandServer {
   /// an object because a program ends.
   bool busy() const noexcept { return unit_.outcome(last_) == GripperOutcome::kRunning; }
 
+  /// Closed: the port refuses, and the client is disconnected.
+  void setOpen(bool open) noexcept;
   /// Accepts, reads and answers. @param stops_only serves Connect and Stop only.
   void serve(bool stops_only = false);
   /// Sends a state if one is due, and the replies to commands that have ended.
@@ -87,6 +89,15 @@ typename HandServer<Device>::Status HandServer<Device>::toStatus(GripperOutcome 
       return Status::kAborted;
     default:
       return Status::kUnsuccessful;
+  }
+}
+
+template <typename Device>
+void HandServer<Device>::setOpen(bool open) noexcept {
+  slot_.setOpen(open);
+  if (!open) {
+    slot_.drop();
+    forgetClient();
   }
 }
 

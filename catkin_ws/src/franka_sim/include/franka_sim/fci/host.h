@@ -82,6 +82,8 @@ class HostedRobot {
   /// Whether the arm stops, recovers or is pushed, or its client has disconnected in a motion: time
   /// must go on though no client answers.
   virtual bool settling() const = 0;
+  /// Whether it settles for a time that is known: however long that is, requests wait for its end.
+  virtual bool settlesInTime() const { return false; }
   /// Whether a command of the hand runs.
   virtual bool handBusy() const = 0;
 
@@ -184,6 +186,7 @@ class Host {
   bool heedsClock() const;
   bool answersAreMissing() const;
   bool timeMustGoOn();
+  bool settlesInTime() const;
   void giveUpOnTheSilent();
   bool stopped() const;
 

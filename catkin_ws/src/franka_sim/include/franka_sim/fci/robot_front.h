@@ -55,6 +55,7 @@ class RobotFront : public HostedRobot {
   bool asynchronous() const override { return server_.asynchronous(); }
   bool motionHasBegun() const override { return server_.motionHasBegun(); }
   bool settling() const override;
+  bool settlesInTime() const override { return robot_.safety().busy(); }
   bool handBusy() const override;
   /// Whether a client is connected to the arm or to the hand.
   bool hasClients() const;

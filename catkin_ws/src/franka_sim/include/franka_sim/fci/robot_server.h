@@ -58,6 +58,9 @@ class RobotServer {
   std::size_t unsentBytes() noexcept {
     return slot_.client() == nullptr ? 0 : slot_.client()->unsentBytes();
   }
+  /// The range of versions that are accepted.
+  std::uint16_t oldestVersion() const noexcept { return parameters_.oldest_version; }
+  std::uint16_t newestVersion() const noexcept { return parameters_.newest_version; }
   /// The version of the connected client; 0 without one.
   std::uint16_t version() const noexcept { return version_; }
 

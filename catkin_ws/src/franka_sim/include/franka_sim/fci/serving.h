@@ -43,6 +43,10 @@ void setLoad(SimRobot& robot, const franka_core::Payload& load);
 /// "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
 std::string collisionOf(const ControlUnit& unit, franka_core::RobotError error);
 
+/// The links or the axis of a collision that raised this error (an index of RobotState::errors);
+/// empty for other errors.
+std::string detailOf(const ControlUnit& unit, std::size_t error);
+
 /// Mode, client, errors (of collisions: the links or the axis) and joints in one line for the user.
 std::string describe(SimRobot& robot);
 

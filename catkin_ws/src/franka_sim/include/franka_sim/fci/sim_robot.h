@@ -39,6 +39,7 @@ class SimRobot final : private OwnedUnits, public RobotFront {
            const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {},
            unsigned command_delay = 0);
 
+  WholeRobot& whole() noexcept { return units; }
   ControlUnit& unit() noexcept { return units.unit(); }
   CommandLink& link() noexcept { return units.link(); }
   /// Null if the robot has none.

@@ -36,6 +36,7 @@ class Configuration {
   Status apply(const franka_core::fci::SetJointImpedanceRequest& request) noexcept;
   Status apply(const franka_core::fci::SetCartesianImpedanceRequest& request) noexcept;
   Status apply(const SetProtocolVersion& request) noexcept;
+  Status apply(const SetEndEffector& request) noexcept;
 
   /// Writes frames, payloads and gravity into the state.
   void show(franka_core::RobotState& state) const noexcept;

@@ -59,6 +59,7 @@ class MotionSupervisor {
   Answer handle(const Guiding& request) noexcept;
   Answer handle(const Brakes& request) noexcept;
   Answer handle(const FciActivation& request) noexcept;
+  Answer handle(const OperatorMove& request) noexcept;
   Answer handle(const ClientLost& request) noexcept;
   Answer take(PendingAnswer which) noexcept { return answers_.take(which); }
 
@@ -98,6 +99,7 @@ class MotionSupervisor {
   bool standsStill() const noexcept;
 
   // transitions
+  Answer startMotion(const franka_core::fci::MoveRequest& request) noexcept;
   MotionStartResult startGenerator(const franka_core::fci::MoveRequest& request) noexcept;
   Answer recover() noexcept;
   Answer recoverWithoutReflex() noexcept;

@@ -5,6 +5,7 @@
 #include <franka_core/fci/commands.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 
+#include <array>
 #include <cstdint>
 #include <variant>
 
@@ -33,6 +34,15 @@ struct Brakes {
 struct FciActivation {
   bool active;
 };
+/// A motion that the operator commands by Desk: a Move that needs no FCI.
+struct OperatorMove {
+  franka_core::fci::MoveRequest move;
+};
+/// The end effector as it is set in Desk. Refused in Move, and if no arm can hold it.
+struct SetEndEffector {
+  franka_core::Payload payload;   ///< m_ee, F_x_Cee, I_ee
+  std::array<double, 16> F_T_NE;  ///< 4x4, column-major
+};
 struct SetVirtualWall {
   std::int32_t id;
   franka_core::fci::CartesianLimit wall;
@@ -51,8 +61,8 @@ using UnitRequest = std::variant<
     franka_core::fci::SetJointImpedanceRequest, franka_core::fci::SetCartesianImpedanceRequest,
     franka_core::fci::SetGuidingModeRequest, franka_core::fci::SetEEToKRequest,
     franka_core::fci::SetNEToEERequest, franka_core::fci::SetLoadRequest,
-    franka_core::fci::SetFiltersRequest, UserStop, Guiding, Brakes, FciActivation, SetVirtualWall,
-    SetProtocolVersion, ClientLost>;
+    franka_core::fci::SetFiltersRequest, UserStop, Guiding, Brakes, FciActivation, OperatorMove,
+    SetEndEffector, SetVirtualWall, SetProtocolVersion, ClientLost>;
 
 /// The requests that are answered later than they are made.
 enum class PendingAnswer {

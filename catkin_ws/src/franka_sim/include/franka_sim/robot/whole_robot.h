@@ -6,7 +6,9 @@
 #include <franka_sim/robot/command_link.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/gripper_unit.h>
+#include <franka_sim/robot/operator_motion.h>
 #include <franka_sim/robot/plant.h>
+#include <franka_sim/robot/safety_controller.h>
 #include <franka_sim/robot/vacuum_gripper_unit.h>
 
 #include <cstdint>
@@ -15,8 +17,8 @@
 namespace franka_sim {
 
 /// The units of one robot on their plants, in ticks of 1 ms: control unit, hand and vacuum gripper,
-/// and the link that commands come through. Called by one thread. Except for the constructor
-/// and `renew`: Real-time safe.
+/// the link that commands come through, the safety controller and the operator's motion. Called by
+/// one thread. Except for the constructor, `renew` and `setPower`: Real-time safe.
 class WholeRobot {
  public:
   struct Hand {
@@ -34,6 +36,10 @@ class WholeRobot {
   ControlUnit& unit() noexcept { return unit_; }
   const ControlUnit& unit() const noexcept { return unit_; }
   CommandLink& link() noexcept { return link_; }
+  SafetyController& safety() noexcept { return safety_; }
+  const SafetyController& safety() const noexcept { return safety_; }
+  OperatorMotion& operatorMotion() noexcept { return operator_motion_; }
+  const OperatorMotion& operatorMotion() const noexcept { return operator_motion_; }
   /// Null if the robot has none.
   GripperUnit* hand() noexcept { return hand_ ? &*hand_ : nullptr; }
   const GripperUnit* hand() const noexcept { return hand_ ? &*hand_ : nullptr; }
@@ -51,6 +57,9 @@ class WholeRobot {
   /// Call after a reset of the world: restores the condition after the start; the hash restarts.
   /// Then call `observe` once: in the next tick, or once more within a tick.
   void restart() noexcept;
+  /// Switches the robot off or on, see SafetyController::setPower. It starts with a new control
+  /// unit, as `renew` does; then call `observe` once.
+  void setPower(bool on);
   /// As `restart`, with a new control unit of the present configuration: without errors, idle,
   /// brakes open, at time 0, without virtual walls and filters. References to its state become
   /// invalid. Not real-time safe.
@@ -64,6 +73,8 @@ class WholeRobot {
 
   ControlUnit unit_;
   ArmPlant& arm_;
+  SafetyController safety_;
+  OperatorMotion operator_motion_;
   CommandLink link_;
   HandPlant* hand_plant_{nullptr};
   std::optional<GripperUnit> hand_;

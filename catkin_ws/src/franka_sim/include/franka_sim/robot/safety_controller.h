@@ -1,0 +1,112 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/safety_state.h>
+
+#include <array>
+#include <cstdint>
+
+namespace franka_sim {
+
+/// Who decides whether clients may connect and whether the arm is free.
+enum class SafetyRules {
+  /// Each request is executed at once: a robot that is always ready.
+  kOpen,
+  /// As with a real robot and its Desk: brakes open joint by joint, requests that the state does
+  /// not allow are refused, stops and errors lock the arm, the self-test is due once a day.
+  kDesk,
+};
+
+/// The safety controller of one robot: brakes, stops, operating mode, self-test and errors that a
+/// person acknowledges. It makes requests of the control unit; the operator makes requests here.
+///
+/// The rules: (decision 54). Called by one thread between
+/// ticks. Real-time safe.
+class SafetyController {
+ public:
+  /// @param unit outlives the controller. @param fr3 an FR3, otherwise a Panda
+  SafetyController(ControlUnit& unit, bool fr3) noexcept : unit_(unit), fr3_(fr3) {}
+
+  /// The condition after power-up: brakes closed, FCI inactive, no errors. With kOpen: ready.
+  void start(SafetyRules rules) noexcept;
+  /// Call at each tick, before the unit's `actuate`.
+  void step() noexcept;
+
+  // Idempotent. Refused requests change nothing.
+
+  /// Opens the brakes joint by joint; ends when `state().brakes_moving` becomes false.
+  Refusal unlock() noexcept;
+  /// Ends a motion and the FCI, then closes the brakes joint by joint. Never refused.
+  void lock() noexcept;
+  Refusal activateFci() noexcept;
+  /// A running motion ends (kAborted), and clients are disconnected.
+  void deactivateFci() noexcept;
+  /// FR3 only. Programming ends the FCI.
+  Refusal setOperatingMode(OperatingMode mode) noexcept;
+  void press(SafetyInput input, bool pressed) noexcept;
+  void press(std::size_t button, bool pressed) noexcept { state_.buttons[button] = pressed; }
+  /// Presses the guiding button. @returns why the arm does not become free, kNone if it does
+  Refusal guide(bool active) noexcept;
+  /// @param axes x, y, z, turns about them, elbow: only for GuidingMode::kUser
+  Refusal setGuidingMode(GuidingMode mode, const std::array<bool, 7>& axes) noexcept;
+  void setArrowsGuideDesk(bool desk) noexcept { state_.arrows_guide_desk = desk; }
+  /// Closes the brakes and tests; ends when `state().self_test` becomes false.
+  Refusal startSelfTest() noexcept;
+  /// @param due [s] until the self-test is overdue
+  void setSelfTestDue(double due) noexcept { state_.self_test_due = due; }
+  Refusal acknowledge(RecoverableError error) noexcept;
+  /// Only while the enabling device is pressed.
+  Refusal acknowledge(DemandedRecovery recovery) noexcept;
+  void inject(RecoverableError error, bool active) noexcept;
+  void inject(DemandedRecovery recovery, std::size_t joint, bool active) noexcept;
+  void setEndEffectorPower(bool on) noexcept { state_.end_effector_power = on; }
+  /// Off: no client can connect, and no request but this one is accepted.
+  void setPower(bool on) noexcept;
+  /// Whether the operator may move the arm by Desk now.
+  Refusal allowsOperatorMotion() const noexcept;
+
+  /// Durations [s]: of opening or closing all brakes, and of the self-test.
+  void setBrakeTime(double seconds) noexcept { brake_time_ = seconds; }
+  void setSelfTestTime(double seconds) noexcept { self_test_time_ = seconds; }
+
+  const SafetyState& state() const noexcept { return state_; }
+  SafetyRules rules() const noexcept { return rules_; }
+  bool isFr3() const noexcept { return fr3_; }
+  Light light() const noexcept;
+  bool brakesClosed() const noexcept;
+  bool fciActive() const noexcept { return unit_.status().fci_active; }
+  /// Whether clients of the hand may connect.
+  bool handServed() const noexcept;
+  /// Whether time must go on: brakes move, or the self-test runs.
+  bool busy() const noexcept { return state_.brakes_moving || state_.self_test; }
+
+ private:
+  enum class BrakeMotion { kNone, kOpening, kClosing };
+
+  bool ruled() const noexcept { return rules_ == SafetyRules::kDesk; }
+  bool stopPressed() const noexcept;
+  bool anyRecoverable() const noexcept;
+  Refusal refusalOfMotors() const noexcept;
+  void closeBrakes() noexcept;
+  void advanceBrakes() noexcept;
+  void advanceSelfTest() noexcept;
+  void advanceClock() noexcept;
+  void applyStops() noexcept;
+
+  ControlUnit& unit_;
+  bool fr3_;
+  SafetyRules rules_{SafetyRules::kOpen};
+  SafetyState state_;
+  BrakeMotion brakes_{BrakeMotion::kNone};
+  double brake_time_{5.0};      // [s] (decision 54)
+  double self_test_time_{8.0};  // [s] (decision 54)
+  double since_{0.0};           // the brakes' motion began [s]
+};
+
+/// The word for a refusal in Desk's interface, such as "BrakesClosed", and a sentence about it.
+std::string_view nameOf(Refusal refusal) noexcept;
+std::string_view sentenceOf(Refusal refusal) noexcept;
+
+}  // namespace franka_sim
