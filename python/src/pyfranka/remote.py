@@ -21,12 +21,14 @@ import socket
 import threading
 import time
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
+
+from pyfranka.robot_report import RobotReport
 
 __all__ = ["PORT", "LineRefused", "Remote", "RemoteMesh", "RemoteScene", "RemoteShape", "RemoteState"]
 
@@ -184,6 +186,104 @@ class Remote:
     def fci(self, active: bool, timeout: float | None = None) -> None:
         """Whether clients may connect. Off: a motion is aborted and the client disconnected."""
         self.send(f"fci {_switch(active)}", timeout)
+
+    def joints(self, locked: bool, timeout: float | None = None) -> None:
+        """Closes or opens the brakes, joint by joint with Desk's rules; returns when they have moved."""
+        self.send("joints " + ("lock" if _switch(locked) == "on" else "unlock"), timeout)
+
+    def operating_mode(
+        self, mode: typing.Literal["execution", "programming"], timeout: float | None = None
+    ) -> None:
+        """Of an FR3; programming ends the FCI."""
+        self.send(f"operating_mode {_word(mode, 'The mode')}", timeout)
+
+    def input(
+        self,
+        name: typing.Literal["x31", "x32", "x33", "x4", "guiding"],
+        pressed: bool,
+        timeout: float | None = None,
+    ) -> None:
+        """Presses or releases a stop, the activation or enabling device (x4) or the guiding button."""
+        self.send(f"input {_word(name, 'The name of an input')} {_switch(pressed)}", timeout)
+
+    def button(self, name: str, pressed: bool, timeout: float | None = None) -> None:
+        """Presses or releases a button of the Pilot: circle, cross, check, up, down, left or right."""
+        self.send(f"button {_word(name, 'The name of a button')} {_switch(pressed)}", timeout)
+
+    def guiding_mode(
+        self,
+        mode: typing.Literal["free", "translation", "rotation", "user"],
+        axes: Sequence[bool] = (),
+        timeout: float | None = None,
+    ) -> None:
+        """The directions in which the arm can be guided. axes: only for user; along and about x, y, z of K,
+        and the elbow, 7."""
+        self.send(" ".join(["guiding_mode", _word(mode, "The mode"), *map(_switch, axes)]), timeout)
+
+    def navigation(self, user: typing.Literal["desk", "robot"], timeout: float | None = None) -> None:
+        """Whom the Pilot's arrow keys are for."""
+        self.send(f"navigation {_word(user, 'The user of the keys')}", timeout)
+
+    def self_test(self, due: float | None = None, timeout: float | None = None) -> None:
+        """Starts the self-test; with `due`, sets only the time until it is overdue [s]."""
+        self.send("self_test" if due is None else _line("self_test due", [due]), timeout)
+
+    def acknowledge(self, error: str, timeout: float | None = None) -> None:
+        """Acknowledges an error of the safety controller, such as td2Timeout."""
+        self.send(f"acknowledge {_word(error, 'The name of an error')}", timeout)
+
+    def inject(self, error: str, active: bool, joint: int = 0, timeout: float | None = None) -> None:
+        """Lets the safety controller have an error, or not. joint: 1 to 7, for those of a joint."""
+        words = [_word(error, "The name of an error"), *([str(_whole(joint, "A joint"))] if joint else [])]
+        self.send(" ".join(["inject", *words, _switch(active)]), timeout)
+
+    def recover(self, timeout: float | None = None) -> None:
+        """Automatic error recovery; returns at its end."""
+        self.send("recover", timeout)
+
+    def move(
+        self,
+        target: ArrayLike | typing.Literal["pack", "stop"],
+        speed: float = 0.3,
+        timeout: float | None = None,
+    ) -> None:
+        """A motion of Desk, which needs no client: to joint positions, 7 [rad], at a share of the velocity
+        limits; to the pose for packing; or stops one. Returns at its end."""
+        if isinstance(target, str):
+            self.send(f"move {_word(target, 'The target')}", timeout)
+        else:
+            self.send(_line("move", _numbers(target, 7, "The target"), [speed]), timeout)
+
+    def end_effector(
+        self,
+        mass: float,
+        center: ArrayLike,
+        inertia: ArrayLike,
+        F_T_NE: ArrayLike,
+        timeout: float | None = None,
+    ) -> None:
+        """The end effector as it is set in Desk: m_ee [kg], F_x_Cee 3 [m], I_ee 9 [kg m^2], F_T_NE 16,
+        column by column."""
+        words = [_numbers(center, 3, "The centre of mass"), _numbers(inertia, 9, "The inertia")]
+        self.send(_line("end_effector", [mass], *words, _numbers(F_T_NE, 16, "The transform")), timeout)
+
+    def end_effector_power(self, on: bool, timeout: float | None = None) -> None:
+        """Off: the hand is not reachable."""
+        self.send(f"end_effector_power {_switch(on)}", timeout)
+
+    def power(self, on: bool, timeout: float | None = None) -> None:
+        """Off: the robot is not reachable. On: it starts, with Desk's rules locked."""
+        self.send(f"power {_switch(on)}", timeout)
+
+    def timing(
+        self, what: typing.Literal["brakes", "self_test"], seconds: float, timeout: float | None = None
+    ) -> None:
+        """How long all brakes, or the self-test, take."""
+        self.send(f"timing {_word(what, 'The name')} {float(seconds)!r}", timeout)
+
+    def report(self, timeout: float | None = None) -> RobotReport:
+        """Everything of the robot."""
+        return RobotReport.read(self.send("report", timeout))
 
     def load(self, mass: float, center: ArrayLike = (0, 0, 0), timeout: float | None = None) -> None:
         """The load that the robot assumes: mass [kg], centre of mass in the flange's frame, 3 [m]."""

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "desk_process.h"
 #include "operator_commands.h"
 #include "options.h"
 #include "served_arm.h"
@@ -89,6 +90,10 @@ void serve(const Options& options) {
   std::vector<fci::SimRobot*> robots;
   for (const ArmOptions& arm : options.arms) {
     robots.push_back(&arms.emplace_back(arm, world).robot());
+    if (options.locked) {
+      robots.back()->whole().safety().start(SafetyRules::kDesk);
+      robots.back()->serve(true);  // closes its ports before anyone can find them
+    }
   }
   std::mutex mutex;
   const bool viewed = options.viewer;
@@ -116,10 +121,15 @@ void serve(const Options& options) {
     host.add(arm.robot());
     if (arm.options().control_port != 0) {
       lines.emplace_back(arm.options().ip, arm.options().control_port);
-      addOperatorCommands(lines.back(), {arm.robot(), robots, host, world, ended});
+      addOperatorCommands(lines.back(),
+                          {arm.robot(), arm.options().arm_id, robots, host, world, ended});
       addSceneCommands(lines.back(), world, scene);
       host.add(lines.back());
     }
+  }
+  std::optional<DeskProcess> desk;
+  if (options.desk.served) {
+    host.add(desk.emplace(options));
   }
   std::optional<Viewer> viewer;
   if (viewed) {

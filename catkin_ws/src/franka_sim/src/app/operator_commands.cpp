@@ -12,6 +12,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "safety_commands.h"
+
 namespace franka_sim {
 
 namespace {
@@ -40,34 +42,6 @@ void require(std::optional<Status> status, const std::string& sentence) {
   if (status != Status::kSuccess) {
     throw std::invalid_argument(sentence);
   }
-}
-
-void addSwitches(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
-  constexpr std::uint64_t kReaction = 500;  // [ticks] in lock-step, until the arm has reacted
-  lines.add("user_stop on|off", [&](const Words& words) {
-    robot.unit().request(UserStop{toSwitch(words.at(0))});
-    host.letRun(kReaction);
-    return "";
-  });
-  lines.add("guiding on|off", [&](const Words& words) {
-    robot.unit().request(Guiding{toSwitch(words.at(0))});
-    host.letRun(kReaction);
-    return "";
-  });
-  lines.add("brakes open|close", [&](const Words& words) {
-    const std::string& what = words.at(0);
-    if (what != "open" && what != "close") {
-      throw std::invalid_argument("'" + what + "' is neither open nor close.");
-    }
-    robot.unit().request(Brakes{what == "close"});
-    host.letRun(kReaction);
-    return "";
-  });
-  lines.add("fci on|off", [&](const Words& words) {
-    robot.unit().request(FciActivation{toSwitch(words.at(0))});
-    robot.serve(true);  // the port opens or closes before the answer is sent
-    return "";
-  });
 }
 
 void addLink(LineServer& lines, fci::SimRobot& robot) {
@@ -245,7 +219,7 @@ void addRobot(LineServer& lines, fci::SimRobot& robot, const fci::Host& host, co
 }  // namespace
 
 void addOperatorCommands(fci::LineServer& lines, const Scene& scene) {
-  addSwitches(lines, scene.robot, scene.host);
+  addSafetyCommands(lines, scene);
   addLink(lines, scene.robot);
   addWorld(lines, scene.host, scene.world);
   addTime(lines, scene.host, scene.world);

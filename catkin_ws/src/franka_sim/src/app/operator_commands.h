@@ -7,6 +7,7 @@
 #include <franka_sim/physics/world.h>
 
 #include <atomic>
+#include <string>
 #include <vector>
 
 namespace franka_sim {
@@ -14,6 +15,7 @@ namespace franka_sim {
 /// The objects that the commands change; all of them outlive the server.
 struct Scene {
   fci::SimRobot& robot;                       ///< the robot of this control interface
+  std::string arm_id;                         ///< its prefix in the world
   const std::vector<fci::SimRobot*>& robots;  ///< all robots, including that one
   fci::Host& host;
   World& world;

@@ -134,6 +134,20 @@ void checkProtocol(const ArmOptions& arm) {
   }
 }
 
+void checkDesk(const CLI::App& app, const Options& options) {
+  for (const char* option : {"--desk-user", "--desk-password"}) {
+    if (app.count(option) > 0 && !options.desk.served) {
+      throw CLI::ValidationError(option, "it belongs to Desk; give --desk as well.");
+    }
+  }
+  for (const ArmOptions& arm : options.arms) {
+    if (options.desk.served && arm.control_port == 0) {
+      throw CLI::ValidationError("--control-port",
+                                 "Desk needs the control interface; give a port other than 0.");
+    }
+  }
+}
+
 void nameArms(std::vector<ArmOptions>& arms) {
   std::set<std::string> names;
   for (const ArmOptions& arm : arms) {
@@ -256,6 +270,31 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
       ->check({portFault, ""});
 }
 
+void addOptionsOfDesk(CLI::App& app, Options& options) {
+  app.option_defaults()->group("Of Desk")->take_last();
+  app.add_option_function<std::string>(
+         "--desk",
+         [&options](const std::string& address) {
+           options.desk.served = true;
+           options.desk.address = address;
+         },
+         "serve Desk, the robots' web interface (each robot's own address, port\n"
+         "443, or 8443 if that is not permitted). Robots start locked")
+      ->option_text("[ADDRESS:PORT]")
+      ->expected(0, 1);
+  app.add_option("--desk-user", options.desk.user, "who may log in (franka)")->option_text("NAME");
+  app.add_option("--desk-password", options.desk.password,
+                 "the password (a new one, printed at the start). Others can read it\n"
+                 "here; the variable FRANKA_DESK_PASSWORD is for this program only")
+      ->option_text("WORD");
+  app.add_option_function<std::string>(
+         "--start", [&options](const std::string& word) { options.locked = word == "locked"; },
+         "ready, or locked: with closed brakes and without FCI, as a real robot\n"
+         "after power-up (ready; with --desk: locked)")
+      ->option_text("ready|locked")
+      ->check(CLI::IsMember({"ready", "locked"}));
+}
+
 void addOptionsOfAll(CLI::App& app, Options& options) {
   const auto pace = [&options](const std::string& text) { readPace(text, options.pace); };
   const auto wait = [&options](const std::string& text) { readWait(text, options.pace); };
@@ -310,10 +349,13 @@ Options readOptions(int argc, const char* const* argv) {
   bool robot_named = false;
   addOptionsOfRobots(app, options.arms, robot_named);
   addOptionsOfAll(app, options);
+  addOptionsOfDesk(app, options);
   app.set_help_flag("-h,--help", "this text");
   try {
     app.parse(wordsOf(argc, argv));
     checkPace(app, options.pace);
+    checkDesk(app, options);
+    options.locked = options.locked || (options.desk.served && app.count("--start") == 0);
     checkTogether(options.arms);
   } catch (const CLI::CallForHelp&) {
     options.help = app.help();

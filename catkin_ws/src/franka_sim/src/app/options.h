@@ -22,6 +22,14 @@ struct ArmOptions : RobotSetup {
   std::uint16_t control_port{1340};  ///< of the control interface; 0: none
 };
 
+/// Desk, the robots' web interface.
+struct DeskOptions {
+  bool served{false};
+  std::string address;   ///< ADDRESS:PORT; empty: each robot's own address
+  std::string user;      ///< empty: franka_desk's default
+  std::string password;  ///< empty: a new one, which franka_desk prints
+};
+
 /// The options of franka_sim on the command line.
 struct Options {
   std::string help;  ///< to be printed instead of serving robots; empty: not requested
@@ -30,6 +38,8 @@ struct Options {
   fci::Pace pace;
   double linger{0.0};  ///< how long the end of the program waits for clients to disconnect [s]
   bool viewer{false};
+  DeskOptions desk;
+  bool locked{false};  ///< robots start with closed brakes and without FCI, see SafetyRules::kDesk
 };
 
 /// @throws std::invalid_argument that names the error.

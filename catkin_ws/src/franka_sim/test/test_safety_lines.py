@@ -1,0 +1,160 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The lines of the safety controller: a locked robot is made ready, stopped, tested and switched off."""
+
+import json
+import socket
+import threading
+
+import numpy
+import pyfranka
+import pytest
+from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.remote import LineRefused
+
+KINDS = ("panda", "fr3")
+
+
+@pytest.fixture(params=KINDS)
+def robot(request):
+    with FrankaSim(SimRobot(request.param), arguments=["--start=locked"]) as sim:
+        yield sim.robot
+
+
+def report(robot) -> dict:
+    return json.loads(robot.remote.send("report"))
+
+
+def refusal(robot, line: str) -> str:
+    with pytest.raises(LineRefused) as refused:
+        robot.remote.send(line)
+    return str(refused.value).partition(":")[0]
+
+
+def make_ready(robot) -> None:
+    robot.remote.send("joints unlock")
+    robot.remote.send("fci on")
+
+
+def accepts(robot, port: int) -> bool:
+    with socket.socket() as connection:
+        connection.settimeout(2)
+        return connection.connect_ex((robot.address, port)) == 0
+
+
+def test_ports_refuse_until_the_robot_is_ready(robot):
+    assert not accepts(robot, 1337)
+    assert not accepts(robot, 1338)
+    with pytest.raises(pyfranka.Exception, match="FCI"):
+        robot.connect()
+    assert refusal(robot, "fci on") == "BrakesClosed"
+    make_ready(robot)
+    assert report(robot)["brakes"] == [False] * 7
+    assert robot.connect().read_once().robot_mode == pyfranka.RobotMode.Idle
+    robot.gripper().read_once()
+    robot.remote.send("fci off")
+    assert not accepts(robot, 1337)
+    assert not accepts(robot, 1338)
+
+
+def test_the_report_is_complete(robot):
+    state = report(robot)
+    assert state["type"] == robot.kind
+    assert state["arm_id"] == robot.arm_id
+    assert state["protocol"] == ([3, 5] if robot.kind == "panda" else [6, 10])
+    assert (state["rules"], state["mode"], state["client"], state["fault"]) == ("desk", "Other", 0, "")
+    assert (len(state["q"]), len(state["O_T_EE"]), len(state["O_F_ext"])) == (7, 16, 6)
+    assert state["brakes"] == [True] * 7
+    assert state["light"] == {"color": "yellow", "blinking": False}
+    assert state["hand"]["kind"] == "gripper"
+    assert state["self_test"]["due"] > 86000
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [("joints lock", "aborted"), ("fci off", "aborted"), ("power off", "aborted")],
+)
+def test_the_end_of_the_fci_ends_a_motion(robot, line, message):
+    make_ready(robot)
+    client = robot.connect()
+    q = client.read_once().q_d
+    sender = threading.Timer(0.2, robot.remote.send, [line])
+    with pytest.raises(pyfranka.Exception, match=message):
+        sender.start()
+        client.control_joint_positions(lambda state, period: pyfranka.JointPositions(q))
+    sender.join()
+    assert not accepts(robot, 1337)
+    if line == "power off":
+        assert refusal(robot, "joints unlock") == "NotReady"
+        robot.remote.send("power on")
+    make_ready(robot)
+    assert robot.connect().read_once().robot_mode == pyfranka.RobotMode.Idle
+
+
+def test_the_end_effector_is_seen_by_clients(robot):
+    make_ready(robot)
+    transform = numpy.eye(4)
+    transform[2, 3] = 0.2
+    words = [0.5, 0.01, 0.02, 0.03, *(1e-3 * numpy.eye(3)).ravel(), *transform.T.ravel()]
+    robot.remote.send("end_effector " + " ".join(map(str, words)))
+    state = robot.connect().read_once()
+    assert state.m_ee == pytest.approx(0.5)
+    assert state.F_x_Cee == pytest.approx([0.01, 0.02, 0.03])
+    assert state.F_T_NE[2, 3] == pytest.approx(0.2)
+    words[0] = 50.0
+    with pytest.raises(LineRefused, match="kg"):
+        robot.remote.send("end_effector " + " ".join(map(str, words)))
+
+
+def test_moves_to_the_pack_pose_without_fci(robot):
+    assert refusal(robot, "move pack") == "BrakesClosed"
+    robot.remote.send("joints unlock")
+    robot.remote.send("move pack")
+    state = report(robot)
+    assert not state["errors"]
+    assert state["motion"] is False
+    assert state["q"][3] == pytest.approx(-2.95, abs=0.02)
+    with pytest.raises(LineRefused, match="limits"):
+        robot.remote.send("move 9 0 0 -1.5 0 1.5 0")
+
+
+def test_a_motion_that_is_stopped_says_so():
+    with FrankaSim("panda", pace="realtime") as sim:
+        sim.robot.remote.fci(False)
+        threading.Timer(0.5, sim.robot.remote.move, ["stop"]).start()
+        with pytest.raises(LineRefused, match="ended before"):
+            sim.robot.remote.move([1, -0.8, 0, -2.4, 0, 1.6, 0.8], speed=0.1)
+        sim.robot.remote.wait()
+        assert 0 < report(sim.robot)["q"][0] < 0.9
+
+
+def test_errors_are_acknowledged(robot):
+    make_ready(robot)
+    robot.remote.send("inject genericJointError on")
+    robot.remote.wait()
+    assert report(robot)["recoverable"] == ["genericJointError"]
+    assert report(robot)["light"]["color"] == "red"
+    assert refusal(robot, "joints unlock") == "RecoverableErrorActive"
+    robot.remote.send("acknowledge genericJointError")
+    assert refusal(robot, "acknowledge genericJointError") == "NoAckRequired"
+    robot.remote.send("self_test")
+    assert refusal(robot, "joints unlock") == "SelfTestRunning"
+    robot.remote.wait()
+    make_ready(robot)
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["input x5 on", "button circle", "operating_mode walk", "guiding_mode user on", "timing brakes -1",
+     "timing lunch 3", "inject jointLimitViolation 8 on", "inject nothing on", "acknowledge nothing",
+     "self_test never", "move 1 2 3", "end_effector 1", "power maybe", "joints open", "navigation sea"],
+)  # fmt: skip
+def test_wrong_lines_are_refused_and_change_nothing(robot, line):
+    before = report(robot)
+    with pytest.raises(LineRefused):
+        robot.remote.send(line)
+    after = report(robot)
+    del before["time"], after["time"]
+    assert before["brakes"] == after["brakes"]
+    assert before["inputs"] == after["inputs"]
+    assert before["power"] == after["power"]
