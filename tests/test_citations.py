@@ -27,8 +27,8 @@ LOOSE = re.compile(
 )
 # Documents outside the repository, and ours without their folder.
 OUTSIDE = re.compile(
-    r"\b(?:fci|franka_ros|ros_control|mujoco|desk|debian|users_ask|style)\.md\b|\b(?:manual|md5)\.txt\b"
-    r"|(?<![\w/(\[])(?:decisions|protocol|faults|fidelity)\.md\b"
+    r"\b(?:fci|franka_ros|ros_control|mujoco|debian|users_ask|style)\.md\b|\b(?:manual|md5)\.txt\b"
+    r"|(?<![\w/(\[])(?:decisions|protocol|faults|fidelity|desk)\.md\b"
 )
 # Files of the repository whose names OUTSIDE would match.
 OURS = {"tests/data/md5.txt"}

@@ -10,7 +10,7 @@ import numpy
 import pyfranka
 import pytest
 from pyfranka.franka_sim import FrankaSim, SimRobot
-from pyfranka.remote import LineRefused
+from pyfranka.remote import LineRefused, Remote
 
 KINDS = ("panda", "fr3")
 
@@ -121,7 +121,7 @@ def test_moves_to_the_pack_pose_without_fci(robot):
 def test_a_motion_that_is_stopped_says_so():
     with FrankaSim("panda", pace="realtime") as sim:
         sim.robot.remote.fci(False)
-        threading.Timer(0.5, sim.robot.remote.move, ["stop"]).start()
+        threading.Timer(0.5, Remote(sim.robot.address).move, ["stop"]).start()
         with pytest.raises(LineRefused, match="ended before"):
             sim.robot.remote.move([1, -0.8, 0, -2.4, 0, 1.6, 0.8], speed=0.1)
         sim.robot.remote.wait()
