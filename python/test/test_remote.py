@@ -60,7 +60,8 @@ def names(usages):
 def test_each_line_of_the_program_is_a_method_and_each_method_a_line(server):
     lines = names(server["panda"].remote.help()) | names(server["left"].remote.help()) | {"help"}
     methods = {name for name, _ in inspect.getmembers(Remote, inspect.isfunction) if not name.startswith("_")}
-    assert methods - HELPERS == lines
+    # hand_move(), for example, is the line `hand move`.
+    assert {name if name in lines else name.partition("_")[0] for name in methods - HELPERS} == lines
     added = [
         usage for source in SOURCES for usage in re.findall(r'lines\.add\(\s*"([^"]+)"', source.read_text())
     ]
@@ -298,6 +299,60 @@ def test_reading_the_scene_delays_no_state(franka_sim):
             late.append(time.monotonic() - remote.time() - begin)
         thread.join()
     assert max(late) < 0.05, "The host makes up for delays of up to 50 ms."
+
+
+@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
+def test_the_hand_works_for_the_operator(franka_sim, pace):
+    remote = franka_sim("panda", pace=pace, realism="ideal").robot.remote
+
+    def width():
+        return numpy.linalg.norm(remote.where("panda_leftfinger") - remote.where("panda_rightfinger"))
+
+    with remote:
+        begin = remote.time()
+        remote.hand_homing()
+        assert remote.time() > begin + 4.0, "Closing and opening take seconds."
+        assert width() == pytest.approx(0.08, abs=1e-3)
+        remote.hand_move(0.02, 0.1)
+        assert width() == pytest.approx(0.02, abs=1e-3)
+        with pytest.raises(LineRefused, match=r"Nothing of that width has been grasped. The width is 0.0"):
+            remote.hand_grasp(0.05, 0.1, 30)
+        remote.hand_stop()
+        remote.wait()
+
+
+def test_one_command_of_the_hand_ends_another(franka_sim):
+    remote = franka_sim("panda", pace="realtime").robot.remote
+    failures = []
+
+    def home():
+        with pytest.raises(LineRefused) as failure:
+            Remote(remote.address).hand_homing()
+        failures.append(str(failure.value))
+
+    thread = threading.Thread(target=home)
+    thread.start()
+    before = remote.where("panda_leftfinger")
+    while numpy.linalg.norm(remote.where("panda_leftfinger") - before) < 0.005:
+        pass
+    remote.hand_stop()
+    thread.join(20)
+    assert failures == ["Another command or a reset has ended this one."]
+
+
+def test_commands_of_the_hand_are_checked(server):
+    remote = server["panda"].remote
+    for call, sentence in (
+        (lambda: remote.hand_move(0.09, 0.1), r"widths lie between 0 and 0.0800 m"),
+        (lambda: remote.hand_move(0.02, -0.1), "speeds and forces from 0 on"),
+        (lambda: remote.hand_grasp(0.02, 0.1, -1), "speeds and forces from 0 on"),
+        (lambda: remote.send("hand"), "Words are missing: hand homing"),
+        (lambda: remote.send("hand move 0.02"), "Words are missing: hand homing"),
+        (lambda: remote.send("hand wave"), "'wave' is none of homing, stop, move and grasp"),
+        (server["left"].remote.hand_homing, "NoHand: This robot has no Franka hand"),
+    ):
+        with pytest.raises(LineRefused, match=sentence):
+            call()
 
 
 def test_the_vacuum_gripper_has_lines_of_its_own(server):

@@ -317,6 +317,24 @@ class Remote:
         """Health of the vacuum gripper's pump; a red one does not work."""
         self.send(f"pump {_word(health, 'The health')}", timeout)
 
+    def hand_homing(self, timeout: float | None = None) -> None:
+        """Closes and opens the Franka hand fully; returns when it has done so. LineRefused if it fails."""
+        self.send("hand homing", timeout)
+
+    def hand_move(self, width: float, speed: float, timeout: float | None = None) -> None:
+        """Moves the fingers to a width [m] at a speed [m/s]; returns when they are there. LineRefused if an
+        object blocks them."""
+        self.send(_line("hand move", [width, speed]), timeout)
+
+    def hand_grasp(self, width: float, speed: float, force: float, timeout: float | None = None) -> None:
+        """Grasps an object of this width [m], within 5 mm, with a force [N]; returns when it is held.
+        LineRefused if it is not."""
+        self.send(_line("hand grasp", [width, speed, force]), timeout)
+
+    def hand_stop(self, timeout: float | None = None) -> None:
+        """Ends the hand's command and releases its force."""
+        self.send("hand stop", timeout)
+
     def state(self, timeout: float | None = None) -> RemoteState:
         """Mode, client, errors and joints."""
         text = self.send("state", timeout)

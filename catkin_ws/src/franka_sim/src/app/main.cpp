@@ -4,6 +4,7 @@
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/world.h>
 #include <franka_sim/simulation/files.h>
+#include <franka_sim/simulation/hand_commands.h>
 #include <franka_sim/simulation/scene_commands.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -124,6 +125,7 @@ void serve(const Options& options) {
       addOperatorCommands(lines.back(),
                           {arm.robot(), arm.options().arm_id, robots, host, world, ended});
       addSceneCommands(lines.back(), world, scene);
+      addHandCommands(lines.back(), arm.robot().hand());
       host.add(lines.back());
     }
   }

@@ -121,7 +121,7 @@ void GripperUnit::execute(Command command) noexcept {  // by value: it may be ne
   next_.kind = Command::Kind::kNone;
   drive(command.width, command.speed);
   state_ = GripperState::kMoving;
-  homing_ = command.kind == Command::Kind::kHoming;
+  homing_ = command.kind == Command::Kind::kHoming ? Homing::kCloses : Homing::kNone;
   if (command.kind == Command::Kind::kGrasp) {
     state_ = GripperState::kGrasping;
     grasp_ = command.grasp;
@@ -151,7 +151,7 @@ void GripperUnit::drive(double target, double speed) noexcept {
   target_ = target;
   speed_ = std::min(speed, parameters_.max_speed);
   begun_ = false;
-  homing_ = false;
+  homing_ = Homing::kNone;
   pressing_ = false;
 }
 
@@ -231,15 +231,17 @@ bool GripperUnit::resting(double period) noexcept {
 }
 
 void GripperUnit::advanceMove(bool resting) noexcept {
-  const bool too_early = since_ < parameters_.latency.shortest && !homing_;
+  const bool too_early = since_ < parameters_.latency.shortest && homing_ != Homing::kCloses;
   if (!resting || too_early) {
     return;
   }
   if (std::abs(width() - ramp_.target()) > parameters_.move_tolerance) {
     idle(GripperOutcome::kFailed);
-  } else if (homing_) {
+  } else if (homing_ == Homing::kCloses) {
     drive(parameters_.max_width, parameters_.homing_speed);
+    homing_ = Homing::kOpens;
   } else {
+    homed_ = homed_ || homing_ == Homing::kOpens;
     tickets_.close(GripperOutcome::kSucceeded);
     state_ = GripperState::kIdle;  // the ramp keeps the desired width
   }

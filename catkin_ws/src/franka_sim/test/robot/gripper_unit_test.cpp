@@ -435,6 +435,31 @@ TEST_F(GripperTest, HomingClosesAndOpensFully) {
   EXPECT_NEAR((0.05 + 0.08) / 0.02, time, 0.5);
 }
 
+TEST_F(GripperTest, IsHomedAfterAHomingThatSucceeds) {
+  EXPECT_TRUE(gripper.isHomed());
+  gripper.forgetHoming();
+  finish(gripper.move(0.02, 0.1));
+  EXPECT_FALSE(gripper.isHomed()) << "by a move";
+  const GripperUnit::Ticket interrupted = gripper.homing();
+  run(4500);
+  gripper.stop();
+  EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(interrupted));
+  EXPECT_FALSE(gripper.isHomed());
+  finish(gripper.homing());
+  EXPECT_TRUE(gripper.isHomed());
+  gripper.restart();
+  EXPECT_TRUE(gripper.isHomed()) << "a reset of the world does not switch the hand off";
+}
+
+TEST_F(GripperTest, IsBusyWhileACommandRuns) {
+  run(10);
+  EXPECT_FALSE(gripper.isBusy());
+  const GripperUnit::Ticket ticket = gripper.move(0.02, 0.1);
+  EXPECT_TRUE(gripper.isBusy());
+  finish(ticket);
+  EXPECT_FALSE(gripper.isBusy());
+}
+
 TEST_F(GripperTest, HomingFailsOnAnObstacle) {
   putStone();
   hand.object.movable = false;

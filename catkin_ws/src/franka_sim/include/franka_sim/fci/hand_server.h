@@ -36,9 +36,9 @@ class HandServer {
   bool hasClient() const noexcept { return slot_.confirmed(); }
   /// See ClientSlot::onRefusal.
   void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
-  /// Whether a command runs. It continues after its client has disconnected: a hand must not drop
-  /// an object because a program ends.
-  bool busy() const noexcept { return unit_.outcome(last_) == GripperOutcome::kRunning; }
+  /// Whether a command runs, of whomever. It continues after its client has disconnected: a hand
+  /// must not drop an object because a program ends.
+  bool busy() const noexcept { return unit_.isBusy(); }
 
   /// Closed: the port refuses, and the client is disconnected.
   void setOpen(bool open) noexcept;
@@ -76,7 +76,6 @@ class HandServer {
   Datagrams datagrams_;
   std::chrono::steady_clock::time_point state_sent_at_{};
   std::optional<Running> running_;  // for the connected client
-  TicketLog::Ticket last_{0};
   std::uint64_t message_id_{0};
 };
 
@@ -155,7 +154,6 @@ bool HandServer<Device>::start(const Header& header, const Request& request) {
   if (ticket == 0) {
     return reply(command, header.command_id, Status::kFail);
   }
-  last_ = ticket;
   // The unit has ended the previous command; its reply goes first.
   if (!replyToEnded()) {
     return false;

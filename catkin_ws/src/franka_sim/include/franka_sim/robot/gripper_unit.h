@@ -77,6 +77,12 @@ class GripperUnit {
   double maxWidth() const noexcept { return parameters_.max_width; }  ///< [m]
   bool isGrasped()
       const noexcept;  ///< whether an object is held within the epsilons of the last grasp
+  /// Whether a command runs, or waits for its latency.
+  bool isBusy() const noexcept { return tickets_.isOpen(); }
+  /// Whether the hand knows its widths: from the start, or after forgetHoming() since a homing has
+  /// succeeded. The unit itself needs none.
+  bool isHomed() const noexcept { return homed_; }
+  void forgetHoming() noexcept { homed_ = false; }
 
   /// Motor temperature [deg C]: a first-order lag of the squared force, like the heat loss in a
   /// motor's windings.
@@ -93,6 +99,8 @@ class GripperUnit {
   void restart() noexcept;
 
  private:
+  enum class Homing { kNone, kCloses, kOpens };
+
   struct Grasp {
     double low{0.0}, high{0.0};  // widths of success, exclusive [m]
     double force{0.0};           // on each finger [N]
@@ -122,8 +130,9 @@ class GripperUnit {
 
   GripperParameters parameters_;
   GripperState state_{GripperState::kIdle};
-  bool begun_{false};     // the ramp has started from the measured width
-  bool homing_{false};    // the running move is the closing half of a homing
+  bool begun_{false};             // the ramp has started from the measured width
+  Homing homing_{Homing::kNone};  // of the running move
+  bool homed_{true};
   bool pressing_{false};  // the grasp has met resistance
   double pressed_{0.0};   // duration of pressing [s]
   double target_{0.0};    // of the command [m]

@@ -27,6 +27,8 @@ class TicketLog {
   Ticket open() noexcept;
   /// Ends the running command, if any.
   void close(GripperOutcome outcome) noexcept;
+  /// Whether a command runs.
+  bool isOpen() const noexcept { return outcome(last_) == GripperOutcome::kRunning; }
   /// kFailed for 0 and for unknown numbers; kInterrupted for those no longer stored.
   GripperOutcome outcome(Ticket ticket) const noexcept;
 

@@ -50,6 +50,7 @@ class VacuumGripperUnit {
   Ticket stop() noexcept;
 
   GripperOutcome outcome(Ticket ticket) const noexcept { return tickets_.outcome(ticket); }
+  bool isBusy() const noexcept { return tickets_.isOpen(); }  ///< whether a command runs
 
   /// Puts a part on the cup, or removes it.
   void setPart(bool covers) noexcept { part_ = covers; }

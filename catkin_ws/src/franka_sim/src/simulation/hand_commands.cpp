@@ -1,0 +1,90 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/simulation/hand_commands.h>
+
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace franka_sim {
+namespace {
+
+using fci::LineServer;
+using fci::Reply;
+using fci::toNumber;
+using Words = LineServer::Words;
+
+constexpr double kGraspTolerance = 0.005;  // [m] either way, the default of libfranka's grasp
+
+std::string metres(double width) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4f m", width);
+  return text;
+}
+
+void requireHomed(const GripperUnit& hand) {
+  if (!hand.isHomed()) {
+    throw std::runtime_error(
+        "NotHomed: The hand has not been homed since the robot was switched on. Home it first.");
+  }
+}
+
+// Answers when the command has ended. @param failure what has happened if it failed
+Reply outcomeOf(const GripperUnit& hand, GripperUnit::Ticket ticket, const std::string& failure) {
+  if (ticket == 0) {
+    throw std::invalid_argument("The hand refuses this: widths lie between 0 and " +
+                                metres(hand.maxWidth()) + ", speeds and forces from 0 on.");
+  }
+  return Reply([&hand, ticket, failure]() -> std::optional<std::string> {
+    switch (hand.outcome(ticket)) {
+      case GripperOutcome::kRunning:
+        return {};
+      case GripperOutcome::kSucceeded:
+        return "";
+      case GripperOutcome::kInterrupted:
+        throw std::runtime_error("Another command or a reset has ended this one.");
+      default:
+        throw std::runtime_error(failure + " The width is " + metres(hand.width()) + ".");
+    }
+  });
+}
+
+Reply execute(GripperUnit& hand, const Words& words) {
+  const std::string& command = words.at(0);
+  if (command == "homing") {
+    return outcomeOf(hand, hand.homing(), "The homing has failed: something blocks the fingers.");
+  }
+  if (command == "stop") {
+    return outcomeOf(hand, hand.stop(), "");
+  }
+  if (command == "move") {
+    const double width = toNumber(words.at(1));
+    const double speed = toNumber(words.at(2));
+    requireHomed(hand);
+    return outcomeOf(hand, hand.move(width, speed), "The fingers have not arrived.");
+  }
+  if (command == "grasp") {
+    const double width = toNumber(words.at(1));
+    const double speed = toNumber(words.at(2));
+    const double force = toNumber(words.at(3));
+    requireHomed(hand);
+    return outcomeOf(hand, hand.grasp(width, kGraspTolerance, kGraspTolerance, speed, force),
+                     "Nothing of that width has been grasped.");
+  }
+  throw std::invalid_argument("'" + command + "' is none of homing, stop, move and grasp.");
+}
+
+}  // namespace
+
+void addHandCommands(LineServer& lines, GripperUnit* hand) {
+  lines.add("hand homing|stop|move WIDTH SPEED|grasp WIDTH SPEED FORCE",
+            [hand](const Words& words) -> Reply {
+              if (hand == nullptr) {
+                throw std::runtime_error("NoHand: This robot has no Franka hand.");
+              }
+              return execute(*hand, words);
+            });
+}
+
+}  // namespace franka_sim
