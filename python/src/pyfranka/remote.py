@@ -28,7 +28,7 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from pyfranka.robot_report import RobotReport
+from pyfranka.robot_report import Report, report_of
 
 __all__ = ["PORT", "LineRefused", "Remote", "RemoteMesh", "RemoteScene", "RemoteShape", "RemoteState"]
 
@@ -281,9 +281,9 @@ class Remote:
         """How long all brakes, or the self-test, take."""
         self.send(f"timing {_word(what, 'The name')} {float(seconds)!r}", timeout)
 
-    def report(self, timeout: float | None = None) -> RobotReport:
+    def report(self, timeout: float | None = None) -> Report:
         """Everything of the robot."""
-        return RobotReport.read(self.send("report", timeout))
+        return report_of(self.send("report", timeout))
 
     def load(self, mass: float, center: ArrayLike = (0, 0, 0), timeout: float | None = None) -> None:
         """The load that the robot assumes: mass [kg], centre of mass in the flange's frame, 3 [m]."""

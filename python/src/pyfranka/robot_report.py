@@ -1,23 +1,78 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the line `report` of the control interface says about a robot (pyfranka.remote.Remote.report)."""
+"""What the line `report` of the control interface says about a robot, with types (docs/franka_sim.md).
+
+Only the standard library is needed.
+"""
 
 from __future__ import annotations
 
+import dataclasses
 import json
-from dataclasses import dataclass, fields
+import types
+import typing
+from dataclasses import dataclass
 
-import numpy
-from numpy.typing import NDArray
+__all__ = ["Report", "report_of"]
 
-__all__ = ["EndEffector", "Hand", "RobotReport"]
+Numbers = tuple[float, ...]
+Flags = tuple[bool, ...]
 
-Array = NDArray[numpy.float64]
+
+@dataclass(frozen=True)
+class Inputs:
+    """Safety inputs; True: pressed. x31, x32, x33: stops; x4: the activation or enabling device; guiding: the
+    enable button at the hand."""
+
+    x31: bool
+    x32: bool
+    x33: bool
+    x4: bool
+    guiding: bool
+
+
+@dataclass(frozen=True)
+class Buttons:
+    """Buttons of the Pilot; True: pressed."""
+
+    circle: bool
+    cross: bool
+    check: bool
+    up: bool
+    down: bool
+    left: bool
+    right: bool
+
+
+@dataclass(frozen=True)
+class Guiding:
+    """Hand guiding. axes: x, y, z, rotations about them, elbow; True: free."""
+
+    active: bool
+    mode: str
+    axes: Flags
+
+
+@dataclass(frozen=True)
+class SelfTest:
+    """left: of the running test [s]; due: until the next one must have run [s]."""
+
+    running: bool
+    left: float
+    due: float
+
+
+@dataclass(frozen=True)
+class Light:
+    """The light of the robot's base."""
+
+    color: str
+    blinking: bool
 
 
 @dataclass(frozen=True)
 class Hand:
-    """kind: "gripper", "vacuum" or "none"; widths [m]. homed: it has been homed since the start."""
+    """The end effector's drive: kind gripper, vacuum or none; widths [m]."""
 
     kind: str
     homed: bool
@@ -27,78 +82,114 @@ class Hand:
     busy: bool
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class EndEffector:
-    """mass [kg], center of mass 3 [m], inertia 9 [kg m^2], F_T_NE 4x4 as 16 numbers, column by column.
-    power: whether the hand is reachable."""
+    """What the robot assumes at its flange: mass [kg], centre of mass in the flange's frame, 3 [m], inertia
+    about it, 9 [kg m^2], and the pose F_T_NE of its tool, 16, column-major."""
 
     mass: float
-    center: Array
-    inertia: Array
-    F_T_NE: Array
+    center: Numbers
+    inertia: Numbers
+    F_T_NE: Numbers
     power: bool
 
 
-@dataclass(frozen=True, eq=False)
-class RobotReport:
-    """time [s] is that of the simulation. q, dq, q_d [rad], tau_J, tau_ext [Nm], O_T_EE (16, column by
-    column), O_F_ext [N, Nm] as in franka::RobotState.
+@dataclass(frozen=True)
+class Report:
+    """A robot at one instant of its time [s]. Names and units of the FCI's state where it has them.
 
-    rules: "desk" or "open". brakes: joint by joint, True is closed. inputs, buttons: by name, True is
-    pressed. recoverable: errors of the safety controller that must be acknowledged. motion: a motion of Desk
-    runs. fault: why the whole world stands still. The names are those of docs/franka_sim.md.
+    rules: "desk" or "open". brakes: joint by joint, True is closed. recoverable: errors of the safety
+    controller that must be acknowledged. motion: a motion of Desk runs. fault: why the whole world stands
+    still.
     """
 
     time: float
     type: str
     arm_id: str
-    protocol: list[int]
+    protocol: tuple[int, ...]
     client: int
     rules: str
     mode: str
-    errors: list[str]
+    errors: tuple[str, ...]
     details: dict[str, str]
     fault: str
-    q: Array
-    dq: Array
-    q_d: Array
-    tau_J: Array
-    tau_ext: Array
-    O_T_EE: Array
-    O_F_ext: Array
+    q: Numbers
+    dq: Numbers
+    q_d: Numbers
+    tau_J: Numbers
+    tau_ext: Numbers
+    O_T_EE: Numbers
+    O_F_ext: Numbers
     success_rate: float
     power: bool
-    brakes: list[bool]
+    brakes: Flags
     brakes_moving: bool
     operating_mode: str
     fci: bool
-    inputs: dict[str, bool]
-    conflicting_inputs: bool
-    buttons: dict[str, bool]
-    guiding: dict[str, object]
+    inputs: Inputs
+    buttons: Buttons
+    guiding: Guiding
     navigation: str
-    self_test: dict[str, object]
-    recoverable: list[str]
-    joint_limit_violation: list[bool]
-    joint_position_error: list[bool]
-    light: dict[str, object]
+    self_test: SelfTest
+    recoverable: tuple[str, ...]
+    joint_limit_violation: Flags
+    joint_position_error: Flags
+    light: Light
     hand: Hand
     end_effector: EndEffector
     motion: bool
 
-    @classmethod
-    def read(cls, text: str) -> RobotReport:
-        """From the answer to the line. Raises ValueError if members are missing."""
-        members = json.loads(text)
-        try:
-            values = {field.name: members[field.name] for field in fields(cls)}
-            values["hand"] = Hand(**values["hand"])
-            values["end_effector"] = EndEffector(**_arrays(values["end_effector"], EndEffector))
-        except (KeyError, TypeError) as error:
-            raise ValueError(f"The report of the robot is incomplete: {error}.") from None
-        return cls(**_arrays(values, cls))
+    @property
+    def brakes_open(self) -> bool:
+        """Whether all brakes are open."""
+        return not any(self.brakes)
 
 
-def _arrays(values: dict, kind: type) -> dict:
-    arrays = {field.name for field in fields(kind) if field.type == "Array"}
-    return {name: numpy.array(value, float) if name in arrays else value for name, value in values.items()}
+def report_of(text: str) -> Report:
+    """Reads the value of an answer to `report`. Raises ValueError that says what is wrong."""
+    try:
+        return _object(Report, json.loads(text), "the report")
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
+
+
+def _object(kind: type, value: typing.Any, name: str) -> typing.Any:
+    if not isinstance(value, dict):
+        raise ValueError(f"{name} is no object")
+    hints = _hints(kind)
+    missing = [each for each in hints if each not in value]
+    if missing:
+        raise ValueError(f"{name} lacks '{missing[0]}'")
+    return kind(**{each: _value(hint, value[each], f"'{each}'") for each, hint in hints.items()})
+
+
+def _value(hint: typing.Any, value: typing.Any, name: str) -> typing.Any:
+    if dataclasses.is_dataclass(hint):
+        return _object(typing.cast(type, hint), value, name)
+    origin = typing.get_origin(hint)
+    if origin is tuple:
+        if not isinstance(value, list):
+            raise ValueError(f"{name} is no list")
+        return tuple(_value(typing.get_args(hint)[0], each, name) for each in value)
+    if origin is dict:
+        if not isinstance(value, dict):
+            raise ValueError(f"{name} is no object")
+        return {str(key): str(each) for key, each in value.items()}
+    return _plain(hint, value, name)
+
+
+# JSON has one kind of numbers, and flags may come as 0 and 1.
+def _plain(kind: type, value: typing.Any, name: str) -> typing.Any:
+    accepted = {str: (str,), float: (int, float), int: (int,), bool: (bool, int, float)}[kind]
+    if not isinstance(value, accepted):
+        raise ValueError(f"{name} is not of the type {kind.__name__}")
+    return kind(value)
+
+
+_known: dict[type, types.MappingProxyType] = {}
+
+
+def _hints(kind: type) -> typing.Mapping[str, typing.Any]:
+    if kind not in _known:
+        _known[kind] = types.MappingProxyType(typing.get_type_hints(kind))
+    return _known[kind]

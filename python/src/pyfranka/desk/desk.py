@@ -18,11 +18,11 @@ from pyfranka.desk.end_effectors import EndEffectors
 from pyfranka.desk.limits import Gate
 from pyfranka.desk.power import Power
 from pyfranka.desk.profiles import PROFILES, Profile, profile_of
-from pyfranka.desk.report import Report
 from pyfranka.desk.robot import Refused, Robot, RobotGone
 from pyfranka.desk.sessions import Sessions, User, Users
 from pyfranka.desk.settings import Settings
 from pyfranka.desk.tokens import Tokens
+from pyfranka.robot_report import Report
 
 RESTART = 2.0  # [s] that a restart of the software takes (chosen here)
 ATTEMPT = 0.5  # [s] between two attempts to switch an FCI on that is always on (chosen here)

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 
 from pyfranka.desk import checks
 from pyfranka.desk.answers import DeskError, bad_request
-from pyfranka.desk.report import EndEffector
 from pyfranka.desk.status import end_effector
+from pyfranka.robot_report import EndEffector
 
 if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk

@@ -9,8 +9,8 @@ import time
 import typing
 
 from pyfranka.desk.answers import unavailable
-from pyfranka.desk.report import Report
 from pyfranka.desk.robot import Refused, RobotGone
+from pyfranka.robot_report import Report
 
 if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pyfranka.desk.report import Report
+from pyfranka.robot_report import Report
 
 
 @dataclass(frozen=True)

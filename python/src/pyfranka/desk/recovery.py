@@ -8,7 +8,7 @@ import typing
 
 from pyfranka.desk.actions import acknowledge
 from pyfranka.desk.answers import DeskError, bad_request
-from pyfranka.desk.report import Report
+from pyfranka.robot_report import Report
 
 if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk

@@ -9,7 +9,7 @@ import contextlib
 import re
 from collections.abc import Callable
 
-from pyfranka.desk.report import Report, report_of
+from pyfranka.robot_report import Report, report_of
 
 PORT = 1340
 PERIOD = 0.05  # [s] between two reports (chosen here: a press of a button lasts longer)

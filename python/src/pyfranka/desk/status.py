@@ -7,7 +7,7 @@ from __future__ import annotations
 import dataclasses
 import typing
 
-from pyfranka.desk.report import Report
+from pyfranka.robot_report import Report
 
 if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk

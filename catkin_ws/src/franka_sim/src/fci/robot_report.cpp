@@ -74,7 +74,6 @@ void writeSafety(const SafetyController& controller, JsonWriter& json) {
               safety.mode == OperatingMode::kExecution ? "execution" : "programming");
   json.member("fci", controller.fciActive());
   writeFlags(json, "inputs", safety.inputs, kSafetyInputNames);
-  json.member("conflicting_inputs", safety.conflicting_inputs);
   writeFlags(json, "buttons", safety.buttons, kButtonNames);
   json.key("self_test").beginObject().member("running", safety.self_test);
   json.member("left", safety.self_test_left).member("due", safety.self_test_due).endObject();
