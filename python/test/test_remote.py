@@ -614,6 +614,7 @@ def test_a_robot_that_goes_away_is_a_sentence(franka_sim):
         threading.Timer(0.3, server.process.terminate).start()
         with pytest.raises(ConnectionError, match="went away before it answered|broke at 'step"):
             remote.step(60000)
+        server.process.wait(20)  # its connections end before its port
         with pytest.raises(ConnectionError, match="There is no control interface"):
             remote.wait(lambda state: False, timeout=20)
 
