@@ -106,6 +106,18 @@ def test_the_end_effector_is_seen_by_clients(robot):
         robot.remote.send("end_effector " + " ".join(map(str, words)))
 
 
+def test_the_hand_must_be_homed_first(robot):
+    make_ready(robot)
+    hand = robot.gripper()
+    assert not report(robot)["hand"]["homed"]
+    with pytest.raises(pyfranka.Exception, match="failed"):
+        hand.move(0.05, 0.1)
+    assert refusal(robot, "hand move 0.05 0.1") == "NotHomed"
+    assert hand.homing()
+    assert report(robot)["hand"]["homed"]
+    assert hand.move(0.05, 0.1)
+
+
 def test_moves_to_the_pack_pose_without_fci(robot):
     assert refusal(robot, "move pack") == "BrakesClosed"
     robot.remote.send("joints unlock")

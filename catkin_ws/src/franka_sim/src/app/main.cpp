@@ -92,7 +92,7 @@ void serve(const Options& options) {
   for (const ArmOptions& arm : options.arms) {
     robots.push_back(&arms.emplace_back(arm, world).robot());
     if (options.locked) {
-      robots.back()->whole().safety().start(SafetyRules::kDesk);
+      robots.back()->whole().start(SafetyRules::kDesk);
       robots.back()->serve(true);  // closes its ports before anyone can find them
     }
   }

@@ -89,12 +89,11 @@ void writeHand(WholeRobot& robot, JsonWriter& json) {
   json.key("hand").beginObject();
   const GripperUnit* hand = robot.hand();
   json.member("kind", hand != nullptr ? "gripper" : robot.vacuum() != nullptr ? "vacuum" : "none");
-  json.member("homed", hand != nullptr);
+  json.member("homed", hand != nullptr && hand->isHomed());
   json.member("width", hand != nullptr ? hand->width() : 0.0);
   json.member("max_width", hand != nullptr ? hand->maxWidth() : 0.0);
   json.member("grasped", hand != nullptr && hand->isGrasped());
-  json.member("busy", hand != nullptr && (hand->state() == GripperState::kMoving ||
-                                          hand->state() == GripperState::kGrasping));
+  json.member("busy", hand != nullptr && hand->isBusy());
   json.endObject();
 }
 

@@ -77,7 +77,7 @@ GripperUnit::Ticket GripperUnit::homing() noexcept {
 }
 
 GripperUnit::Ticket GripperUnit::move(double width, double speed) noexcept {
-  if (!isNotNegative(width) || width > parameters_.max_width || !isNotNegative(speed)) {
+  if (!homed_ || !isNotNegative(width) || width > parameters_.max_width || !isNotNegative(speed)) {
     return 0;
   }
   return accept({Command::Kind::kMove, width, speed, {}});
@@ -85,7 +85,7 @@ GripperUnit::Ticket GripperUnit::move(double width, double speed) noexcept {
 
 GripperUnit::Ticket GripperUnit::grasp(double width, double epsilon_inner, double epsilon_outer,
                                        double speed, double force) noexcept {
-  if (!isNotNegative(width) || width > parameters_.max_width || !isNotNegative(speed) ||
+  if (!homed_ || !isNotNegative(width) || width > parameters_.max_width || !isNotNegative(speed) ||
       !isNotNegative(force) || !std::isfinite(epsilon_inner) || !std::isfinite(epsilon_outer)) {
     return 0;
   }

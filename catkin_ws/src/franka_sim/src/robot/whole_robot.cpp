@@ -59,8 +59,15 @@ void WholeRobot::restart() noexcept {
 void WholeRobot::renew() {
   unit_ = ControlUnit(unit_.configuration());
   halted_ = false;
-  safety_.start(safety_.rules());
+  start(safety_.rules());
   restart();
+}
+
+void WholeRobot::start(SafetyRules rules) noexcept {
+  safety_.start(rules);
+  if (hand_ && rules == SafetyRules::kDesk) {
+    hand_->forgetHoming();
+  }
 }
 
 void WholeRobot::setPower(bool on) {

@@ -58,7 +58,7 @@ class GripperUnit {
 
   /// Closes fully, then opens fully. Fails if an obstacle blocks it.
   Ticket homing() noexcept;
-  /// @returns 0 when refused: not finite, negative speed, width outside [0, max_width].
+  /// @returns 0 when refused: not homed, not finite, negative speed, width outside [0, max_width].
   Ticket move(double width, double speed) noexcept;
   /// Drives towards `width` and beyond until an object resists; then holds with `force`. Succeeds
   /// when width - epsilon_inner < measured width < width + epsilon_outer. Opens (to hold an object
@@ -80,7 +80,7 @@ class GripperUnit {
   /// Whether a command runs, or waits for its latency.
   bool isBusy() const noexcept { return tickets_.isOpen(); }
   /// Whether the hand knows its widths: from the start, or after forgetHoming() since a homing has
-  /// succeeded. The unit itself needs none.
+  /// succeeded. Without it, moves and grasps are refused.
   bool isHomed() const noexcept { return homed_; }
   void forgetHoming() noexcept { homed_ = false; }
 

@@ -57,6 +57,9 @@ class WholeRobot {
   /// Call after a reset of the world: restores the condition after the start; the hash restarts.
   /// Then call `observe` once: in the next tick, or once more within a tick.
   void restart() noexcept;
+  /// The condition after power-up, see SafetyController::start; with Desk's rules the hand must be
+  /// homed before it moves.
+  void start(SafetyRules rules) noexcept;
   /// Switches the robot off or on, see SafetyController::setPower. It starts with a new control
   /// unit, as `renew` does; then call `observe` once.
   void setPower(bool on);
