@@ -28,6 +28,7 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+from pyfranka.refusals import split_refusal
 from pyfranka.robot_report import Report, report_of
 
 __all__ = ["PORT", "LineRefused", "Remote", "RemoteMesh", "RemoteScene", "RemoteShape", "RemoteState"]
@@ -51,6 +52,11 @@ ERROR = re.compile(r"(?P<name>\w+)(?: \((?P<detail>[^()]*)\))?")
 
 class LineRefused(RuntimeError):
     """The robot has refused a line; the text is its own sentence, and nothing has changed."""
+
+    @property
+    def code(self) -> str:
+        """The rule that refuses it, of pyfranka.refusals, such as "BrakesClosed"; empty for other errors."""
+        return split_refusal(str(self))[0]
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,7 +28,7 @@ def report(robot) -> dict:
 def refusal(robot, line: str) -> str:
     with pytest.raises(LineRefused) as refused:
         robot.remote.send(line)
-    return str(refused.value).partition(":")[0]
+    return refused.value.code
 
 
 def make_ready(robot) -> None:
@@ -55,6 +55,25 @@ def test_ports_refuse_until_the_robot_is_ready(robot):
     robot.remote.send("fci off")
     assert not accepts(robot, 1337)
     assert not accepts(robot, 1338)
+
+
+def test_the_hand_is_homed_once_after_each_start(robot):
+    remote = robot.remote
+    assert not remote.report().hand.homed
+    assert refusal(robot, "hand move 0.02 0.1") == refusal(robot, "hand grasp 0.02 0.1 10") == "NotHomed"
+    remote.hand_homing()
+    assert remote.report().hand.homed
+    remote.hand_move(0.02, 0.1)
+    assert remote.report().hand.width == pytest.approx(0.02, abs=1e-3)
+    remote.end_effector_power(False)
+    assert refusal(robot, "hand move 0.03 0.1") == "NotReady"
+    remote.end_effector_power(True)
+    remote.hand_move(0.03, 0.1)
+    remote.power(False)
+    assert refusal(robot, "hand homing") == "NotReady"
+    remote.power(True)
+    assert not remote.report().hand.homed
+    assert refusal(robot, "hand move 0.02 0.1") == "NotHomed"
 
 
 def test_the_report_is_complete(robot):

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import re
 from collections.abc import Callable
 
+from pyfranka.refusals import split_refusal
 from pyfranka.robot_report import Report, report_of
 
 PORT = 1340
@@ -20,24 +20,10 @@ CONNECT_LIMIT = 5.0  # [s] (chosen here)
 LONGEST_ANSWER = 8 << 20  # [bytes] (chosen here: a world of many shapes)
 # Lines at a time; the control interface accepts eight clients.
 LINES, URGENT_LINES = 3, 2
-CODE = re.compile(r"(?P<code>[A-Z][A-Za-z]+): (?P<sentence>.+)")
-CODES = {
-    "NotReady",
-    "BrakesClosed",
-    "EmergencyStopPressed",
-    "SelfTestRunning",
-    "RecoverableErrorActive",
-    "JointRecoveryRequired",
-    "WrongOperatingMode",
-    "MotionActive",
-    "NoAckRequired",
-    "NotHomed",
-    "NoHand",
-}
 
 
 class Refused(Exception):
-    """The robot has refused a line. code: one of CODES, or empty; sentence: the robot's own."""
+    """The robot has refused a line. code: of pyfranka.refusals, or empty; sentence: the robot's own."""
 
     def __init__(self, code: str, sentence: str):
         super().__init__(sentence)
@@ -237,7 +223,4 @@ def _value(answer: str, place: str) -> str:
         return rest
     if word != "error:":
         raise RobotGone(f"What answers at {place} is no control interface of franka_sim: '{answer[:80]}'.")
-    match = CODE.fullmatch(rest)
-    if match and match["code"] in CODES:
-        raise Refused(match["code"], match["sentence"])
-    raise Refused("", rest)
+    raise Refused(*split_refusal(rest))

@@ -20,6 +20,7 @@ thread at a time may use a simulation.
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState, RequestRefused, Snapshot
 
 from pyfranka.remote import LineRefused, Remote, RemoteMesh, RemoteScene, RemoteShape, RemoteState
+from pyfranka.robot_report import Report
 
 from .batch import SimulationBatch
 from .robot import Action, Gripper, Robot
@@ -43,6 +44,7 @@ __all__ = [
     "RemoteScene",
     "RemoteShape",
     "RemoteState",
+    "Report",
     "RequestRefused",
     "Robot",
     "Simulation",

@@ -125,7 +125,7 @@ void serve(const Options& options) {
       addOperatorCommands(lines.back(),
                           {arm.robot(), arm.options().arm_id, robots, host, world, ended});
       addSceneCommands(lines.back(), world, scene);
-      addHandCommands(lines.back(), arm.robot().hand());
+      addHandCommands(lines.back(), arm.robot().whole());
       host.add(lines.back());
     }
   }

@@ -75,6 +75,8 @@ void WholeRobot::setPower(bool on) {
   safety_.setPower(on);
   if (starts) {
     renew();
+  } else if (!on && hand_) {
+    hand_->stop();
   }
 }
 

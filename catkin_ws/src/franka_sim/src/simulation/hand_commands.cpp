@@ -23,6 +23,17 @@ std::string metres(double width) {
   return text;
 }
 
+GripperUnit& handOf(WholeRobot& robot) {
+  if (robot.hand() == nullptr) {
+    throw std::runtime_error("NoHand: This robot has no Franka hand.");
+  }
+  const SafetyState& state = robot.safety().state();
+  if (!state.power || !state.end_effector_power) {
+    throw std::runtime_error("NotReady: The hand is switched off.");
+  }
+  return *robot.hand();
+}
+
 void requireHomed(const GripperUnit& hand) {
   if (!hand.isHomed()) {
     throw std::runtime_error(
@@ -77,14 +88,9 @@ Reply execute(GripperUnit& hand, const Words& words) {
 
 }  // namespace
 
-void addHandCommands(LineServer& lines, GripperUnit* hand) {
+void addHandCommands(LineServer& lines, WholeRobot& robot) {
   lines.add("hand homing|stop|move WIDTH SPEED|grasp WIDTH SPEED FORCE",
-            [hand](const Words& words) -> Reply {
-              if (hand == nullptr) {
-                throw std::runtime_error("NoHand: This robot has no Franka hand.");
-              }
-              return execute(*hand, words);
-            });
+            [&robot](const Words& words) { return execute(handOf(robot), words); });
 }
 
 }  // namespace franka_sim

@@ -43,7 +43,6 @@ class SimRobot final : private OwnedUnits, public RobotFront {
   ControlUnit& unit() noexcept { return units.unit(); }
   CommandLink& link() noexcept { return units.link(); }
   /// Null if the robot has none.
-  GripperUnit* hand() noexcept { return units.hand(); }
   VacuumGripperUnit* vacuum() noexcept { return units.vacuum(); }
 
   /// As those of WholeRobot.

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <franka_sim/fci/line_server.h>
-#include <franka_sim/robot/gripper_unit.h>
+#include <franka_sim/robot/whole_robot.h>
 
 namespace franka_sim {
 
-/// Adds the line `hand` (docs/franka_sim.md): commands of the Franka hand, as its client gives
-/// them.
-/// @param hand null if the robot has another tool or none; it outlives the server
-void addHandCommands(fci::LineServer& lines, GripperUnit* hand);
+/// Adds the line `hand` (docs/franka_sim.md): commands of the Franka hand.
+/// @param robot with any tool; it outlives the server
+void addHandCommands(fci::LineServer& lines, WholeRobot& robot);
 
 }  // namespace franka_sim
