@@ -1,6 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A control interface that answers by a script, for what no simulated robot can be made to do."""
+"""A control interface that answers by a script, for what no simulated robot can be made to do.
+
+By itself it obeys the lines that Desk sends, in no time and without the rules of a robot.
+"""
 
 import asyncio
 import contextlib
@@ -63,30 +66,45 @@ REPORT = {
 
 
 class ScriptedRobot:
-    """report: what it reports. answers: by line or its first word, an answer or a function of the words.
-    lines: what was sent, without `report`. It serves in a thread of its own."""
+    """report: what it reports. answers: by line or its first word, an answer or a function of the words, in
+    place of its own. lines: what was sent, without `report`. It serves in a thread of its own."""
 
     def __init__(self, **changes):
         self.report = {**copy.deepcopy(REPORT), **changes}
         self.answers = {}
         self.lines = []
         self.raw_report = None  # instead of the report
+        self.port = 0
+        self._writers = set()
 
     def __enter__(self):
-        self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
-        self._thread.start()
-        opening = asyncio.start_server(self._serve, "127.0.0.1", 0)
-        self._server = asyncio.run_coroutine_threadsafe(opening, self._loop).result(10)
-        self.port = self._server.sockets[0].getsockname()[1]
+        self.start()
         return self
 
     def __exit__(self, *error):
+        self.stop()
+
+    def start(self):
+        """Serves, at the same port as before."""
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
+        self._thread.start()
+        opening = asyncio.start_server(self._serve, "127.0.0.1", self.port)
+        self._server = asyncio.run_coroutine_threadsafe(opening, self._loop).result(10)
+        self.port = self._server.sockets[0].getsockname()[1]
+
+    def stop(self):
+        """Goes away."""
+        if not self._thread.is_alive():
+            return
         self._loop.call_soon_threadsafe(self._server.close)
+        for writer in list(self._writers):
+            self._loop.call_soon_threadsafe(writer.transport.abort)
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(10)
 
     async def _serve(self, reader, writer):
+        self._writers.add(writer)
         with contextlib.suppress(OSError):
             while line := (await reader.readline()).decode().strip():
                 answer = self._answer(line)
@@ -94,12 +112,42 @@ class ScriptedRobot:
                     answer = await answer
                 writer.write(answer.encode() + b"\n")
                 await writer.drain()
+        self._writers.discard(writer)
         writer.close()
 
     def _answer(self, line):
         if line == "report":
-            return self.raw_report or "ok " + json.dumps(self.report)
+            return "ok " + json.dumps(self.report) if self.raw_report is None else self.raw_report
         self.lines.append(line)
         word, *words = line.split()
-        answer = self.answers.get(line, self.answers.get(word, "ok"))
+        answer = self.answers.get(line, self.answers.get(word))
+        if answer is None:
+            return self._obey(word, words)
         return answer(*words) if callable(answer) else answer
+
+    def _obey(self, word, words):
+        report, on = self.report, words[-1:] == ["on"]
+        if word == "joints":
+            report["brakes"] = OPEN if words == ["unlock"] else CLOSED
+        elif word in ("fci", "power"):
+            report[word] = on
+        elif word in ("operating_mode", "navigation"):
+            report[word] = words[0]
+        elif word == "guiding_mode":
+            report["guiding"]["mode"] = words[0]
+        elif word == "end_effector_power":
+            report["end_effector"]["power"] = on
+        elif word == "end_effector":
+            self._set_end_effector([float(each) for each in words])
+        elif (word, words) == ("hand", ["homing"]):
+            report["hand"]["homed"] = True
+        elif word == "acknowledge":
+            if words[0] not in report["recoverable"]:
+                return "error: NoAckRequired: Nothing has to be acknowledged."
+            report["recoverable"].remove(words[0])
+        return "ok"
+
+    def _set_end_effector(self, numbers):
+        self.report["end_effector"].update(
+            mass=numbers[0], center=numbers[1:4], inertia=numbers[4:13], F_T_NE=numbers[13:]
+        )

@@ -55,13 +55,13 @@ async def check_password(request: web.Request, desk: Desk, user: typing.Callable
     """The user that a comparison of passwords gives. An address that has sent many wrong ones waits before
     each further comparison. Raises DeskError (401)."""
     address, throttle = address_of(request), desk.gate.wrong_logins
-    delay = throttle.delay(address)
-    if delay > 0.0:
-        throttle.use(address)
-        await throttle.wait(address, delay)
+    waits = throttle.delay(address) > 0.0
+    if waits:
+        await throttle.wait(address, throttle.use(address))
     found = user()
     if found is None:
-        throttle.use(address)
+        if not waits:
+            throttle.use(address)
         raise DeskError(401, "WrongCredentials", "User or password is wrong.")
     return found
 

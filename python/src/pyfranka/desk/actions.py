@@ -23,18 +23,13 @@ async def unlock(desk: Desk) -> None:
 
 async def lock(desk: Desk) -> None:
     """Ends motions, switches the FCI off and closes the brakes."""
-    desk.fci_desired = False
-    if desk.report.fci:
-        await desk.robot.send("fci off", urgent=True)
+    await deactivate_fci(desk)
     await desk.robot.send("joints lock", urgent=True)
 
 
 async def activate_fci(desk: Desk) -> None:
     """Lets FCI clients connect. Raises Refused by the robot's rules."""
-    report = desk.report
-    if report.fci:
-        return
-    if desk.options.fci_before_unlock and not report.brakes_open:
+    if desk.options.fci_before_unlock and not desk.report.brakes_open:
         desk.fci_desired = True
         return
     await desk.robot.send("fci on")
@@ -43,8 +38,7 @@ async def activate_fci(desk: Desk) -> None:
 async def deactivate_fci(desk: Desk) -> None:
     """Ends the client's motion and its connection."""
     desk.fci_desired = False
-    if desk.report.fci:
-        await desk.robot.send("fci off", urgent=True)
+    await desk.robot.send("fci off", urgent=True)
 
 
 async def acknowledge(desk: Desk, name: str) -> None:
@@ -62,7 +56,8 @@ async def self_test(desk: Desk, wait: bool) -> None:
     """Starts the self-test; returns at once or when it has ended."""
     await desk.robot.send("self_test")
     if wait:
-        await asyncio.wait_for(_until_tested(desk), SELF_TEST_LIMIT)
+        async with asyncio.timeout(SELF_TEST_LIMIT):
+            await _until_tested(desk)
 
 
 async def move_to_pack_pose(desk: Desk) -> None:

@@ -15,23 +15,25 @@ LONGEST_TEXT = 200  # [characters] (chosen here)
 def text(value: typing.Any, name: str) -> str:
     """A text that is not empty."""
     if not isinstance(value, str) or not value.strip() or len(value) > LONGEST_TEXT:
-        raise bad_request(f"{name} is a text of 1 to {LONGEST_TEXT} characters.")
+        raise bad_request(f"The field {name} is a text of 1 to {LONGEST_TEXT} characters.")
     return value
 
 
 def number(value: typing.Any, name: str, limit: float = math.inf) -> float:
     """A number whose magnitude is at most the limit."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= limit:
-        raise bad_request(f"{name} is a number" + (f" up to {limit:g}." if math.isfinite(limit) else "."))
+        raise bad_request(
+            f"The field {name} is a number" + (f" up to {limit:g}." if math.isfinite(limit) else ".")
+        )
     if not math.isfinite(result := float(value)):
-        raise bad_request(f"{name} is a finite number.")
+        raise bad_request(f"The field {name} is a finite number.")
     return result
 
 
 def numbers(value: typing.Any, count: int, name: str, limit: float = math.inf) -> list[float]:
     """A list of so many numbers."""
     if not isinstance(value, list) or len(value) != count:
-        raise bad_request(f"{name} is a list of {count} numbers.")
+        raise bad_request(f"The field {name} is a list of {count} numbers.")
     return [number(each, name, limit) for each in value]
 
 
@@ -40,7 +42,7 @@ def members(
 ) -> list[float]:
     """An object's members of these names, all of them numbers."""
     if not isinstance(value, dict) or not set(names) <= set(value):
-        raise bad_request(f"{name} is an object with {', '.join(names)}.")
+        raise bad_request(f"The field {name} is an object with {', '.join(names)}.")
     return [number(value[each], f"{name}.{each}", limit) for each in names]
 
 
@@ -48,4 +50,4 @@ def known(value: dict[str, typing.Any], names: typing.Iterable[str], name: str) 
     """Whether it has no other members."""
     others = sorted(set(value) - set(names))
     if others:
-        raise bad_request(f"{name} has no '{others[0][:50]}'.")
+        raise bad_request(f"The field {name} has no '{others[0][:50]}'.")

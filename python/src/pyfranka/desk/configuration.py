@@ -75,7 +75,7 @@ class Configuration:
     def _users(self, value: typing.Any) -> list[User]:
         entries = value.get("users") if isinstance(value, dict) else None
         if not isinstance(entries, list) or not 0 < len(entries) <= MOST_USERS:
-            raise bad_request(f"users is a list of 1 to {MOST_USERS} users.")
+            raise bad_request(f"The field users is a list of 1 to {MOST_USERS} users.")
         users = [self._user(entry) for entry in entries]
         if len({user.name for user in users}) < len(users):
             raise bad_request("Two users have the same name.")
@@ -91,7 +91,7 @@ class Configuration:
             raise bad_request("A user's name has printable characters without a colon.")
         role = entry.get("role")
         if role not in ROLES:
-            raise bad_request(f"role is one of {', '.join(ROLES)}.")
+            raise bad_request(f"The field role is one of {', '.join(ROLES)}.")
         known = self._desk.users.get(name)
         if known is not None and entry.get("password") is None:
             return User(name, known.digest, role)
@@ -109,23 +109,23 @@ class Configuration:
 def _end_effector(value: typing.Any) -> tuple[Json, Load]:
     entry = value.get("endEffector") if isinstance(value, dict) else None
     if not isinstance(entry, dict) or entry.get("name") not in END_EFFECTORS:
-        raise bad_request(f"endEffector needs a name: {', '.join(END_EFFECTORS)}.")
+        raise bad_request(f"The field endEffector needs a name: {', '.join(END_EFFECTORS)}.")
     params = entry.get("params")
     if entry["name"] == "None" and params is None:
         return {"name": "None", "params": None}, Load()
     if not isinstance(params, dict):
-        raise bad_request("endEffector needs params: mass, centerOfMass, inertia, transformation.")
+        raise bad_request("The field endEffector needs params: mass, centerOfMass, inertia, transformation.")
     return {"name": entry["name"], "params": params}, load_of_objects(params, params.get("transformation"))
 
 
 def _network(value: typing.Any, present: Json) -> Json:
     if not isinstance(value, dict):
-        raise bad_request("networkConfiguration is an object.")
+        raise bad_request("The field networkConfiguration is an object.")
     checks.known(value, present, "networkConfiguration")
     for part in value.values():
         if not isinstance(part, dict):
             raise bad_request("The parts of networkConfiguration are objects.")
     shop_floor = value.get("shopFloor", present["shopFloor"])
     if shop_floor.get("type") not in ("Static", "Dhcp"):
-        raise bad_request("shopFloor.type is Static or Dhcp.")
+        raise bad_request("The field shopFloor.type is Static or Dhcp.")
     return {**present, **value}

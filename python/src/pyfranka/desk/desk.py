@@ -41,7 +41,7 @@ class Desk:
         self._watchers: set[asyncio.Event] = set()
         self._tasks: set[asyncio.Task] = set()
         self._switching_off: asyncio.Task | None = None
-        self._last: Report | None = None
+        self._last = robot.report
         self._on_buttons: set[Callable[[dict[str, bool]], None]] = set()
         self._sockets: set[web.WebSocketResponse] = set()
         self._on_report: list[Callable[[Report | None, Report], None]] = []

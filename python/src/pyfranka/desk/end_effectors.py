@@ -214,7 +214,7 @@ def _profile(id: str, value: Json) -> Profile:
     name = checks.text(value.get("name"), "name")
     device = value.get("deviceId", GENERIC)
     if device not in (GENERIC, GRIPPER):
-        raise bad_request(f"deviceId is {GENERIC} or {GRIPPER}.")
+        raise bad_request(f"The field deviceId is {GENERIC} or {GRIPPER}.")
     model = value.get("modelUri")
     if model is not None and model != "":
         model = checks.text(model, "modelUri")
@@ -238,9 +238,9 @@ def _shape(load: Load) -> Json:
 
 def _check(load: Load) -> None:
     if load.mass < 0.0:
-        raise bad_request("mass is not negative.")
+        raise bad_request("The mass must not be negative.")
     if load.mass > 0.0 and not _is_positive_definite(load.inertia):
-        raise bad_request("inertia is positive definite if there is a mass.")
+        raise bad_request("The inertia must be positive definite if there is a mass.")
 
 
 # By its leading minors.

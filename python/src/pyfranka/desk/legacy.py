@@ -96,7 +96,7 @@ async def guiding_mode(call: Call):
     """Which directions are free."""
     mode = _mode(call)
     if mode not in GUIDING_MODES:
-        raise bad_request(f"mode is one of {', '.join(GUIDING_MODES)}.")
+        raise bad_request(f"The field mode is one of {', '.join(GUIDING_MODES)}.")
     line = f"guiding_mode {mode}"
     if mode == "user":
         line += "".join(" on" if free else " off" for free in call.desk.report.guiding.axes)
@@ -107,7 +107,7 @@ async def pilot_mode(call: Call):
     """What the Pilot's arrow keys are for."""
     mode = _mode(call)
     if mode not in PILOT_MODES:
-        raise bad_request(f"mode is one of {', '.join(PILOT_MODES)}.")
+        raise bad_request(f"The field mode is one of {', '.join(PILOT_MODES)}.")
     await call.desk.robot.send(f"navigation {PILOT_MODES[mode]}")
 
 
@@ -198,7 +198,7 @@ async def acknowledge(call: Call):
     word = call.request.query.get("error_id", "")
     name = ERROR_IDS.get(word.lower())
     if name is None:
-        raise bad_request(f"error_id is one of {', '.join(ERROR_IDS.values())}.")
+        raise bad_request(f"The field error_id is one of {', '.join(ERROR_IDS.values())}.")
     await actions.acknowledge(call.desk, name)
 
 

@@ -57,8 +57,8 @@ async def confirm(desk: Desk, value: Json) -> None:
     """Acknowledges the errors of a type; without one, what has to be recovered first."""
     present = recovery(desk.report) or {}
     kind = value.get("type", present.get("type", ""))
-    if kind and kind not in TYPES:
-        raise bad_request(f"type is one of {', '.join(TYPES)}.")
+    if kind != "" and kind not in TYPES:
+        raise bad_request(f"The field type is one of {', '.join(TYPES)}.")
     if kind in AT_ROBOT and kind == present.get("type"):
         raise DeskError(
             424, "ActionUnavailable", "A joint has to be recovered at the robot.", ["JointRecoveryRequired"]

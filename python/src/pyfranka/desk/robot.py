@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 from collections.abc import Callable
 
 from pyfranka.refusals import split_refusal
@@ -20,6 +21,9 @@ CONNECT_LIMIT = 5.0  # [s] (chosen here)
 LONGEST_ANSWER = 8 << 20  # [bytes] (chosen here: a world of many shapes)
 # Lines at a time; the control interface accepts eight clients.
 LINES, URGENT_LINES = 3, 2
+
+
+log = logging.getLogger("franka_desk")
 
 
 class Refused(Exception):
@@ -73,7 +77,8 @@ class Robot:
         self._poller = asyncio.get_running_loop().create_task(self._poll())
         if limit:
             with contextlib.suppress(asyncio.TimeoutError):
-                await asyncio.wait_for(self._first.wait(), limit)
+                async with asyncio.timeout(limit):
+                    await self._first.wait()
 
     async def stop(self) -> None:
         """Ends what runs."""
@@ -118,7 +123,7 @@ class Robot:
                 try:
                     return await connection.ask(line, LINE_LIMIT)
                 finally:
-                    with contextlib.suppress(RobotGone, Refused):
+                    with contextlib.suppress(RobotGone):
                         await self._ask_report(connection)
 
     # ---- reports -----------------------------------------------------------------------------------------
@@ -130,7 +135,7 @@ class Robot:
                     while True:
                         await self._ask_report(connection)
                         await asyncio.sleep(self.period)
-            except (RobotGone, Refused) as error:
+            except RobotGone as error:
                 self._lose(str(error))
             await asyncio.sleep(PAUSE)
 
@@ -138,7 +143,13 @@ class Robot:
     async def _ask_report(self, connection: Connection) -> None:
         self._asked += 1
         number = self._asked
-        text = await connection.ask("report", REPORT_LIMIT)
+        try:
+            text = await connection.ask("report", REPORT_LIMIT)
+        except Refused as refused:
+            raise RobotGone(
+                f"The robot at {self.place} gives no reports: {refused.sentence} Use franka_sim and "
+                "franka_desk of the same version."
+            ) from None
         if number < self._published:
             return
         self._published = number
@@ -161,7 +172,10 @@ class Robot:
 
     def _tell(self) -> None:
         for listener in self._listeners:
-            listener()
+            try:
+                listener()
+            except Exception:  # of one listener; reports go on for the others
+                log.exception("A listener of the robot at %s has failed.", self.place)
 
 
 class Connection:
@@ -180,9 +194,10 @@ class Connection:
 
     async def open(self) -> None:
         """Connects. Raises RobotGone."""
-        opening = asyncio.open_connection(self._address, self._port, limit=LONGEST_ANSWER)
+        place = self._address, self._port
         try:
-            self._reader, self._writer = await asyncio.wait_for(opening, CONNECT_LIMIT)
+            async with asyncio.timeout(CONNECT_LIMIT):
+                self._reader, self._writer = await asyncio.open_connection(*place, limit=LONGEST_ANSWER)
         except TimeoutError:
             raise RobotGone(f"The robot at {self._place} does not answer.") from None
         except OSError as error:
@@ -201,7 +216,8 @@ class Connection:
         try:
             self._writer.write(line.encode() + b"\n")
             await self._writer.drain()
-            data = await asyncio.wait_for(self._reader.readuntil(b"\n"), limit)
+            async with asyncio.timeout(limit):
+                data = await self._reader.readuntil(b"\n")
         except TimeoutError:
             raise RobotGone(
                 f"The robot at {self._place} has not answered '{line[:80]}' within {limit:g} s."

@@ -32,6 +32,7 @@ GATE = _key("gate", Gate)
 ROUTES = Routes([*legacy.ROUTES, *control.ROUTES, *v1.ROUTES, *sockets.ROUTES])
 OTHER_ROBOT = re.compile(r"/robots/(\d{1,3})(/.*)")
 HANDSHAKE_TIME = 10.0  # [s] for TLS (chosen here)
+LINGER = 1.0  # [s] for the rest of a body after an early answer (chosen here)
 log = logging.getLogger("franka_desk")
 
 
@@ -70,7 +71,7 @@ class Site:
     async def open(self) -> None:
         """Listens. Raises OSError if it may not."""
         if self._runner is None:
-            self._runner = web.AppRunner(self._app, access_log=None)
+            self._runner = web.AppRunner(self._app, access_log=None, lingering_time=LINGER)
             await self._runner.setup()
         assert self._runner.server is not None
         self._listening = await asyncio.get_running_loop().create_server(
@@ -141,7 +142,9 @@ async def _dispatch(request: web.Request) -> web.StreamResponse:
         if route.method == method:
             return await _answer(route, Call(desk, request, path, body, None, words))
     allowed = ", ".join(sorted({route.method for route, _ in matches}))
-    error = DeskError(405, "MethodNotAllowed", f"{path} has no {request.method[:20]}, only {allowed}.")
+    error = DeskError(
+        405, "MethodNotAllowed", f"The path {path} has no {request.method[:20]}, only {allowed}."
+    )
     answer = error.answer(path.startswith("/api/"))
     answer.headers["Allow"] = allowed
     return answer
@@ -189,7 +192,8 @@ def _desk_and_path(request: web.Request) -> tuple[Desk, str]:
 async def _body(request: web.Request) -> bytes:
     limits = request.app[GATE].limits
     try:
-        return await asyncio.wait_for(request.read(), limits.body_time)
+        async with asyncio.timeout(limits.body_time):
+            return await request.read()
     except TimeoutError:
         raise DeskError(408, "RequestTimeout", "The body has not come in time.") from None
     except web.HTTPRequestEntityTooLarge:

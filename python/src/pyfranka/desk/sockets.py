@@ -109,7 +109,8 @@ async def server_sent_events(call: Call):
 
         async def send(value: typing.Any) -> None:
             data = f"data: {json.dumps(value)}\n\n".encode()
-            await asyncio.wait_for(response.write(data), WRITE_LIMIT)
+            async with asyncio.timeout(WRITE_LIMIT):
+                await response.write(data)
 
         with contextlib.suppress(ConnectionError, asyncio.TimeoutError):
             await _send_snapshots(call.desk, topic, send, lambda: call.request.transport is not None)
@@ -137,7 +138,8 @@ async def _serve(call: Call, work: Callable[[Callable], typing.Awaitable[None]])
         await socket.prepare(call.request)
 
         async def send(value: typing.Any) -> None:
-            await asyncio.wait_for(socket.send_str(json.dumps(value)), WRITE_LIMIT)
+            async with asyncio.timeout(WRITE_LIMIT):
+                await socket.send_str(json.dumps(value))
 
         sender = asyncio.get_running_loop().create_task(_until_gone(work(send)))
         with call.desk.open_socket(socket):
@@ -176,7 +178,8 @@ async def _send_snapshots(
                     await send(value)
                     last, due = key, max(due + topic.period, loop.time() + 0.5 * topic.period)
             with contextlib.suppress(asyncio.TimeoutError):
-                await asyncio.wait_for(_next(event, topic, due - loop.time()), topic.period)
+                async with asyncio.timeout(topic.period):
+                    await _next(event, topic, due - loop.time())
 
 
 async def _next(event: asyncio.Event, topic: Topic, left: float) -> None:

@@ -52,7 +52,7 @@ async def operating_mode(call: Call):
 async def change_operating_mode(call: Call):
     desired = call.object().get("desiredOperatingMode")
     if desired != "Execution":
-        raise bad_request("desiredOperatingMode is Execution; Programming is set in Desk.")
+        raise bad_request("The field desiredOperatingMode is Execution; Programming is set in Desk.")
     await call.desk.robot.send("operating_mode execution")
 
 
@@ -73,7 +73,7 @@ async def take_control(call: Call):
     owner = checks.text(body.get("owner"), "owner")
     timeout = body.get("timeout")
     if timeout is not None and not checks.number(timeout, "timeout") > 0.0:
-        raise bad_request("timeout is a positive number of seconds.")
+        raise bad_request("The field timeout is a positive number of seconds.")
     request = call.desk.tokens.request(owner)
     try:
         await _wait_for_control(call, request, timeout)
@@ -151,7 +151,7 @@ async def warnings(call: Call):
 
 async def start_motion(call: Call):
     if call.object().get("type") != PACK_POSE:
-        raise bad_request(f"type is {PACK_POSE}.")
+        raise bad_request(f"The field type is {PACK_POSE}.")
     await actions.move_to_pack_pose(call.desk)
 
 

@@ -1,0 +1,323 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who has control of a robot: requests, take-over and release, in both interfaces of Desk."""
+
+import http.client
+import json
+import socket
+import threading
+import time
+
+import pytest
+from desk_fixtures import desk_with_robot
+from desk_robot import OPEN
+from desk_server import basic
+
+TOKEN = "/admin/api/control-token"
+TAKE, RELEASE = "/api/system/control-token:take", "/api/system/control-token:release"
+DEADLINE = 20.0  # [s]
+BOTH = ("fr3-early", "fr3-v1")
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    with desk_with_robot(tmp_path_factory.mktemp("certificates"), force_timeout=0.5) as (robot, desk):
+        yield robot, desk
+
+
+@pytest.fixture
+def robot(place):
+    robot, _ = place
+    robot.report.update(fci=False, brakes=OPEN)
+    robot.report["buttons"]["circle"] = False
+    return robot
+
+
+@pytest.fixture
+def desk(place, robot):
+    _, desk = place
+    desk.clear()
+    desk.refresh()
+    robot.lines.clear()
+    return desk
+
+
+@pytest.fixture
+def cookie(desk):
+    return desk.log_in()
+
+
+def state(desk):
+    return desk.send("GET", TOKEN).json()
+
+
+def active_id(desk):
+    active = state(desk)["activeToken"]
+    return active and active["id"]
+
+
+def release(desk, request, cookie):
+    return desk.send("DELETE", TOKEN, {"token": request["token"]}, **cookie)
+
+
+def take(desk, owner="other", **more):
+    return desk.send("POST", TAKE, {"owner": owner, **more}, **basic())
+
+
+def until(condition):
+    deadline = time.monotonic() + DEADLINE
+    while not condition():
+        assert time.monotonic() < deadline, "It has not happened."
+        time.sleep(0.01)
+
+
+class Later(threading.Thread):
+    """A request on a connection of its own, which waits for its answer."""
+
+    def __init__(self, desk, body):
+        super().__init__(daemon=True)
+        self._connection, self._body = desk.connection(), body
+        self.answer = None
+        self.start()
+
+    def run(self):
+        try:
+            self._connection.request("POST", TAKE, json.dumps(self._body), basic())
+            response = self._connection.getresponse()
+            self.answer = response.status, json.loads(response.read())
+        except (OSError, http.client.HTTPException):
+            pass
+
+    def go_away(self):
+        self._connection.sock.shutdown(socket.SHUT_RDWR)
+
+    def result(self):
+        self.join(DEADLINE)
+        return self.answer
+
+
+# ---- the older interface ---------------------------------------------------------------------------------
+
+
+def test_a_request_is_granted_at_once_while_nobody_has_control(desk, cookie):
+    assert state(desk) == {"activeToken": None, "fciActive": False, "tokenRequest": None}
+    request = desk.take_control("me", **cookie)
+    assert type(request["id"]) is int and type(request["token"]) is str
+    assert state(desk)["activeToken"] == {"id": request["id"], "ownedBy": "me"}
+
+
+def test_a_request_is_pending_while_someone_has_control_and_follows_its_release(desk, cookie):
+    first, second = desk.take_control("me", **cookie), desk.take_control("you", **cookie)
+    assert active_id(desk) == first["id"]
+    assert state(desk)["tokenRequest"]["id"] == second["id"]
+    assert release(desk, first, cookie).status == 200
+    assert active_id(desk) == second["id"] and state(desk)["tokenRequest"] is None
+
+
+def test_a_newer_request_replaces_a_pending_one(desk, cookie):
+    first = desk.take_control("me", **cookie)
+    replaced, newest = desk.take_control("you", **cookie), desk.take_control("her", **cookie)
+    assert release(desk, replaced, cookie).json()["error"] == "ControlTokenUnknown"
+    release(desk, first, cookie)
+    assert active_id(desk) == newest["id"]
+
+
+def test_ones_own_pending_request_can_be_withdrawn_in_two_ways(desk, cookie):
+    first = desk.take_control("me", **cookie)
+    pending = desk.take_control("you", **cookie)
+    assert release(desk, pending, cookie).status == 200
+    pending = desk.take_control("you", **cookie)
+    path = f"{TOKEN}/request/{pending['id']}"
+    assert desk.send("DELETE", path, {"token": first["token"]}, **cookie).status == 404
+    assert desk.send("DELETE", path, {"token": pending["token"]}, **cookie).status == 200
+    assert state(desk)["tokenRequest"] is None and active_id(desk) == first["id"]
+
+
+def test_a_released_token_is_unknown(desk, cookie):
+    request = desk.take_control(**cookie)
+    assert release(desk, request, cookie).status == 200
+    assert release(desk, request, cookie).status == 404
+    fci = desk.send("POST", f"{TOKEN}/fci", {"token": request["token"]}, **cookie)
+    assert fci.status == 404 and fci.json()["error"] == "ControlTokenUnknown"
+
+
+def test_a_pending_token_may_not_act(desk, cookie, robot):
+    desk.take_control("me", **cookie)
+    pending = desk.take_control("you", **cookie)
+    assert desk.send("POST", f"{TOKEN}/fci", {"token": pending["token"]}, **cookie).status == 423
+    unlock = desk.send("POST", "/desk/api/joints/unlock", **cookie, X_Control_Token=pending["token"])
+    assert unlock.status == 423
+    assert robot.lines == []
+
+
+def test_release_switches_the_fci_off(desk, cookie, robot):
+    request = desk.take_control(**cookie)
+    assert desk.send("POST", f"{TOKEN}/fci", {"token": request["token"]}, **cookie).status == 200
+    assert state(desk)["fciActive"]
+    release(desk, request, cookie)
+    assert not state(desk)["fciActive"] and robot.lines == ["fci on", "fci off"]
+
+
+def test_logging_out_keeps_control(desk, cookie):
+    request = desk.take_control(**cookie)
+    assert desk.send("POST", "/admin/api/logout", **cookie).status == 200
+    assert desk.send("POST", "/admin/api/logout", **cookie).status == 401
+    assert active_id(desk) == request["id"]
+
+
+@pytest.mark.parametrize("form", ["raw", "base64", "header"])
+def test_the_fci_takes_its_token_in_each_form_that_clients_send(desk, cookie, robot, form):
+    import base64
+    import urllib.parse
+
+    token = desk.take_control(**cookie)["token"]
+    field = token if form == "raw" else base64.b64encode(token.encode()).decode()
+    body = b"" if form == "header" else b"token=" + urllib.parse.quote(field).encode()
+    headers = {"X_Control_Token": token} if form == "header" else {}
+    headers["Content_Type"] = "application/x-www-form-urlencoded"
+    assert desk.send("POST", "/desk/api/system/fci", body, **cookie, **headers).status == 200
+    assert robot.lines == ["fci on"]
+
+
+# ---- forced take-over ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("query", ["?force", "?force=", "?force=true"])
+def test_the_circle_button_confirms_a_forced_request(desk, cookie, robot, query):
+    first = desk.take_control("me", **cookie)
+    assert desk.send("POST", f"{TOKEN}/fci", {"token": first["token"]}, **cookie).status == 200
+    second = desk.take_control("you", query, **cookie)
+    assert active_id(desk) == first["id"]
+    robot.report["buttons"]["circle"] = True
+    until(lambda: active_id(desk) == second["id"])
+    until(lambda: not state(desk)["fciActive"])
+    assert release(desk, first, cookie).status == 404
+
+
+def test_the_circle_button_does_not_grant_other_requests(desk, cookie, robot):
+    first = desk.take_control("me", **cookie)
+    desk.take_control("you", **cookie)
+    robot.report["buttons"]["circle"] = True
+    desk.refresh()
+    assert active_id(desk) == first["id"]
+
+
+def test_a_forced_request_is_granted_at_once_while_nobody_has_control(desk, cookie):
+    request = desk.take_control("me", "?force", **cookie)
+    assert active_id(desk) == request["id"]
+
+
+def test_a_forced_request_lapses(desk, cookie):
+    assert desk.send("GET", "/admin/api/safety", **cookie).json() == {"tokenForceTimeout": 0.5}
+    first = desk.take_control("me", **cookie)
+    second = desk.take_control("you", "?force", **cookie)
+    until(lambda: state(desk)["tokenRequest"] is None)
+    assert active_id(desk) == first["id"]
+    assert release(desk, second, cookie).json()["error"] == "ControlTokenUnknown"
+
+
+# ---- the newer interface ---------------------------------------------------------------------------------
+
+
+def test_both_interfaces_share_one_token(desk, cookie):
+    taken = take(desk, "me").json()
+    assert active_id(desk) == taken["tokenId"]
+    assert desk.send("GET", "/api/system/control-token").json() == {
+        "owner": "me",
+        "requester": None,
+        "tokenId": taken["tokenId"],
+    }
+    assert desk.send("DELETE", TOKEN, {"token": taken["token"]}, **cookie).status == 200
+    request = desk.take_control("me", **cookie)
+    answer = desk.send("POST", RELEASE, **basic(), X_Control_Token=request["token"])
+    assert (answer.status, answer.body) == (204, b"")
+    assert desk.send("GET", "/api/system/control-token").json()["owner"] is None
+
+
+def test_taking_waits_for_its_time_also_for_the_same_owner(desk):
+    take(desk, "me")
+    begin = time.monotonic()
+    answer = take(desk, "me", timeout=0.3)
+    assert time.monotonic() - begin >= 0.3
+    assert answer.status == 424 and answer.json()["code"] == "Timeout"
+    assert state(desk)["tokenRequest"] is None
+
+
+def test_taking_is_answered_when_the_holder_releases(desk, cookie):
+    first = desk.take_control("me", **cookie)
+    later = Later(desk, {"owner": "you", "timeout": DEADLINE})
+    until(lambda: state(desk)["tokenRequest"])
+    release(desk, first, cookie)
+    status, body = later.result()
+    assert status == 200 and active_id(desk) == body["tokenId"]
+
+
+def test_taking_ends_when_a_newer_request_replaces_it(desk, cookie):
+    desk.take_control("me", **cookie)
+    later = Later(desk, {"owner": "you"})
+    until(lambda: state(desk)["tokenRequest"])
+    assert take(desk, "her", timeout=0.01).status == 424
+    status, body = later.result()
+    assert status == 424 and body["code"] == "RequestOverride"
+
+
+def test_a_client_that_goes_away_withdraws_its_request(desk, cookie):
+    desk.take_control("me", **cookie)
+    later = Later(desk, {"owner": "you"})
+    until(lambda: state(desk)["tokenRequest"])
+    later.go_away()
+    until(lambda: state(desk)["tokenRequest"] is None)
+
+
+@pytest.mark.parametrize("timeout", [0, -1, "1", True, [], 1e999])
+def test_a_timeout_is_a_positive_number(desk, timeout):
+    answer = take(desk, timeout=timeout)
+    assert answer.status == 400 and answer.json()["message"].endswith(".")
+
+
+def test_the_holder_can_deny_or_accept(desk, cookie):
+    first = desk.take_control("me", **cookie)
+
+    async def decide(grant):
+        tokens = desk.desk.tokens
+        tokens.accept() if grant else tokens.deny()
+
+    for grant in (False, True):
+        later = Later(desk, {"owner": "you"})
+        until(lambda: state(desk)["tokenRequest"])
+        desk.call(decide(grant))
+        status, body = later.result()
+        assert status == (200 if grant else 424)
+        assert grant or body["code"] == "Timeout"
+    assert active_id(desk) != first["id"]
+
+
+# ---- options ---------------------------------------------------------------------------------------------
+
+
+def test_options_change_what_the_sources_disagree_about(tmp_path):
+    options = {"release_status": 204, "token_id": False, "fci_after_release": True}
+    with desk_with_robot(tmp_path, report={"brakes": OPEN}, **options) as (robot, desk):
+        taken = take(desk, "me").json()
+        assert set(taken) == {"token"}
+        assert set(desk.send("GET", "/api/system/control-token").json()) == {"owner", "requester"}
+        headers = {**basic(), "X_Control_Token": taken["token"]}
+        assert desk.send("POST", "/api/fci:activate", **headers).status == 204
+        assert desk.send("DELETE", TOKEN, {"token": taken["token"]}, **basic()).status == 204
+        assert state(desk)["fciActive"] and robot.lines == ["fci on"]
+
+
+def test_the_older_generation_of_the_panda_has_no_tokens_and_its_fci_is_always_on(tmp_path):
+    with desk_with_robot(tmp_path, "fer-old") as (robot, desk):
+        answer = desk.send("GET", TOKEN)
+        assert (answer.status, answer.text) == (404, "File not found")
+        cookie = desk.log_in()
+        headers = {**cookie, "X_Control_Token": ""}
+        body = (
+            b'--x\r\nContent-Disposition: form-data; name="force"; filename="force"\r\n\r\nfalse\r\n--x--\r\n'
+        )
+        multipart = {"Content_Type": "multipart/form-data; boundary=x"}
+        assert desk.send("POST", "/desk/api/robot/open-brakes", body, **headers, **multipart).status == 200
+        until(lambda: robot.lines == ["joints unlock", "fci on"])
+        assert desk.send("POST", "/desk/api/robot/close-brakes", b"force=false", **headers).status == 200
+        assert robot.lines[2:] == ["fci off", "joints lock"]

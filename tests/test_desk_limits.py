@@ -1,0 +1,404 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""What Desk does with requests that are malformed, too large, too many, or made by another site's page."""
+
+import http.client
+import json
+import os
+import re
+import socket
+import ssl
+import time
+
+import pytest
+from desk_fixtures import desk_with_robot
+from desk_server import LIMITS, PASSWORD, USER, basic, unverified
+from pyfranka.desk import Limits, Options, Settings
+from pyfranka.desk.sessions import digest_of
+from pyfranka.desk.v1 import ROUTES as V1_ROUTES
+
+CONFIGURATION = "/api/configuration"
+SMALL = Limits(
+    body=1000,
+    body_time=0.3,
+    request_time=0.5,
+    rate=50.0,
+    waiting=20,
+    wrong_logins=3,
+    connections_of_address=8,
+    sockets_of_address=3,
+)
+DEADLINE = 20.0  # [s]
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory):
+    with desk_with_robot(tmp_path_factory.mktemp("certificates")) as (_, desk):
+        yield desk
+
+
+@pytest.fixture(scope="module")
+def strict(tmp_path_factory):
+    with desk_with_robot(tmp_path_factory.mktemp("certificates"), limits=SMALL) as (_, desk):
+        yield desk
+
+
+@pytest.fixture
+def control(desk):
+    desk.clear()
+    headers = desk.log_in()
+    return {**headers, "X_Control_Token": desk.take_control(**headers)["token"]}
+
+
+def is_refused(answer, *statuses):
+    message = answer.json()["message"]
+    return answer.status in statuses and message[0].isupper() and message.endswith(".")
+
+
+def raw(desk, data, limit=DEADLINE):
+    """Sends bytes as they are. @returns all bytes of the answer."""
+    with socket.create_connection(("127.0.0.1", desk.port), timeout=limit) as plain:
+        with unverified().wrap_socket(plain) as secure:
+            secure.sendall(data)
+            received = b""
+            try:
+                while part := secure.recv(65536):
+                    received += part
+            except (TimeoutError, OSError):
+                pass
+            return received
+
+
+def alive(desk):
+    return desk.send("GET", "/api/system").status == 200
+
+
+# ---- bodies ----------------------------------------------------------------------------------------------
+
+WITH_BODIES = [
+    ("POST", "/admin/api/login"),
+    ("POST", "/admin/api/control-token/request"),
+    ("DELETE", "/admin/api/control-token"),
+    ("POST", "/admin/api/control-token/fci"),
+    ("POST", "/admin/api/end-effector/profiles"),
+    ("PUT", "/admin/api/end-effector/profiles/active"),
+    ("POST", "/api/system/control-token:take"),
+    ("POST", "/api/system/operating-mode:change"),
+    ("POST", "/api/arm/motion:start"),
+    ("POST", "/api/safety/recovery:confirm"),
+    ("PATCH", CONFIGURATION),
+    ("PUT", "/api/configuration/arm-mounting"),
+]
+BROKEN = [
+    b"{",
+    b'{"login": ',
+    b"\xff\xfe",
+    b"[1,",
+    b"NaN",
+    b'{"owner": NaN}',
+    b"[" * 20000,
+    b'{"a":' * 5000,
+    b"1" * 9000,
+    b'"\\ud800"',
+    b"null",
+    b"[]",
+    b"7",
+    b'{"token": 7, "owner": 7, "requestedBy": [], "type": {}, "login": {}, "password": 1}',
+]
+
+
+@pytest.mark.parametrize("body", BROKEN, ids=lambda body: body[:20].decode(errors="replace"))
+def test_broken_bodies_are_refused_with_a_sentence(desk, control, body):
+    for method, path in WITH_BODIES:
+        answer = desk.send(method, path, body, **control)
+        assert is_refused(answer, 400, 404), (method, path, answer)
+    assert alive(desk)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"endEffectorConfiguration": 1},
+        {"endEffectorConfiguration": {"endEffector": {"name": "Hammer"}}},
+        {"endEffectorConfiguration": {"endEffector": {"name": "Other", "params": {"mass": 1}}}},
+        {"networkConfiguration": {"shopFloor": {"type": "Token ring"}}},
+        {"networkConfiguration": {"robot": 1}},
+        {"userConfiguration": {"users": []}},
+        {"userConfiguration": {"users": [{"name": "a:b", "password": "x", "role": "Admin"}]}},
+        {"userConfiguration": {"users": [{"name": "a", "password": "x", "role": "SafetyOperator"}]}},
+        {"userConfiguration": {"users": [{"name": "a", "password": "", "role": "Admin"}]}},
+        {"userConfiguration": {"users": [{"name": "a", "password": "x", "role": "Admin"}] * 2}},
+        {"somethingElse": {}},
+    ],
+)
+def test_a_configuration_without_meaning_changes_nothing(desk, change):
+    before = desk.send("GET", CONFIGURATION, **basic()).json()
+    assert is_refused(desk.send("PATCH", CONFIGURATION, change, **basic()), 400)
+    assert desk.send("GET", CONFIGURATION, **basic()).json() == before
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"mass": -1.0},
+        {"mass": 3.1},
+        {"mass": "heavy"},
+        {"mass": True},
+        {"centerOfMass": {"x": 0.31, "y": 0.0, "z": 0.0}},
+        {"centerOfMass": {"x": 0.0, "y": 0.0}},
+        {"inertia": dict.fromkeys(("x11", "x12", "x13", "x22", "x23", "x33"), 0.0)},
+        {"inertia": {"x11": 1.1, "x12": 0, "x13": 0, "x22": 1, "x23": 0, "x33": 1}},
+    ],
+)
+def test_end_effectors_that_cannot_be_are_refused(desk, change):
+    inertia = {"x11": 0.01, "x12": 0, "x13": 0, "x22": 0.01, "x23": 0, "x33": 0.01}
+    inertial = {"mass": 1.0, "centerOfMass": {"x": 0, "y": 0, "z": 0}, "inertia": inertia, **change}
+    angles, place = {"roll": 0, "pitch": 0, "yaw": 0}, {"x": 0, "y": 0, "z": 0}
+    tcp = {"translation": place, "rotation": angles}
+    body = {"name": "tool", "inertial": inertial, "tcp": tcp}
+    assert is_refused(desk.send("POST", "/admin/api/end-effector/profiles", body, **basic()), 400)
+
+
+def test_an_empty_body_with_a_type_is_no_error(desk, control):
+    for kind in ("application/json", "application/x-www-form-urlencoded"):
+        for path in ("/desk/api/joints/lock", "/api/arm/joints:lock", "/api/safety/self-tests:execute"):
+            answer = desk.send("POST", path, b"", **control, Content_Type=kind)
+            assert answer.status in (200, 204), answer
+
+
+def test_large_bodies_are_refused_whether_their_length_is_given_or_not(desk):
+    large = b'{"login": "' + b"x" * LIMITS.body + b'"}'
+    assert is_refused(desk.send("POST", "/admin/api/login", large), 413)
+    desk.close_connection()
+    head = b"POST /admin/api/login HTTP/1.1\r\nHost: a\r\nConnection: close\r\n"
+    head += b"Transfer-Encoding: chunked\r\n\r\n"
+    chunks = b"".join(b"8000\r\n" + b"x" * 0x8000 + b"\r\n" for _ in range(3)) + b"0\r\n\r\n"
+    assert b" 413 " in raw(desk, head + chunks).partition(b"\r\n")[0]
+    assert alive(desk)
+
+
+def test_truncated_bodies_end_their_connection_only(strict):
+    head = b"POST /admin/api/login HTTP/1.1\r\nHost: a\r\nContent-Length: 500\r\n\r\n{"
+    assert b" 408 " in raw(strict, head).partition(b"\r\n")[0]
+    with socket.create_connection(("127.0.0.1", strict.port)) as plain:
+        with unverified().wrap_socket(plain) as secure:
+            secure.sendall(head)
+    time.sleep(0.1)
+    strict.close_connection()
+    assert alive(strict)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"\r\n\r\n",
+        b"GARBAGE\r\n\r\n",
+        b"GET / HTTP/x\r\n\r\n",
+        b"GET /" + b"a" * 20000 + b" HTTP/1.1\r\n\r\n",
+        b"GET / HTTP/1.1\r\nA: " + b"a" * 20000 + b"\r\n\r\n",
+        b"POST /admin/api/login HTTP/1.1\r\nHost: a\r\nContent-Length: -1\r\n\r\n",
+        b"POST /admin/api/login HTTP/1.1\r\nHost: a\r\nContent-Length: x\r\n\r\n",
+        b"GET /%ff%00%0d%0a HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n",
+        b"GET /desk/api/../../etc/passwd HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n",
+        b"GET /robots/999/api/system HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n",
+        b"\x00" * 1000,
+    ],
+)
+def test_garbage_does_not_end_desk(strict, data):
+    first = raw(strict, data).partition(b"\r\n")[0]
+    assert not first or re.match(rb"HTTP/1.[01] 4\d\d ", first)
+    assert alive(strict)
+
+
+def test_html_of_errors_is_escaped(desk):
+    answer = desk.send("GET", "/desk/api/%3Cscript%3Ealert(1)%3C/script%3E")
+    assert answer.status == 404 and "<script>" not in answer.text and "&lt;script&gt;" in answer.text
+    assert answer.headers["X-Content-Type-Options"] == "nosniff"
+
+
+# ---- many of them ----------------------------------------------------------------------------------------
+
+
+def test_requests_beyond_the_rate_wait(strict):
+    time.sleep(1.1)
+    begin = time.monotonic()
+    assert all(alive(strict) for _ in range(75))
+    assert time.monotonic() - begin > 0.3
+
+
+def test_wrong_passwords_make_an_address_wait(tmp_path):
+    with desk_with_robot(tmp_path, limits=SMALL) as (_, desk):
+        wrong = {"login": USER, "password": "eA=="}
+        statuses = [desk.send("POST", "/admin/api/login", wrong).status for _ in range(3)]
+        begin = time.monotonic()
+        assert desk.send("POST", "/admin/api/login", wrong).status == 401
+        assert desk.send("GET", "/api/system", **basic(password="x")).status == 401
+        assert time.monotonic() - begin > 0.9
+        assert statuses == [401] * 3
+        right = {"login": USER, "password": digest_of(USER, PASSWORD)}
+        assert desk.send("POST", "/admin/api/login", right).status == 200
+
+
+def test_connections_of_an_address_are_limited_and_silent_ones_end(strict):
+    strict.close_connection()
+    time.sleep(0.2)
+    kept = []
+    context = unverified()
+    for _ in range(SMALL.connections_of_address):
+        plain = socket.create_connection(("127.0.0.1", strict.port), timeout=DEADLINE)
+        kept.append(context.wrap_socket(plain))
+    with pytest.raises((OSError, http.client.HTTPException)):
+        strict.send("GET", "/api/system")
+    strict.close_connection()
+    for each in kept:  # they have sent nothing
+        try:
+            assert each.recv(1) == b""
+        except OSError:
+            pass
+        each.close()
+    deadline = time.monotonic() + DEADLINE
+    while True:
+        try:
+            assert alive(strict)
+            break
+        except (OSError, http.client.HTTPException):
+            assert time.monotonic() < deadline
+            strict.close_connection()
+            time.sleep(0.05)
+
+
+# ---- other sites -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        {"Origin": "https://evil.example"},
+        {"Origin": "null"},
+        {"Sec_Fetch_Site": "cross-site"},
+        {"Sec_Fetch_Site": "same-site"},
+    ],
+)
+def test_what_a_page_of_another_origin_sends_is_refused(desk, control, header):
+    for method, path in (
+        ("POST", "/desk/api/joints/lock"),
+        ("POST", "/admin/api/reboot"),
+        ("POST", "/admin/api/login"),
+        ("POST", "/admin/api/control-token/request"),
+        ("PATCH", CONFIGURATION),
+    ):
+        assert is_refused(desk.send(method, path, {}, **control, **header), 403), path
+    upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec_WebSocket_Version": "13"}
+    answer = desk.send(
+        "GET", "/admin/api/control-token", **upgrade, Sec_WebSocket_Key="MDEyMzQ1Njc4OWFiY2RlZg==", **header
+    )
+    assert is_refused(answer, 403)
+
+
+def test_a_page_of_the_same_origin_may(desk, control):
+    own = {"Origin": f"https://127.0.0.1:{desk.port}", "Sec_Fetch_Site": "same-origin"}
+    assert desk.send("POST", "/desk/api/joints/lock", **control, **own).status == 200
+
+
+# ---- logins ----------------------------------------------------------------------------------------------
+
+
+def test_digests_are_those_of_the_clients():
+    expected = (
+        "NDksMTE1LDY2LDEyOSwxODksNDcsMTE2LDE0NiwxMTgsMjMxLDI0OCwxMDgsMTIzLDExNiwxNDksMjE5LDE3MiwxNCwxMzUs"
+        "ODQsOTQsMjEzLDIzMSwyMDIsMjU1LDYsMjE2LDE1MCwxNTgsMzgsNiwyMTU="
+    )
+    assert digest_of("admin", "secret") == expected
+
+
+def test_a_digest_may_have_line_breaks_and_its_token_is_bare(desk):
+    digest = digest_of(USER, PASSWORD)
+    broken = "\n".join(digest[k : k + 76] for k in range(0, len(digest), 76)) + "\n"
+    answer = desk.send("POST", "/admin/api/login", {"login": USER, "password": broken})
+    assert answer.status == 200 and re.fullmatch(r"[\w.-]+", answer.text)
+    assert "Set-Cookie" not in answer.headers
+    wrong = desk.send("POST", "/admin/api/login", {"login": USER, "password": digest_of(USER, "x")})
+    assert wrong.status == 401 and wrong.json()["error"] == "WrongCredentials"
+
+
+def test_roles_limit_what_users_may_do(tmp_path):
+    with desk_with_robot(tmp_path) as (_, desk):
+        users = [
+            {"name": USER, "role": "Admin"},
+            {"name": "operator", "password": "o", "role": "Operator"},
+            {"name": "safety", "password": "s", "role": "SafetyOperator"},
+        ]
+        change = {"userConfiguration": {"users": users}}
+        assert desk.send("PATCH", CONFIGURATION, change, **basic()).status == 204
+        shown = desk.send("GET", CONFIGURATION, **basic()).json()["userConfiguration"]["users"]
+        assert [set(user) for user in shown] == [{"name", "role"}] * 3
+        for name, word, statuses in (("operator", "o", (403, 403)), ("safety", "s", (403, 424))):
+            user = basic(name, word)
+            assert desk.send("GET", CONFIGURATION, **user).status == 200
+            answers = (
+                desk.send("PATCH", CONFIGURATION, {}, **user),
+                desk.send("POST", "/api/safety/recovery:confirm", **user),
+            )
+            assert tuple(answer.status for answer in answers) == statuses
+        assert any(route.path == CONFIGURATION for route in V1_ROUTES)
+
+
+def test_a_new_password_ends_the_logins_of_its_user(tmp_path):
+    with desk_with_robot(tmp_path) as (_, desk):
+        cookie = desk.log_in()
+        users = [{"name": USER, "password": "another one", "role": "Admin"}]
+        change = {"userConfiguration": {"users": users}}
+        assert desk.send("PATCH", CONFIGURATION, change, **basic()).status == 204
+        assert desk.send("GET", CONFIGURATION, **cookie).status == 401
+        assert desk.send("GET", CONFIGURATION, **basic()).status == 401
+        assert desk.send("GET", CONFIGURATION, **basic(password="another one")).status == 200
+
+
+def test_there_is_no_desk_without_a_password():
+    with pytest.raises(ValueError, match="password"):
+        Settings("")
+
+
+@pytest.mark.parametrize(
+    "word",
+    ["release-status=300", "nothing=1", "token-id", "token-id=maybe", "boot-time=nan", "force-timeout=0"],
+)
+def test_options_without_meaning_are_refused_with_a_sentence(word):
+    with pytest.raises(ValueError, match=r"\.$"):
+        Options.of([word])
+
+
+# ---- the certificate -------------------------------------------------------------------------------------
+
+
+def test_clients_can_check_the_certificate_for_the_name_of_robots(desk, tmp_path):
+    trusted = tmp_path / "desk.pem"
+    trusted.write_text(ssl.get_server_certificate(("127.0.0.1", desk.port)))
+    context = ssl.create_default_context(cafile=str(trusted))
+    for name in ("robot.franka.de", "127.0.0.1"):
+        with socket.create_connection(("127.0.0.1", desk.port)) as plain:
+            with context.wrap_socket(plain, server_hostname=name) as secure:
+                assert secure.version() in ("TLSv1.2", "TLSv1.3")
+    with socket.create_connection(("127.0.0.1", desk.port)) as plain:
+        with pytest.raises(ssl.SSLCertVerificationError):
+            context.wrap_socket(plain, server_hostname="evil.example")
+
+
+def test_the_certificate_is_kept_where_only_its_user_can_read_it(tmp_path):
+    from pyfranka.desk.certificate import make_pem, tls_context
+
+    folder = tmp_path / "cache"
+    tls_context("127.0.0.1", folder)
+    path = folder / "127.0.0.1.pem"
+    first = path.read_bytes()
+    assert path.stat().st_mode & 0o077 == 0 and folder.stat().st_mode & 0o077 == 0
+    tls_context("127.0.0.1", folder)
+    assert path.read_bytes() == first
+    path.write_bytes(b"nothing")
+    tls_context("127.0.0.1", folder)
+    assert path.read_bytes() not in (b"nothing", first)
+    tls_context("127.0.0.1", tmp_path / "127.0.0.1.pem" / "no folder")  # in memory
+    assert make_pem("robot.local").count(b"BEGIN") == 2
+    (tmp_path / "file").write_text("")
+    tls_context("127.0.0.1", tmp_path / "file" / "below")
+    assert json.dumps(os.listdir(folder)) == '["127.0.0.1.pem"]'
