@@ -1,24 +1,25 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every endpoint of Desk, on every generation, with every kind of login and control token.
+"""Every endpoint of Desk, with every kind of login and control token, on robots of every generation.
 
 The table below says what is expected; another test compares it with the endpoints that exist.
 """
 
 from __future__ import annotations
 
-import copy
 import enum
 import typing
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import pytest
-from desk_robot import ScriptedRobot
 from desk_server import DeskServer, basic
 from pyfranka.desk.profiles import PROFILES
+from pyfranka.desk.robot import PORT
 from pyfranka.desk.server import ROUTES
+from pyfranka.franka_sim import FrankaSim, SimRobot
 
 ALL = tuple(PROFILES)
+PROTOCOLS = {"fer-old": 4, "fer-spoc": 5, "fr3-early": 7, "fr3-v1": 10}
 FER = ("fer-old", "fer-spoc")
 FR3 = ("fr3-early", "fr3-v1")
 TOKENS = ("fer-spoc", "fr3-early", "fr3-v1")
@@ -38,7 +39,8 @@ class Needs(enum.Enum):
 
 @dataclass(frozen=True)
 class Case:
-    """ok: the status of success. has: members of the answer, or an answer."""
+    """ok: the status of success. has: members of the answer, or an answer. pattern: the path of the route, if
+    it has variable parts. before: lines to the robot, for success."""
 
     method: str
     path: str
@@ -48,8 +50,8 @@ class Case:
     body: typing.Any = None
     has: typing.Any = None
     form: str = ""
-    pattern: str = ""  # the path of the route, if it has variable parts
-    setup: dict = field(default_factory=dict)  # of the robot's report
+    pattern: str = ""
+    before: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         return f"{self.method} {self.path}"
@@ -89,6 +91,8 @@ SYSTEM = {"execution", "safety", "robot", "processes", "startup", "controlToken"
 BUTTONS = {"circle", "cross", "check", "up", "down", "left", "right"}
 ACKNOWLEDGE = "/admin/api/safety/recoverable-safety-errors/acknowledge"
 PROFILE = "/admin/api/end-effector/profiles"
+OPEN = ("joints unlock",)
+ERROR = ("inject genericJointError off", "inject genericJointError on")
 N, L, C = Needs.NOTHING, Needs.LOGIN, Needs.CONTROL
 
 CASES = [
@@ -110,7 +114,15 @@ CASES = [
         has={"error"},
         pattern="/admin/api/control-token/request/<id>",
     ),
-    Case("POST", "/admin/api/control-token/fci", TOKENS, Needs.BODY_TOKEN, body={"token": TOKEN}, has=EMPTY),
+    Case(
+        "POST",
+        "/admin/api/control-token/fci",
+        TOKENS,
+        Needs.BODY_TOKEN,
+        body={"token": TOKEN},
+        has=EMPTY,
+        before=OPEN,
+    ),
     Case(
         "DELETE", "/admin/api/control-token/fci", TOKENS, Needs.BODY_TOKEN, body={"token": TOKEN}, has=EMPTY
     ),
@@ -120,19 +132,19 @@ CASES = [
     Case("POST", "/desk/api/robot/open-brakes", FER, C, has=EMPTY),
     Case("POST", "/desk/api/robot/close-brakes", FER, has=EMPTY),
     Case("POST", "/desk/api/joints/unlock", FR3, C, has=EMPTY),
-    Case("POST", "/desk/api/system/fci", FR3, Needs.CONTROL_OR_FORM, has=EMPTY),
+    Case("POST", "/desk/api/system/fci", FR3, Needs.CONTROL_OR_FORM, has=EMPTY, before=OPEN),
     Case("DELETE", "/desk/api/system/fci", FR3, Needs.CONTROL_OR_FORM, has=EMPTY),
     Case("POST", "/desk/api/operating-mode/programming", FR3, C, has=EMPTY),
     Case("POST", "/desk/api/operating-mode/execution", FR3, C, has=EMPTY),
     Case("POST", "/desk/api/joints/lock", FR3, has=EMPTY),
     Case("PUT", "/desk/api/robot/guiding/mode", needs=C, form='mode="translation"', has=EMPTY),
     Case("PUT", "/desk/api/navigation/mode", needs=C, form='mode="one"', has=EMPTY),
-    Case("POST", "/desk/api/gripper/homing", needs=C, has=EMPTY),
+    Case("POST", "/desk/api/gripper/homing", needs=C, has=EMPTY, before=OPEN),
     Case("POST", "/desk/api/execution", form="id=task", has=EMPTY),
     Case("DELETE", "/desk/api/execution", form="id=task", has=EMPTY),
     Case("GET", "/desk/api/execution", has={"lastActivePath", "running"}),
     Case("POST", "/desk/api/robot/reset-errors", needs=C, has=EMPTY),
-    Case("POST", "/desk/api/robot/fold", needs=C, has=EMPTY),
+    Case("POST", "/desk/api/robot/fold", needs=C, has=EMPTY, before=OPEN),
     Case("POST", "/desk/api/robot/restart", FER, has=EMPTY),
     *(
         case
@@ -157,12 +169,12 @@ CASES = [
     Case("GET", "/admin/api/system-status", FR3, N, has=SYSTEM),
     Case(
         "POST",
-        ACKNOWLEDGE + "?error_id=TD2Timeout",
+        ACKNOWLEDGE + "?error_id=GenericJointError",
         FR3,
         C,
         has=EMPTY,
         pattern=ACKNOWLEDGE,
-        setup={"recoverable": ["td2Timeout"]},
+        before=ERROR,
     ),
     Case("POST", "/admin/api/safety/td2-tests/execute", FR3, C, has={"code": "SuccessResponse"}),
     # ---- end effectors ----
@@ -234,7 +246,7 @@ CASES = [
         body={"owner": "me", "timeout": 0.01},
         has={"code"},
     ),
-    Case("POST", "/api/arm/joints:unlock", V1, C, 204, has=EMPTY),
+    Case("POST", "/api/arm/joints:unlock", V1, C, 204, has=EMPTY, before=("joints lock",)),
     Case(
         "POST",
         "/api/system/operating-mode:change",
@@ -260,7 +272,7 @@ CASES = [
             L,
             204,
             has=EMPTY,
-            setup={"recoverable": ["td2Timeout"]},
+            before=ERROR,
         )
         for verb in ("confirm", "start")
     ),
@@ -299,17 +311,17 @@ def profile(request):
 
 
 @pytest.fixture(scope="module")
-def robot(profile):
+def desk(profile, tmp_path_factory):
+    """Desk of a robot that has just been switched on. It knows the generation by the robot's protocol."""
     kind = "fr3" if profile.fr3 else "panda"
-    with ScriptedRobot(type=kind, arm_id=kind) as robot:
-        yield robot
-
-
-@pytest.fixture(scope="module")
-def desk(profile, robot, tmp_path_factory):
+    robot = SimRobot(kind, protocol=PROTOCOLS[profile.name])
     folder = tmp_path_factory.mktemp("certificates")
-    with DeskServer("127.0.0.1", robot.port, folder, profile.name) as desk:
-        yield desk
+    with FrankaSim(robot, arguments=["--start", "locked"]) as sim:
+        for line in ("timing brakes 0.1", "timing self_test 0.1"):
+            sim.robot.remote.send(line)
+        with DeskServer(sim.robot.address, PORT, folder) as desk:
+            assert desk.desk.profile is profile
+            yield desk
 
 
 @pytest.fixture(autouse=True)
@@ -375,12 +387,12 @@ def test_a_wrong_password_is_refused_everywhere(desk, profile, wrong):
 
 
 @pytest.mark.parametrize("login", ["cookie", "header", "basic"])
-def test_without_a_token_no_action_is_done(desk, profile, robot, login):
+def test_without_a_token_no_action_is_done(desk, profile, login):
     statuses = {C: 400, Needs.CONTROL_OR_FORM: 400, Needs.BODY_TOKEN: 400, Needs.CONTROL_LOCKED: 423}
     cookie = desk.log_in()
     word = cookie["Cookie"].removeprefix("authorization=")
     headers = {"cookie": cookie, "header": {"authorization": word}, "basic": basic()}[login]
-    sent = len(robot.lines)
+    sent = len(desk.lines)
     for case in of(profile):
         if case.needs in statuses and profile.tokens:
             answer = send(desk, case, None, **headers)
@@ -388,11 +400,11 @@ def test_without_a_token_no_action_is_done(desk, profile, robot, login):
             assert is_sentence(answer)
             if answer.status == 400:
                 assert "Control-Token" in answer.json()["message"]
-    assert robot.lines[sent:] == []
+    assert desk.lines[sent:] == []
 
 
-def test_a_wrong_token_is_locked(desk, profile, robot):
-    headers, sent = desk.log_in(), len(robot.lines)
+def test_a_wrong_token_is_locked(desk, profile):
+    headers, sent = desk.log_in(), len(desk.lines)
     for case in of(profile):
         if not profile.tokens or case.needs in (N, L):
             continue
@@ -404,17 +416,16 @@ def test_a_wrong_token_is_locked(desk, profile, robot):
                 assert answer.status == 404 and answer.json()["error"] == "ControlTokenUnknown", case
             else:
                 assert answer.status == 423, case
-    assert robot.lines[sent:] == []
+    assert desk.lines[sent:] == []
 
 
-def test_with_login_and_control_every_endpoint_does_its_work(desk, profile, robot):
+def test_with_login_and_control_every_endpoint_does_its_work(desk, profile):
     headers = desk.log_in()
     token = control_of(desk, profile, headers)
     if profile.fr3:  # the case that changes a profile comes before the one that adds it has an effect
         assert desk.send("POST", PROFILE, NEW_PROFILE, **headers).status == 200
     for case in of(profile):
-        robot.report.update(copy.deepcopy(case.setup))
-        desk.refresh()
+        desk.prepare(case.before)
         answer = send(desk, case, token if case.needs not in (N, L) else None, **headers)
         assert answer.status == case.ok, (case, answer)
         check_fields(case, answer)

@@ -10,6 +10,7 @@ import http.client
 import json
 import ssl
 import threading
+import time
 import typing
 from dataclasses import dataclass, field
 
@@ -53,7 +54,7 @@ def basic(user: str = USER, password: str = PASSWORD) -> dict[str, str]:
 
 @dataclass
 class DeskServer:
-    """A running Desk of one robot. host: it answers there too."""
+    """A running Desk of one robot. profile: empty: by the robot. lines: those that it has sent."""
 
     robot_address: str
     robot_port: int
@@ -84,6 +85,8 @@ class DeskServer:
     async def _start(self) -> None:
         robot = Robot(self.robot_address, self.robot_port)
         await robot.start(30.0)
+        self.lines: list[str] = []
+        self._record(robot)
         settings = Settings(PASSWORD, USER, self.profile, self.options, self.limits)
         desks = make_desks([robot], settings)
         self.desk = desks[0]
@@ -91,6 +94,24 @@ class DeskServer:
         self.desk.power.site = self.site
         await self.site.open()
         self.port = self.site.port
+
+    def _record(self, robot: Robot) -> None:
+        send = robot.send
+
+        def recorded(line: str, urgent: bool = False):
+            self.lines.append(line)
+            return send(line, urgent)
+
+        robot.send = recorded
+
+    def prepare(self, lines: typing.Iterable[str]) -> None:
+        """Sends lines to the robot when its self-test, if there is one, has ended."""
+        deadline = time.monotonic() + START_LIMIT
+        while self.call(self.desk.robot.refresh()).self_test.running:
+            assert time.monotonic() < deadline, "The self-test has not ended."
+            time.sleep(0.01)
+        for line in lines:
+            self.call(self.desk.robot.send(line))
 
     async def _stop(self) -> None:
         await self.site.cleanup()

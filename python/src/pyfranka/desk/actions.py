@@ -61,8 +61,16 @@ async def self_test(desk: Desk, wait: bool) -> None:
 
 
 async def move_to_pack_pose(desk: Desk) -> None:
-    """Returns when the robot is there, or refuses it."""
-    await desk.robot.send("move pack")
+    """Returns when the robot is there, or refuses it. An FCI that is always on pauses, unless a client moves
+    the robot."""
+    if desk.profile.tokens:
+        await desk.robot.send("move pack")
+        return
+    if desk.report.mode == "Move":
+        raise Refused("MotionActive", "A client of the FCI moves the robot.")
+    with desk.without_fci():
+        await desk.robot.send("fci off")
+        await desk.robot.send("move pack")
 
 
 async def stop_motion(desk: Desk) -> None:

@@ -52,6 +52,7 @@ class Desk:
         self.last_task: str | None = None
         self._restarted = 0.0
         self._next_attempt = 0.0
+        self._pauses = 0
         robot.listen(self._follow)
 
     @property
@@ -106,6 +107,15 @@ class Desk:
             self._watchers.discard(event)
 
     @contextlib.contextmanager
+    def without_fci(self):
+        """Keeps an FCI that is always on from coming back."""
+        self._pauses += 1
+        try:
+            yield
+        finally:
+            self._pauses -= 1
+
+    @contextlib.contextmanager
     def button_changes(self, listener: Callable[[dict[str, bool]], None]):
         """Calls the listener with the Pilot's buttons that change."""
         self._on_buttons.add(listener)
@@ -151,6 +161,7 @@ class Desk:
         if (
             not (self.fci_desired or not self.profile.tokens)
             or now.fci
+            or self._pauses
             or time.monotonic() < self._next_attempt
         ):
             return
