@@ -9,9 +9,32 @@ Programs that log in to a robot before they use the FCI, and browsers, find what
 talks to the robot over its control interface only (docs/franka_sim.md).
 """
 
-from pyfranka.desk.desk import Desk
-from pyfranka.desk.robot import Refused, Robot, RobotGone
-from pyfranka.desk.server import make_app
-from pyfranka.desk.settings import Limits, Options, Settings
+from __future__ import annotations
+
+import importlib
+import typing
+
+if typing.TYPE_CHECKING:
+    from pyfranka.desk.desk import Desk
+    from pyfranka.desk.robot import Refused, Robot, RobotGone
+    from pyfranka.desk.server import make_app
+    from pyfranka.desk.settings import Limits, Options, Settings
 
 __all__ = ["Desk", "Limits", "Options", "Refused", "Robot", "RobotGone", "Settings", "make_app"]
+_MODULES = {
+    "Desk": "desk",
+    "Limits": "settings",
+    "Options": "settings",
+    "Refused": "robot",
+    "Robot": "robot",
+    "RobotGone": "robot",
+    "Settings": "settings",
+    "make_app": "server",
+}
+
+
+def __getattr__(name: str):
+    """Imports what is used: the program's --help does without aiohttp."""
+    if name in _MODULES:
+        return getattr(importlib.import_module(f"pyfranka.desk.{_MODULES[name]}"), name)
+    raise AttributeError(f"module 'pyfranka.desk' has no attribute '{name}'")

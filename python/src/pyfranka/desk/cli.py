@@ -20,8 +20,12 @@ from pyfranka.desk.settings import USER, Options, Settings
 
 PASSWORD = "FRANKA_DESK_PASSWORD"
 HTTPS, OTHER_HTTPS = 443, 8443
-FIRST_REPORT = 10.0  # [s] to wait for the robots before Desk listens (chosen here)
+FIRST_REPORT = 3.0  # [s] to wait for the robots before Desk listens (chosen here)
 NICE = 5  # robots come first (chosen here)
+
+
+class NoPlace(Exception):
+    """Desk cannot listen; the text is a sentence."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -40,9 +44,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.nice(NICE)
     try:
         return asyncio.run(_run(robots, listen, settings, words.child))
-    except OSError as error:
-        print(f"franka_desk: {error.strerror or error}", file=sys.stderr)
-        return 1
+    except ModuleNotFoundError as error:
+        print(
+            f"franka_desk: Desk needs the Python package {error.name}. Install python3-aiohttp and "
+            "python3-cryptography, or pyfranka[desk] by pip.",
+            file=sys.stderr,
+        )
+    except NoPlace as error:
+        print(f"franka_desk: {error}", file=sys.stderr)
+    return 1
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -64,7 +74,9 @@ def _parser() -> argparse.ArgumentParser:
         f"{OTHER_HTTPS} if that is not allowed)",
     )
     parser.add_argument("--user", default=USER, help="name of the first user (%(default)s)")
-    parser.add_argument("--profile", default="", choices=["", *PROFILES], help="generation of the interface")
+    parser.add_argument(
+        "--profile", default="", choices=list(PROFILES), help="generation of the interface (by the robot)"
+    )
     parser.add_argument(
         "--option",
         action="append",
@@ -97,6 +109,7 @@ async def _run(
 ) -> int:
     from pyfranka.desk.server import app_of, make_desks  # aiohttp takes a while
 
+    end = _end(child)
     robots = [Robot(*place) for place in places]
     await asyncio.gather(*(robot.start(FIRST_REPORT) for robot in robots))
     desks = make_desks(robots, settings)
@@ -106,7 +119,7 @@ async def _run(
         desks[number].power.site = sites[-1]
     for desk, site in zip(desks, sites):
         print(f"franka_desk: robot at {desk.robot.place}: https://{site.address}:{site.port}", flush=True)
-    await _end(child)
+    await end.wait()
     for site in sites:
         await site.cleanup()
     for desk in desks:
@@ -132,17 +145,25 @@ async def _open(app, places: list[tuple[str, int]]):
             return site
         except OSError as error:
             if (address, port) == places[-1] or error.errno not in (errno.EACCES, errno.EPERM):
-                raise
+                why = os.strerror(error.errno) if error.errno else str(error)
+                raise NoPlace(
+                    f"Desk cannot listen at {address}, port {port}: {why}. Choose another place with "
+                    "--listen ADDRESS:PORT."
+                ) from None
     raise AssertionError("there is no place")
 
 
-async def _end(child: bool) -> None:
-    """Returns when the program shall end."""
+def _end(child: bool) -> asyncio.Event:
+    """Is set when the program shall end."""
     loop, end = asyncio.get_running_loop(), asyncio.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, end.set)
     if child:
-        loop.add_reader(sys.stdin.fileno(), lambda: os.read(sys.stdin.fileno(), 4096) or end.set())
-    await end.wait()
-    if child:
-        loop.remove_reader(sys.stdin.fileno())
+        loop.add_reader(sys.stdin.fileno(), _read_input, end)
+    return end
+
+
+def _read_input(end: asyncio.Event) -> None:
+    if not os.read(sys.stdin.fileno(), 4096):
+        asyncio.get_running_loop().remove_reader(sys.stdin.fileno())
+        end.set()

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import time
 import typing
 
@@ -17,7 +18,8 @@ if typing.TYPE_CHECKING:
     from pyfranka.desk.server import Site
 
 BRIEFLY = 0.3  # [s] in which Desk still answers (chosen here)
-PAUSE = 0.5  # [s] between two attempts to switch the robot on (chosen here)
+PAUSE = 0.5  # [s] between two attempts to switch the robot on, or to listen (chosen here)
+log = logging.getLogger("franka_desk")
 
 
 class Power:
@@ -92,8 +94,13 @@ class Power:
 
     async def _come_back(self) -> None:
         self.down = False
-        if self.site is not None:
-            await self.site.open()
+        while self.site is not None:
+            try:
+                await self.site.open()
+                return
+            except OSError as error:  # another program has its port
+                log.warning("Desk cannot listen again, and goes on trying: %s", error)
+                await asyncio.sleep(PAUSE)
 
     async def _send(self, line: str) -> None:
         while True:

@@ -1,0 +1,177 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The program franka_desk: options, passwords, several robots, its end."""
+
+import contextlib
+import http.client
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from desk_robot import ScriptedRobot
+from desk_server import basic, unverified
+
+COMMAND = [sys.executable, "-m", "pyfranka.desk"]
+WORD = "the password"
+DEADLINE = 30.0  # [s]
+READY = re.compile(r"franka_desk: robot at \S+, port \d+: https://(\S+):(\d+)")
+
+
+@pytest.fixture
+def environment(tmp_path):
+    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path)}
+    environment.pop("FRANKA_DESK_PASSWORD", None)
+    return environment
+
+
+@contextlib.contextmanager
+def program(environment, *arguments, **more):
+    process = subprocess.Popen(
+        [*COMMAND, *arguments],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        stdin=subprocess.PIPE,
+        text=True,
+        **more,
+    )
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def places(process, count):
+    """@returns lines before the first place, and the places."""
+    before, found = [], []
+    while len(found) < count:
+        line = process.stdout.readline()
+        assert line, before
+        match = READY.fullmatch(line.strip())
+        if match:
+            found.append((match[1], int(match[2])))
+        else:
+            before.append(line.strip())
+    return before, found
+
+
+def get(place, path, headers):
+    connection = http.client.HTTPSConnection(*place, timeout=DEADLINE, context=unverified())
+    connection.request("GET", path, headers=headers)
+    response = connection.getresponse()
+    body = response.read()
+    connection.close()
+    return response.status, body
+
+
+def refused(environment, *arguments):
+    result = subprocess.run(
+        [*COMMAND, *arguments], env=environment, capture_output=True, text=True, timeout=60
+    )
+    return result.returncode, result.stderr.strip()
+
+
+def test_a_password_of_the_environment_is_not_shown(environment):
+    with ScriptedRobot() as robot:
+        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--user=anna"]
+        with program({**environment, "FRANKA_DESK_PASSWORD": WORD}, *words) as process:
+            before, (place,) = places(process, 1)
+            assert before == []
+            assert get(place, "/api/configuration", basic("anna", WORD))[0] == 200
+            assert get(place, "/api/configuration", basic("anna", ""))[0] == 401
+            with open(f"/proc/{process.pid}/cmdline") as file:
+                assert WORD not in file.read()
+
+
+def test_a_generated_password_is_printed_once(environment):
+    with ScriptedRobot() as robot:
+        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0"]
+        passwords = []
+        for _ in range(2):
+            with program(environment, *words) as process:
+                (line,), (place,) = places(process, 1)
+                passwords.append(re.fullmatch(r"franka_desk: user franka, password (\S{12,})", line)[1])
+                assert get(place, "/api/configuration", basic("franka", passwords[-1]))[0] == 200
+        assert len(set(passwords)) == 2
+
+
+def test_each_robot_has_a_desk_of_its_own_and_its_paths_at_the_others(environment):
+    kinds = {"panda": ["/robots/0", "/robots/1"], "fr3": ["/robots/1", "/robots/0"]}
+    with contextlib.ExitStack() as stack:
+        robots = [stack.enter_context(ScriptedRobot(type=kind, arm_id=kind)) for kind in kinds]
+        free = 20000 + os.getpid() % 20000
+        words = [f"--robot=127.0.0.1:{robot.port}" for robot in robots]
+        environment["FRANKA_DESK_PASSWORD"] = WORD
+        process = stack.enter_context(program(environment, *words, f"--listen=127.0.0.1:{free}"))
+        _, found = places(process, 2)
+        assert found[1][1] == found[0][1] + 1
+        for number, kind in enumerate(kinds):
+            for place, prefix in ((found[number], ""), *((each, f"/robots/{number}") for each in found)):
+                status, body = get(place, f"{prefix}/admin/api/robot/nameplate", basic("franka", WORD))
+                assert status == 200 and json.loads(body)["armId"] == kind
+        assert get(found[0], "/robots/2/admin/api/system-version", {})[0] == 404
+
+
+def test_a_profile_and_options_are_taken(environment):
+    with ScriptedRobot() as robot:
+        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--profile=fr3-early"]
+        with program(environment, *words, "--option", "version=5.1.0") as process:
+            _, (place,) = places(process, 1)
+            assert get(place, "/api/system", {})[0] == 404
+            assert json.loads(get(place, "/admin/api/system-version", {})[1]).startswith("5.1.0\n")
+
+
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT, "end of input"])
+def test_it_ends_when_told_to(environment, how):
+    with ScriptedRobot() as robot:
+        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--child"]
+        with program(environment, *words) as process:
+            places(process, 1)
+            begin = time.monotonic()
+            if how == "end of input":
+                process.stdin.close()
+                process.stdin = None
+            else:
+                process.send_signal(how)
+            assert process.wait(DEADLINE) == 0
+            assert time.monotonic() - begin < 10.0
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--option", "nothing=1"],
+        ["--option", "boot-time=-1"],
+        ["--listen", "127.0.0.1:nowhere"],
+        ["--robot", "127.0.0.1:99999"],
+        ["--user", "a:b"],
+    ],
+)
+def test_a_wrong_command_line_is_refused_with_a_sentence(environment, arguments):
+    status, text = refused(environment, *arguments)
+    assert status == 2 and text.startswith("franka_desk: ") and text.endswith(".")
+    assert len(text.splitlines()) == 1
+
+
+def test_a_port_in_use_is_an_error_with_a_sentence(environment):
+    with ScriptedRobot() as robot:
+        status, text = refused(
+            environment, f"--robot=127.0.0.1:{robot.port}", f"--listen=127.0.0.1:{robot.port}"
+        )
+    assert status == 1
+    assert str(robot.port) in text and "--listen" in text and len(text.splitlines()) == 1
+
+
+def test_desk_serves_before_its_robot_is_there(environment):
+    with ScriptedRobot() as robot:
+        port = robot.port
+    with program(environment, f"--robot=127.0.0.1:{port}", "--listen=127.0.0.1:0") as process:
+        _, (place,) = places(process, 1)
+        status, body = get(place, "/api/system", {})
+        assert status == 503 and str(port) in json.loads(body)["message"]
