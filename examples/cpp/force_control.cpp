@@ -1,0 +1,81 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Goes down until the hand touches something firm, then presses on it with a force: a controller of
+// the measured external force with an integrator. Springs hold the hand in all other directions.
+#include <franka/model.h>
+
+#include <Eigen/Dense>
+
+#include "common.h"
+
+namespace {
+
+using Matrix6x7 = Eigen::Matrix<double, 6, 7>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+
+// The force with which the surroundings press the hand upwards [N].
+double forceOn(const franka::RobotState& state) { return -state.O_F_ext_hat_K[2]; }
+
+void goDownUntilContact(franka::Robot& robot) {
+  constexpr double kSpeed = 0.02, kRamp = 0.3, kContact = 4;  // [m/s] [s] [N]
+  double time = 0, end = 20;                                  // [s]
+  robot.control([&](const franka::RobotState& state, franka::Duration period) {
+    time += period.toSec();
+    if (std::abs(forceOn(state)) > kContact && time > kRamp) {
+      end = std::min(end, time);
+    }
+    const double speed =
+        kSpeed * example::smooth(time, kRamp) * (1 - example::smooth(time - end, kRamp));
+    const franka::CartesianVelocities command({0, 0, -speed, 0, 0, 0});
+    return time < end + kRamp ? command : franka::MotionFinished(command);
+  });
+}
+
+// Way and turn back to a pose; nothing along z.
+Vector6 error(const Eigen::Isometry3d& goal, const std::array<double, 16>& columns) {
+  const Eigen::Isometry3d pose(Eigen::Matrix4d::Map(columns.data()));
+  const Eigen::AngleAxisd turn(goal.linear() * pose.linear().transpose());
+  Vector6 result;
+  result << goal.translation() - pose.translation(), turn.angle() * turn.axis();
+  result[2] = 0;
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return example::run(argc, argv, [](const std::string& address) {
+    franka::Robot robot = example::ready(address);
+    const franka::Model model = robot.loadModel();
+    goDownUntilContact(robot);
+
+    constexpr double kForce = 10, kDuration = 6;    // [N] [s]
+    constexpr double kGain = 0.3, kIntegral = 1.5;  // [-] [1/s]
+    const Vector6 stiffness = (Vector6() << 600, 600, 0, 40, 40, 40).finished();
+    const Vector6 damping = (Vector6() << 50, 50, 80, 12, 12, 12).finished();
+    Eigen::Isometry3d goal(Eigen::Matrix4d::Map(robot.readOnce().O_T_EE.data()));
+    double time = 0, integral = 0, pressed = 0;
+    robot.control([&](const franka::RobotState& state, franka::Duration period) {
+      time += period.toSec();
+      const double wanted = kForce * example::smooth(time, 1);
+      pressed = std::abs(forceOn(state));
+      integral += kIntegral * (wanted - pressed) * period.toSec();
+      integral = std::clamp(integral, -kForce, kForce);
+
+      const std::array<double, 42> columns = model.zeroJacobian(franka::Frame::kEndEffector, state);
+      const Matrix6x7 jacobian = Matrix6x7::Map(columns.data());
+      const Vector6 velocity = jacobian * Vector7::Map(state.dq.data());
+      Vector6 wrench =
+          stiffness.cwiseProduct(error(goal, state.O_T_EE)) - damping.cwiseProduct(velocity);
+      wrench[2] -= wanted + kGain * (wanted - pressed) + integral;
+      const std::array<double, 7> coriolis = model.coriolis(state);
+      franka::Torques command({0, 0, 0, 0, 0, 0, 0});
+      Vector7::Map(command.tau_J.data()) =
+          jacobian.transpose() * wrench + Vector7::Map(coriolis.data());
+      return time < kDuration ? command : franka::MotionFinished(command);
+    });
+    std::printf("pressed %.3f\n", pressed);
+  });
+}
