@@ -4,7 +4,7 @@
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/world.h>
 #include <franka_sim/simulation/files.h>
-#include <franka_sim/simulation/hand_commands.h>
+#include <franka_sim/simulation/operator_commands.h>
 #include <franka_sim/simulation/scene_commands.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "desk_process.h"
-#include "operator_commands.h"
 #include "options.h"
 #include "served_arm.h"
 #include "shutdown.h"
@@ -123,9 +122,9 @@ void serve(const Options& options) {
     if (arm.options().control_port != 0) {
       lines.emplace_back(arm.options().ip, arm.options().control_port);
       addOperatorCommands(lines.back(),
-                          {arm.robot(), arm.options().arm_id, robots, host, world, ended});
+                          {arm.robot(), arm.options().arm_id, host, world,
+                           [&] { resetWorld(world, robots, host); }, [&ended] { ended = true; }});
       addSceneCommands(lines.back(), world, scene);
-      addHandCommands(lines.back(), arm.robot().whole());
       host.add(lines.back());
     }
   }

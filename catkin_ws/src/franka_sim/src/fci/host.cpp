@@ -85,6 +85,10 @@ void Host::remove(const HostedRobot& robot) {
   entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_robot), entries_.end());
 }
 
+void Host::remove(const Service& service) {
+  services_.erase(std::remove(services_.begin(), services_.end(), &service), services_.end());
+}
+
 void Host::setPace(const Pace& pace) {
   pace_ = pace;
   period_ = std::chrono::nanoseconds(std::llround(1e6 / (pace.factor > 0.0 ? pace.factor : 1.0)));
@@ -149,6 +153,9 @@ void Host::standStill() {
     entry.robot->publish(entry.robot->expectsCommand() ? 0 : 1, true);
   }
   serveAll();
+  for (Service* service : services_) {
+    service->published();
+  }
   restartClock();
 }
 

@@ -116,6 +116,7 @@ class Host {
   void add(Service& service);
   /// Call between ticks, like all functions below.
   void remove(const HostedRobot& robot);
+  void remove(const Service& service);
   void setPace(const Pace& pace);
   bool empty() const noexcept { return entries_.empty() && services_.empty(); }
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "safety_commands.h"
+#include "simulation/safety_commands.h"
 
 #include <franka_sim/fci/robot_report.h>
 #include <franka_sim/robot/parameter_checks.h>
@@ -310,28 +310,28 @@ void addMotion(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   });
 }
 
-void addReport(LineServer& lines, const Scene& scene) {
-  lines.add("report", [scene](const Words&) {
+void addReport(LineServer& lines, const OperatorContext& context) {
+  lines.add("report", [context](const Words&) {
     fci::JsonWriter json;
-    json.beginObject().member("time", scene.world.time()).member("arm_id", scene.arm_id);
-    fci::writeReport(scene.robot, json);
-    json.member("fault", scene.world.fault()).endObject();
+    json.beginObject().member("time", context.world.time()).member("arm_id", context.arm_id);
+    fci::writeReport(context.robot, json);
+    json.member("fault", context.world.fault()).endObject();
     return json.text();
   });
 }
 
 }  // namespace
 
-void addSafetyCommands(LineServer& lines, const Scene& scene) {
-  addStops(lines, scene.robot, scene.host);
-  addBrakes(lines, scene.robot, scene.host);
-  addFci(lines, scene.robot);
-  addGuiding(lines, scene.robot, scene.host);
-  addErrors(lines, scene.robot);
-  addPower(lines, scene.robot, scene.host);
-  addEndEffector(lines, scene.robot);
-  addMotion(lines, scene.robot, scene.host);
-  addReport(lines, scene);
+void addSafetyCommands(LineServer& lines, const OperatorContext& context) {
+  addStops(lines, context.robot, context.host);
+  addBrakes(lines, context.robot, context.host);
+  addFci(lines, context.robot);
+  addGuiding(lines, context.robot, context.host);
+  addErrors(lines, context.robot);
+  addPower(lines, context.robot, context.host);
+  addEndEffector(lines, context.robot);
+  addMotion(lines, context.robot, context.host);
+  addReport(lines, context);
 }
 
 }  // namespace franka_sim

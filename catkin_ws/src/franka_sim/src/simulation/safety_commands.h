@@ -3,13 +3,12 @@
 #pragma once
 
 #include <franka_sim/fci/line_server.h>
-
-#include "operator_commands.h"
+#include <franka_sim/simulation/operator_commands.h>
 
 namespace franka_sim {
 
 /// Adds the commands of the robot's safety controller: stops, brakes, FCI, operating mode, guiding,
 /// self-test, errors, the end effector and motions by Desk; and the report of its state.
-void addSafetyCommands(fci::LineServer& lines, const Scene& scene);
+void addSafetyCommands(fci::LineServer& lines, const OperatorContext& context);
 
 }  // namespace franka_sim

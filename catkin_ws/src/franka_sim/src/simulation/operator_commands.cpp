@@ -1,10 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "operator_commands.h"
-
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/sizes.h>
 #include <franka_sim/robot/virtual_walls.h>
+#include <franka_sim/simulation/hand_commands.h>
+#include <franka_sim/simulation/operator_commands.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "safety_commands.h"
+#include "simulation/safety_commands.h"
 
 namespace franka_sim {
 
@@ -183,20 +183,6 @@ void addWalls(LineServer& lines, fci::SimRobot& robot) {
   });
 }
 
-void reset(const Scene& scene) {
-  for (const fci::SimRobot* robot : scene.robots) {
-    if (robot->expectsCommand()) {
-      throw std::invalid_argument("A motion runs; the world is reset between motions only.");
-    }
-  }
-  scene.world.reset();
-  for (fci::SimRobot* robot : scene.robots) {
-    robot->restart();
-    robot->observe();  // the measurement of this tick is not valid any more
-  }
-  scene.host.beginAnew();
-}
-
 void addRobot(LineServer& lines, fci::SimRobot& robot, const fci::Host& host, const World& world) {
   lines.add("load MASS X Y Z", [&robot](const Words& words) {
     const franka_core::Payload load{toNumber(words.at(0)), toVector(words, 1), {}};
@@ -218,24 +204,39 @@ void addRobot(LineServer& lines, fci::SimRobot& robot, const fci::Host& host, co
 
 }  // namespace
 
-void addOperatorCommands(fci::LineServer& lines, const Scene& scene) {
-  addSafetyCommands(lines, scene);
-  addLink(lines, scene.robot);
-  addWorld(lines, scene.host, scene.world);
-  addTime(lines, scene.host, scene.world);
-  addRobot(lines, scene.robot, scene.host, scene.world);
-  addWalls(lines, scene.robot);
-  if (VacuumGripperUnit* vacuum = scene.robot.vacuum()) {
+void addOperatorCommands(fci::LineServer& lines, const OperatorContext& context) {
+  addSafetyCommands(lines, context);
+  addLink(lines, context.robot);
+  addWorld(lines, context.host, context.world);
+  addTime(lines, context.host, context.world);
+  addRobot(lines, context.robot, context.host, context.world);
+  addWalls(lines, context.robot);
+  if (VacuumGripperUnit* vacuum = context.robot.vacuum()) {
     addVacuum(lines, *vacuum);
   }
-  lines.add("reset", [scene](const Words&) {
-    reset(scene);
+  addHandCommands(lines, context.robot.whole());
+  lines.add("reset", [reset = context.reset](const Words&) {
+    reset();
     return "";
   });
-  lines.add("quit", [scene](const Words&) {
-    scene.stop = true;
+  lines.add("quit", [quit = context.quit](const Words&) {
+    quit();
     return "";
   });
+}
+
+void resetWorld(World& world, const std::vector<fci::SimRobot*>& robots, fci::Host& host) {
+  for (const fci::SimRobot* robot : robots) {
+    if (robot->expectsCommand()) {
+      throw std::invalid_argument("A motion runs; the world is reset between motions only.");
+    }
+  }
+  world.reset();
+  for (fci::SimRobot* robot : robots) {
+    robot->restart();
+    robot->observe();  // the measurement of this tick is not valid any more
+  }
+  host.beginAnew();
 }
 
 }  // namespace franka_sim

@@ -1,0 +1,35 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/fci/line_server.h>
+#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/physics/world.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace franka_sim {
+
+/// What the commands of one robot's control interface change; all of it outlives the server.
+struct OperatorContext {
+  fci::SimRobot& robot;
+  std::string arm_id;  ///< the robot's prefix in the world
+  fci::Host& host;
+  World& world;
+  /// Sets the world and all robots to their initial state.
+  /// @throws std::exception with a sentence, such as within a motion
+  std::function<void()> reset;
+  std::function<void()> quit;  ///< ends the program
+};
+
+/// Adds the commands of the control interface (docs/franka_sim.md): buttons and switches of the
+/// robot, its safety controller and hand, the quality of its link, and changes of the world.
+void addOperatorCommands(fci::LineServer& lines, const OperatorContext& context);
+
+/// The line `reset` of a world in which all robots are served.
+/// @throws std::invalid_argument with a sentence if a motion runs
+void resetWorld(World& world, const std::vector<fci::SimRobot*>& robots, fci::Host& host);
+
+}  // namespace franka_sim
