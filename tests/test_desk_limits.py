@@ -226,6 +226,17 @@ def test_requests_beyond_the_rate_wait(strict):
     assert time.monotonic() - begin > 0.3
 
 
+def test_requests_that_read_never_reach_the_robot(tmp_path):
+    with desk_with_robot(tmp_path) as (robot, desk):
+        headers = desk.log_in()
+        robot.reports, begin = 0, time.monotonic()
+        paths = ("/admin/api/control-token", "/api/arm/joints", "/desk/api/robot/configuration")
+        for k in range(600):
+            assert desk.send("GET", paths[k % len(paths)], **headers).status == 200
+        assert robot.lines == []
+        assert robot.reports <= 20 * (time.monotonic() - begin) + 2
+
+
 def test_wrong_passwords_make_an_address_wait(tmp_path):
     with desk_with_robot(tmp_path, limits=SMALL) as (_, desk):
         wrong = {"login": USER, "password": "eA=="}

@@ -152,3 +152,33 @@ def test_a_stop_of_an_fr3_locks_it_until_desks_sequence(place):
     make_ready(desk)
     motion_of(served)
     assert desk.send("POST", "/desk/api/joints/lock", **desk.log_in()).status == 200
+
+
+def test_desk_has_no_effect_on_lock_step(tmp_path):
+    hashes = []
+    for with_desk in (False, True):
+        with FrankaSim(SimRobot("panda", realism="ideal"), pace="lockstep") as sim:
+            if with_desk:
+                with DeskServer(sim.robot.address, PORT, tmp_path) as desk:
+                    move_briefly(sim.robot, desk.refresh)
+                    assert desk.desk.robot.number >= 10
+            else:
+                move_briefly(sim.robot, lambda: None)
+            hashes.append(sim.robot.remote.hash())
+    assert hashes[0] == hashes[1]
+
+
+def move_briefly(served, beside):
+    """Half a second of its time; beside it something else happens every 50 ms."""
+    ticks = 0
+
+    def velocities(state, period):
+        nonlocal ticks
+        ticks += 1
+        if ticks % 50 == 0:
+            beside()
+        speed = SPEED * min(1.0, ticks / 250, max(0.0, (500 - ticks) / 250))
+        command = pyfranka.JointVelocities([0.0] * 6 + [speed])
+        return pyfranka.motion_finished(command) if ticks >= 500 else command
+
+    served.connect().control_joint_velocities(velocities)

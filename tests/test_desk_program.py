@@ -182,7 +182,7 @@ def test_desk_serves_before_its_robot_is_there(environment):
 
 
 def test_the_page_names_every_option_with_its_default():
-    page = (Path(__file__).parent.parent / "docs" / "desk.md").read_text()
+    page = (Path(__file__).parent.parent / "docs/desk.md").read_text()
     rows = dict(re.findall(r"^\| `([\w-]+)` \| ([^|]*?) ?\|", page, re.MULTILINE))
     for field in dataclasses.fields(Options):
         default = field.default

@@ -36,6 +36,7 @@ OF_THE_SYSTEM = {
 }
 # Entry points of modules: pyproject.toml must declare them as soon as the sources have the module.
 OF_MODULES = {
+    "desk": ("console_scripts", "franka_desk", "pyfranka.desk.cli:main"),
     "pytest_plugin": ("pytest11", "pyfranka.pytest_plugin", "pyfranka.pytest_plugin"),
     "sweeps": ("console_scripts", "pyfranka-sweep", "pyfranka.sweeps:main"),
     "meshes": ("console_scripts", "pyfranka-meshes", "pyfranka.meshes:main"),
@@ -116,9 +117,13 @@ def test_the_wheel_is_named_after_the_release_and_this_python(wheel):
 
 def test_the_metadata_name_what_users_need(archive):
     told = Parser().parsestr(metadata(archive, "METADATA"))
-    assert told.get_all("Provides-Extra") == ["gym", "cluster"]
+    assert told.get_all("Provides-Extra") == ["desk", "gym", "cluster"]
     assert told.get_all("Requires-Dist")[0] == "numpy"
-    for extra, names in (("gym", {"gymnasium"}), ("cluster", {"dask", "distributed", "pyarrow"})):
+    for extra, names in (
+        ("desk", {"aiohttp", "cryptography"}),
+        ("gym", {"gymnasium"}),
+        ("cluster", {"dask", "distributed", "pyarrow"}),
+    ):
         required = [
             line for line in told.get_all("Requires-Dist") if f"extra == '{extra}'" in line.replace('"', "'")
         ]

@@ -67,13 +67,15 @@ REPORT = {
 
 class ScriptedRobot:
     """report: what it reports. answers: by line or its first word, an answer or a function of the words, in
-    place of its own. lines: what was sent, without `report`. It serves in a thread of its own."""
+    place of its own. lines: what was sent, without `report`, of which reports is the number. It
+    serves in a thread of its own."""
 
     def __init__(self, **changes):
         self.report = {**copy.deepcopy(REPORT), **changes}
         self.answers = {}
         self.lines = []
         self.raw_report = None  # instead of the report
+        self.reports = 0  # answered
         self.port = 0
         self._writers = set()
 
@@ -117,6 +119,7 @@ class ScriptedRobot:
 
     def _answer(self, line):
         if line == "report":
+            self.reports += 1
             return "ok " + json.dumps(self.report) if self.raw_report is None else self.raw_report
         self.lines.append(line)
         word, *words = line.split()

@@ -73,8 +73,10 @@ def _is_valid(path: Path) -> bool:
         )
     except (OSError, ValueError):
         return False
-    # Older versions of cryptography have no time zone here; it is UTC.
-    end = certificate.not_valid_after.replace(tzinfo=datetime.UTC)
+    if hasattr(certificate, "not_valid_after_utc"):  # from cryptography 42 on
+        end = certificate.not_valid_after_utc
+    else:
+        end = certificate.not_valid_after.replace(tzinfo=datetime.UTC)
     return end - datetime.datetime.now(datetime.UTC) > datetime.timedelta(days=LEFT)
 
 

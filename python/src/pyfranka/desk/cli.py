@@ -8,6 +8,7 @@ import argparse
 import asyncio
 import contextlib
 import errno
+import logging
 import os
 import secrets
 import signal
@@ -40,6 +41,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     if generated:
         print(f"franka_desk: user {settings.user}, password {settings.password}", flush=True)
+    logging.basicConfig(format="franka_desk: %(message)s", level=logging.WARNING)
+    # It writes a traceback for each request that is no HTTP; the client gets an answer anyway.
+    logging.getLogger("aiohttp.server").setLevel(logging.CRITICAL)
     with contextlib.suppress(OSError):
         os.nice(NICE)
     try:
@@ -97,8 +101,8 @@ def _settings(words: argparse.Namespace) -> tuple[Settings, bool]:
 
 def _place(word: str, port: int) -> tuple[str, int]:
     address, colon, number = word.rpartition(":")
-    if not colon:
-        return word, port
+    if not colon or (":" in address and not address.startswith("[")):  # an address of IPv6
+        return word.strip("[]"), port
     if not number.isdigit() or not int(number) < 65536 or not address:
         raise ValueError(f"'{word}' is no ADDRESS:PORT.")
     return address.strip("[]"), int(number)

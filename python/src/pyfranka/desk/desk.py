@@ -143,6 +143,8 @@ class Desk:
         before, now = self._last, self.robot.report
         self._last = now
         if now is not None:
+            if not self.settings.profile:
+                self._profile = profile_of(now)
             if now.buttons.circle and not (before and before.buttons.circle):
                 self.tokens.confirm_at_robot()
             for listener in self._on_report:

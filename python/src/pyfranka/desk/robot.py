@@ -44,7 +44,7 @@ class Robot:
     report: the newest report, or None before the first one and while the robot is gone; text: the same in
     JSON; problem: why there is none. number: of the newest report, counted from one. start() begins to ask
     for reports; requests of Desk's clients are answered from the newest one, so that they never reach the
-    robot.
+    robot (decision 55).
     """
 
     def __init__(self, address: str, port: int = PORT, period: float = PERIOD):

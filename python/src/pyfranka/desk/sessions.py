@@ -51,8 +51,9 @@ class Users:
     def by_digest(self, name: str, digest: str) -> User | None:
         """The user, if the digest is the password's; it may have line breaks. Takes the same time for every
         wrong one."""
-        user = self._users.get(name)
-        expected = user.digest if user else digest_of(name, secrets.token_hex())
+        user, expected = self._users.get(name), digest_of(name, secrets.token_hex())
+        if user:
+            expected = user.digest
         sent = WHITE_SPACE.sub("", digest)
         equal = hmac.compare_digest(expected.encode(), sent.encode(errors="surrogatepass"))
         return user if equal and user else None
