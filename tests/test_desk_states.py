@@ -263,6 +263,7 @@ def test_recoveries_are_confirmed(desk, robot, recoverable, expected, with_body)
 def test_joints_are_recovered_by_a_person_only(desk, robot, part, kind):
     change(desk, robot, **{part: [True] + [False] * 6})
     assert get(desk, RECOVERY) == {"recovery": {"type": kind}}
+    robot.answers["acknowledge"] = "error: JointRecoveryRequired: A person has to recover the joint."
     answer = desk.send("POST", CONFIRM, {"type": kind}, **basic())
     assert answer.status == 424 and answer.json()["details"] == ["JointRecoveryRequired"]
 

@@ -22,8 +22,8 @@ SAFE_INPUTS = {
     "safeInputErrorX4": "x4",
     "guidingEnablingDevice": "guidingEnableButton",
 }
-# Only a person at the robot ends these.
-AT_ROBOT = ("JointPositionError", "JointLimitViolation")
+# The robot demands a person with the enabling device (X4) for these.
+LIMITS, POSITIONS = "jointLimitViolation", "jointPositionErrorDemand"
 TYPES = (
     "SafetyError",
     "GenericJointError",
@@ -31,7 +31,8 @@ TYPES = (
     "SelfTestsElapsed",
     "LifetimeStatusExceeded",
     "SafetyRuleViolation",
-    *AT_ROBOT,
+    "JointPositionError",
+    "JointLimitViolation",
 )
 
 
@@ -59,11 +60,7 @@ async def confirm(desk: Desk, value: Json) -> None:
     kind = value.get("type", present.get("type", ""))
     if kind != "" and kind not in TYPES:
         raise bad_request(f"The field type is one of {', '.join(TYPES)}.")
-    if kind in AT_ROBOT and kind == present.get("type"):
-        raise DeskError(
-            424, "ActionUnavailable", "A joint has to be recovered at the robot.", ["JointRecoveryRequired"]
-        )
-    names = [name for name in _names(kind) if name in desk.report.recoverable]
+    names = [name for name in _names(kind) if name in _present(desk.report)]
     if not names:
         raise DeskError(
             424, "ActionUnavailable", "Nothing of this type has to be confirmed.", ["NoAckRequired"]
@@ -72,10 +69,17 @@ async def confirm(desk: Desk, value: Json) -> None:
         await acknowledge(desk, name)
 
 
+def _present(report: Report) -> list[str]:
+    demanded = {LIMITS: report.joint_limit_violation, POSITIONS: report.joint_position_error}
+    return [*report.recoverable, *(name for name, joints in demanded.items() if any(joints))]
+
+
 def _names(kind: str) -> typing.Sequence[str]:
     return {
         "SafetyError": SAFETY_ERRORS,
         "GenericJointError": ("genericJointError",),
         "SafeInputUnacknowledged": tuple(SAFE_INPUTS),
         "SelfTestsElapsed": ("td2Timeout",),
+        "JointPositionError": ("jointPositionError", POSITIONS),
+        "JointLimitViolation": (LIMITS,),
     }.get(kind, ())
