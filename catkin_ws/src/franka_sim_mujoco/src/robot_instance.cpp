@@ -50,14 +50,17 @@ class Stopwatch {
 }  // namespace
 
 RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
-                             HardwareLoader& loader, BetweenTicks between_ticks)
-    : name_(plan.description.name), control_ticks_(plan.control_ticks) {
+                             HardwareLoader& loader, BetweenTicks between_ticks,
+                             const OperatorAccess& access)
+    : name_(plan.description.name),
+      in_scene_{plan.arm_id, plan.robot_type},
+      control_ticks_(plan.control_ticks) {
   for (const auto& joint : plan.urdf.joints_) {
     joints_.insert(joint.first);
   }
   world.addRobot(plan.description);
   try {
-    start(plan, world, loader, std::move(between_ticks));
+    start(plan, world, loader, std::move(between_ticks), access);
   } catch (...) {
     transforms_.reset();
     joint_states_.reset();
@@ -71,12 +74,12 @@ RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
 RobotInstance::~RobotInstance() = default;
 
 void RobotInstance::start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
-                          BetweenTicks between_ticks) {
+                          BetweenTicks between_ticks, const OperatorAccess& access) {
   const RobotHandle robot{
       &world,         name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks),
       plan.robot_type};
   if (!plan.fci_ip.empty()) {
-    serve(plan, robot);
+    serve(plan, robot, access);
   } else if (!plan.hardware_type.empty()) {
     startHardware(plan, robot, loader);
   } else {
@@ -85,9 +88,10 @@ void RobotInstance::start(const RobotPlan& plan, franka_sim::World& world, Hardw
   }
 }
 
-void RobotInstance::serve(const RobotPlan& plan, const RobotHandle& robot) {
+void RobotInstance::serve(const RobotPlan& plan, const RobotHandle& robot,
+                          const OperatorAccess& access) {
   try {
-    served_ = std::make_unique<ServedRobot>(plan, robot);
+    served_ = std::make_unique<ServedRobot>(plan, robot, access);
   } catch (const std::exception& error) {
     throw std::runtime_error("'" + name_ + "' cannot be served at " + plan.fci_ip + ": " +
                              error.what());

@@ -23,6 +23,8 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr char kLog[] = "franka_sim_mujoco";
+constexpr double kFirstFciPort = 1337;  // robot, gripper, vacuum gripper
+constexpr double kLastFciPort = 1339;
 
 /// The URDF's <gazebo><plugin> element, as far as it concerns the hardware.
 struct PluginElement {
@@ -134,6 +136,24 @@ std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf
   return known;
 }
 
+void readServing(const ros::NodeHandle& node, RobotPlan* plan) {
+  plan->fci_ip = readString(node, "fci_ip").value_or("");
+  const double port = readNumber(node, "control_port").value_or(plan->control_port);
+  if (!(port >= 0.0 && port <= 65535.0) || port != std::floor(port) ||
+      (port >= kFirstFciPort && port <= kLastFciPort)) {
+    throw std::runtime_error("The parameter " + node.resolveName("control_port") +
+                             " is no port for the control interface: give 0 for none, or 1 to "
+                             "65535 without the robot's own ports 1337 to 1339.");
+  }
+  plan->control_port = static_cast<std::uint16_t>(port);
+  const std::string start = readString(node, "fci_start").value_or("ready");
+  if (start != "ready" && start != "locked") {
+    throw std::runtime_error("The parameter " + node.resolveName("fci_start") + " is '" + start +
+                             "'; it must be ready or locked.");
+  }
+  plan->locked = start == "locked";
+}
+
 }  // namespace
 
 RobotPlan planRobot(const SpawnOrder& order) {
@@ -155,7 +175,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
     throw std::runtime_error("'" + plan.robot_namespace + "' is no valid namespace: " + why);
   }
   const ros::NodeHandle node(plan.robot_namespace);
-  plan.fci_ip = readString(node, "fci_ip").value_or("");
+  readServing(node, &plan);
   plan.hardware_type = plan.fci_ip.empty() ? plugin.hardware_type : "";
   if (!plan.hardware_type.empty() &&
       !transmission_interface::TransmissionParser::parse(order.urdf, plan.transmissions)) {

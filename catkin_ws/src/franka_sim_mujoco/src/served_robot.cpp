@@ -4,6 +4,7 @@
 #include <franka_msgs/SetLoad.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
+#include <franka_sim/simulation/operator_commands.h>
 #include <franka_sim_mujoco/GetServedRobot.h>
 #include <franka_sim_mujoco/SetPacketDelay.h>
 #include <franka_sim_mujoco/SetPacketLoss.h>
@@ -56,7 +57,8 @@ void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) 
 
 }  // namespace
 
-ServedRobot::ServedRobot(const RobotPlan& plan, const RobotHandle& robot)
+ServedRobot::ServedRobot(const RobotPlan& plan, const RobotHandle& robot,
+                         const OperatorAccess& access)
     : between_ticks_(robot.between_ticks),
       robot_(makeRobot(plan, robot)),
       services_(ros::NodeHandle(ros::NodeHandle(plan.robot_namespace), "franka_sim")) {
@@ -65,9 +67,39 @@ ServedRobot::ServedRobot(const RobotPlan& plan, const RobotHandle& robot)
   };
   robot_.onCollision(warn);
   robot_.onRefusal(warn);
+  if (plan.locked) {
+    robot_.whole().start(franka_sim::SafetyRules::kDesk);
+    robot_.serve(true);  // closes its ports before anyone can find them
+  }
+  if (plan.control_port != 0) {
+    openControlInterface(plan, *robot.world, access);
+  }
   offerSwitches();
   offerLink();
   offerStates();
+}
+
+void ServedRobot::openControlInterface(const RobotPlan& plan, franka_sim::World& world,
+                                       const OperatorAccess& access) {
+  lines_ = std::make_unique<franka_sim::fci::LineServer>(plan.fci_ip, plan.control_port);
+  franka_sim::addOperatorCommands(
+      *lines_, {robot_, plan.arm_id, access.host, world, access.reset, access.quit});
+  franka_sim::addSceneCommands(*lines_, world, access.scene);
+}
+
+void ServedRobot::addTo(franka_sim::fci::Host& host) {
+  host.add(robot_);
+  if (lines_) {
+    host.add(*lines_);
+  }
+}
+
+void ServedRobot::removeFrom(franka_sim::fci::Host& host) {
+  host.remove(robot_);
+  if (lines_) {
+    host.remove(*lines_);
+    lines_.reset();
+  }
 }
 
 template <typename Service>

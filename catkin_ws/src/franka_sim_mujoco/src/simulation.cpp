@@ -30,6 +30,7 @@ Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
       world_(options.world_file, resolveUri),
       clock_(node),
       host_([this] { advance(); }, paceOf(options.real_time_factor)),
+      scene_(world_, [this] { return sceneRobots(); }),
       real_time_factor_(options.real_time_factor),
       clock_rate_(options.clock_rate),
       paused_(options.paused) {
@@ -56,6 +57,11 @@ void Simulation::stop() {
   stop_ = true;
   if (thread_.joinable()) {
     thread_.join();
+  }
+  for (const auto& robot : robots_) {
+    if (robot->served() != nullptr) {
+      robot->served()->removeFrom(host_);
+    }
   }
   requests_.close();
 }
@@ -248,6 +254,28 @@ RobotInstance* Simulation::find(const std::string& name) {
   return nullptr;
 }
 
+OperatorAccess Simulation::operatorAccess() {
+  const auto reset_within_a_tick = [this] {
+    reset();
+    for (const auto& robot : robots_) {
+      if (robot->served() != nullptr) {
+        robot->served()->robot().observe();  // the tick's measurement is not valid any more
+      }
+    }
+  };
+  return {host_, scene_, reset_within_a_tick, [] { ros::requestShutdown(); }};
+}
+
+std::vector<franka_sim::SceneRobot> Simulation::sceneRobots() const {
+  std::vector<franka_sim::SceneRobot> robots;
+  for (const auto& robot : robots_) {
+    if (!robot->inScene().type.empty()) {
+      robots.push_back(robot->inScene());
+    }
+  }
+  return robots;
+}
+
 void Simulation::spawn(const SpawnOrder& order) {
   const RobotPlan plan = planRobot(order);
   requests_.run(
@@ -259,9 +287,10 @@ void Simulation::spawn(const SpawnOrder& order) {
         const BetweenTicks between_ticks = [this](const std::function<void()>& work) {
           requests_.run(work);
         };
-        auto robot = std::make_unique<RobotInstance>(plan, world_, loader_, between_ticks);
+        auto robot =
+            std::make_unique<RobotInstance>(plan, world_, loader_, between_ticks, operatorAccess());
         if (robot->served() != nullptr) {
-          host_.add(*robot->served());
+          robot->served()->addTo(host_);
         }
         robots_.push_back(std::move(robot));
         const std::string overlaps = world_.describeOverlaps(order.name);
@@ -285,7 +314,7 @@ void Simulation::remove(const std::string& name) {
     }
     removed = std::move(*robot);
     if (removed->served() != nullptr) {
-      host_.remove(*removed->served());
+      removed->served()->removeFrom(host_);
     }
     robots_.erase(robot);
     world_.removeRobot(name);

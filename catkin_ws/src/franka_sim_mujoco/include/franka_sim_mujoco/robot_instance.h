@@ -42,7 +42,11 @@ struct RobotPlan {
   franka_sim::RobotPhysics arm_physics;
   std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a robot without hardware
   std::string fci_ip;         ///< address if it is served by a ServedRobot instead; else empty
-  int control_ticks{1};       ///< controlPeriod in ticks of 1 ms
+  std::uint16_t control_port{1340};  ///< of its control interface if it is served; 0: none
+  /// Whether it starts with Desk's rules, brakes closed and FCI off: parameter `fci_start` is
+  /// `locked`.
+  bool locked{false};
+  int control_ticks{1};  ///< controlPeriod in ticks of 1 ms
   /// Names of the controllers that its launch file starts: parameter `awaited_controllers` in its
   /// namespace, separated by blanks.
   std::vector<std::string> awaited_controllers;
@@ -73,7 +77,7 @@ class RobotInstance {
   /// Adds the robot to the world and starts its hardware; the world is unchanged if it throws.
   /// @throws std::runtime_error with a sentence
   RobotInstance(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
-                BetweenTicks between_ticks);
+                BetweenTicks between_ticks, const OperatorAccess& access);
   ~RobotInstance();
   RobotInstance(const RobotInstance&) = delete;
   RobotInstance& operator=(const RobotInstance&) = delete;
@@ -82,8 +86,10 @@ class RobotInstance {
   /// Whether one of these joints belongs to the robot.
   bool hasAnyOf(const std::vector<std::string>& joints) const;
 
-  /// The robot for the host if it is served; else null.
-  franka_sim::fci::SimRobot* served() noexcept { return served_ ? &served_->robot() : nullptr; }
+  /// Null unless it is served.
+  ServedRobot* served() noexcept { return served_.get(); }
+  /// What it is for programs that draw the world; its type is empty without a Franka arm.
+  const franka_sim::SceneRobot& inScene() const noexcept { return in_scene_; }
 
   /// Whether controllers that its launch file starts do not run yet: for kLongestStart ticks at
   /// most, then with a warning.
@@ -104,13 +110,14 @@ class RobotInstance {
 
  private:
   void start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
-             BetweenTicks between_ticks);
-  void serve(const RobotPlan& plan, const RobotHandle& robot);
+             BetweenTicks between_ticks, const OperatorAccess& access);
+  void serve(const RobotPlan& plan, const RobotHandle& robot, const OperatorAccess& access);
   void startHardware(const RobotPlan& plan, const RobotHandle& robot, HardwareLoader& loader);
   void reviewStart();
   void updateControllers(const ros::Time& time, const ros::Duration& period);
 
   std::string name_;
+  franka_sim::SceneRobot in_scene_;
   std::set<std::string> joints_;
   int control_ticks_;
   int ticks_to_control_{0};

@@ -2,30 +2,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/fci/host.h>
+#include <franka_sim/fci/line_server.h>
 #include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/simulation/scene_commands.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 #include <franka_sim_mujoco/service_handlers.h>
 
 #include <functional>
+#include <memory>
 
 namespace franka_sim_mujoco {
 
 struct RobotPlan;
 
+/// What the lines of a served robot's control interface need of the simulation, which outlives it.
+struct OperatorAccess {
+  franka_sim::fci::Host& host;
+  franka_sim::SceneText& scene;
+  std::function<void()> reset;  ///< @throws std::exception with a sentence
+  std::function<void()> quit;
+};
+
 /// A robot of the ROS world that is served over the FCI at its own address, as in franka_sim,
-/// instead of being commanded by controllers in the simulation's process. Services under
-/// `franka_sim` in its namespace replace the operator (docs/franka_sim.md): the commands of the
-/// program's control interface for one robot.
+/// instead of being commanded by controllers in the simulation's process. Its control interface and
+/// services under `franka_sim` in its namespace replace the operator (docs/franka_sim.md).
 ///
-/// Created by the stepping thread between ticks, which also runs `robot`; destroyed by any thread
-/// after the host has removed it.
+/// Created by the stepping thread between ticks, which also runs `robot`; removed from the host by
+/// that thread, then destroyed by any thread.
 class ServedRobot {
  public:
   /// @param plan of a robot that is in the world
   /// @throws std::runtime_error, std::invalid_argument with a message for the user
-  ServedRobot(const RobotPlan& plan, const RobotHandle& robot);
+  ServedRobot(const RobotPlan& plan, const RobotHandle& robot, const OperatorAccess& access);
 
   franka_sim::fci::SimRobot& robot() noexcept { return robot_; }
+  /// Lets the host run the robot and its control interface.
+  void addTo(franka_sim::fci::Host& host);
+  /// Ends both; lines that wait get no answer.
+  void removeFrom(franka_sim::fci::Host& host);
   /// Whether a motion of a client runs.
   bool isCommanded() const { return robot_.expectsCommand(); }
 
@@ -35,12 +50,15 @@ class ServedRobot {
              std::function<void(typename Service::Request&, typename Service::Response&)> handler);
   template <typename Switch>
   void offerSwitch(const std::string& name);
+  void openControlInterface(const RobotPlan& plan, franka_sim::World& world,
+                            const OperatorAccess& access);
   void offerSwitches();
   void offerLink();
   void offerStates();
 
   BetweenTicks between_ticks_;
   franka_sim::fci::SimRobot robot_;
+  std::unique_ptr<franka_sim::fci::LineServer> lines_;  ///< null without a control interface
   ServiceHandlers services_;  ///< last: it ends before the objects it uses
 };
 

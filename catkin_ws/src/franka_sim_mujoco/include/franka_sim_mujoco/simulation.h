@@ -4,6 +4,7 @@
 
 #include <franka_sim/fci/host.h>
 #include <franka_sim/physics/world.h>
+#include <franka_sim/simulation/scene_commands.h>
 #include <franka_sim_mujoco/clock_publisher.h>
 #include <franka_sim_mujoco/pace.h>
 #include <franka_sim_mujoco/request_queue.h>
@@ -125,6 +126,8 @@ class Simulation {
   /// @throws std::runtime_error with a sentence while a client moves a robot
   void requireRest() const;
   RobotInstance* find(const std::string& name);
+  OperatorAccess operatorAccess();
+  std::vector<franka_sim::SceneRobot> sceneRobots() const;
 
   RequestQueue requests_;
   HardwareLoader loader_;
@@ -133,6 +136,7 @@ class Simulation {
   std::map<std::string, franka_sim::Snapshot> snapshots_;
   ClockPublisher clock_;
   franka_sim::fci::Host host_;
+  franka_sim::SceneText scene_;
   ShortSleeps short_sleeps_;
   TickTimes times_;
   bool timing_{false};
