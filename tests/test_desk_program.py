@@ -19,6 +19,7 @@ from desk_robot import ScriptedRobot
 from desk_server import basic, unverified
 from pyfranka.desk import Options
 from pyfranka.desk.profiles import PROFILES
+from pyfranka.franka_sim import FrankaSim
 
 COMMAND = [sys.executable, "-m", "pyfranka.desk"]
 WORD = "the password"
@@ -131,12 +132,23 @@ def test_a_profile_and_options_are_taken(environment):
             assert json.loads(get(place, "/admin/api/system-version", {})[1]).startswith("5.1.0\n")
 
 
+def wait_for_control(place, password):
+    """@returns a connection that waits for an answer."""
+    connection = http.client.HTTPSConnection(*place, timeout=DEADLINE, context=unverified())
+    request = "POST", "/api/system/control-token:take", b'{"owner": "me"}', basic("franka", password)
+    connection.request(*request)
+    assert connection.getresponse().read()
+    connection.request(*request)
+    return connection
+
+
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT, "end of input"])
 def test_it_ends_when_told_to(environment, how):
     with ScriptedRobot() as robot:
         words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--child"]
         with program(environment, *words) as process:
-            places(process, 1)
+            (line,), (place,) = places(process, 1)
+            waiting = wait_for_control(place, line.rpartition(" ")[2])
             begin = time.monotonic()
             if how == "end of input":
                 process.stdin.close()
@@ -145,6 +157,7 @@ def test_it_ends_when_told_to(environment, how):
                 process.send_signal(how)
             assert process.wait(DEADLINE) == 0
             assert time.monotonic() - begin < 10.0
+            waiting.close()
 
 
 @pytest.mark.parametrize(
@@ -192,3 +205,21 @@ def test_the_page_names_every_option_with_its_default():
         assert rows[field.name.replace("_", "-")] == shown
     for profile in PROFILES.values():
         assert f"`{profile.name}`" in page and profile.version in page
+
+
+def test_franka_sim_starts_desk_with_its_password_and_ends_it(environment, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", environment["XDG_CACHE_HOME"])
+    monkeypatch.setenv("FRANKA_DESK_PASSWORD", "not this one")
+    port = 20000 + (os.getpid() + 7) % 20000
+    words = ["--desk", f"127.0.0.1:{port}", "--desk-user", "anna", "--desk-password", WORD]
+    with FrankaSim("fr3", arguments=words) as sim:
+        deadline = time.monotonic() + DEADLINE
+        while "https://" not in sim.log():
+            assert time.monotonic() < deadline, sim.log()
+            time.sleep(0.05)
+        assert WORD not in sim.log()
+        place = ("127.0.0.1", port)
+        assert get(place, "/api/configuration", basic("anna", WORD))[0] == 200
+        assert json.loads(get(place, "/api/fci", {})[1]) == {"status": "Inactive"}
+    with pytest.raises(OSError):
+        get(place, "/api/fci", {})

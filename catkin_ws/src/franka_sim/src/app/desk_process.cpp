@@ -51,12 +51,16 @@ std::vector<std::string> commandLine(const Options& options) {
 
 // The password is not on the command line, which other users can read.
 std::vector<std::string> environmentOf(const Options& options) {
+  const std::string name = "FRANKA_DESK_PASSWORD=";
   std::vector<std::string> variables;
   for (char** variable = environ; *variable != nullptr; variable++) {
-    variables.emplace_back(*variable);
+    // Of two with this name the program would read the first one.
+    if (options.desk.password.empty() || std::string(*variable).rfind(name, 0) != 0) {
+      variables.emplace_back(*variable);
+    }
   }
   if (!options.desk.password.empty()) {
-    variables.push_back("FRANKA_DESK_PASSWORD=" + options.desk.password);
+    variables.push_back(name + options.desk.password);
   }
   return variables;
 }
