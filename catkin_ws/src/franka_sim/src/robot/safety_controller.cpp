@@ -314,6 +314,10 @@ void SafetyController::advanceSelfTest() noexcept {
   }
 }
 
+void SafetyController::setSelfTestDue(double due) noexcept {
+  state_.self_test_due = std::max(due, kTick);
+}
+
 void SafetyController::advanceClock() noexcept {
   const double before = state_.self_test_due;
   state_.self_test_due = std::max(0.0, before - kTick);

@@ -289,6 +289,13 @@ TEST_P(SafetyTest, PowerOffRefusesEverything) {
   makeReady();
 }
 
+TEST_P(SafetyTest, SelfTestDueNowIsOverdueInTheNextTick) {
+  makeReady();
+  safety.setSelfTestDue(0.0);
+  tick(1);
+  EXPECT_EQ(Refusal::kRecoverableErrorActive, safety.startSelfTest());
+}
+
 TEST_P(SafetyTest, OpenRulesRefuseNothing) {
   safety.start(SafetyRules::kOpen);
   tick(5);

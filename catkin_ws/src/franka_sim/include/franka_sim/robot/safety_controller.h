@@ -54,8 +54,8 @@ class SafetyController {
   void setArrowsGuideDesk(bool desk) noexcept { state_.arrows_guide_desk = desk; }
   /// Closes the brakes and tests; ends when `state().self_test` becomes false.
   Refusal startSelfTest() noexcept;
-  /// @param due [s] until the self-test is overdue
-  void setSelfTestDue(double due) noexcept { state_.self_test_due = due; }
+  /// @param due [s] until the self-test is overdue; 0: from the next tick on
+  void setSelfTestDue(double due) noexcept;
   Refusal acknowledge(RecoverableError error) noexcept;
   /// Only while the enabling device is pressed.
   Refusal acknowledge(DemandedRecovery recovery) noexcept;
