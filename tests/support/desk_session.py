@@ -1,0 +1,197 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A simulated robot with its Desk, for tests with clients of both."""
+
+import json
+import os
+import shutil
+import ssl
+import subprocess
+import sys
+import threading
+import time
+import urllib.error
+import urllib.request
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from fci_session import simulated
+from lines import Lines
+
+USER, PASSWORD = "operator", "a word that nobody guesses"
+PORT = 443
+TO_START = 60.0  # [s] on a busy machine
+LIMIT = 30.0  # [s] to wait for a state of the robot
+PAUSE = 0.02  # [s] between two looks
+
+
+class Desk:
+    """One robot's Desk: `robot` is the ServedRobot, `host` what clients are told."""
+
+    def __init__(self, robot, place: str, folder: Path):
+        self.robot, self.place = robot, place
+        address, _, port = place.rpartition(":")
+        self.address, self.port = address, int(port)
+        self.host = address if self.port == PORT else place
+        self.user, self.password = USER, PASSWORD
+        self.certificate = folder / "desk.pem"
+        self.certificate.write_text(ssl.get_server_certificate((address, self.port)))
+
+    def report(self) -> dict:
+        """What the robot says of itself now."""
+        return json.loads(self.robot.remote.send("report"))
+
+    def wait(self, condition, limit: float = LIMIT) -> dict:
+        """The first report that fulfils the condition, after Desk has seen it too."""
+        deadline = time.monotonic() + limit
+        while not condition(report := self.report()):
+            assert time.monotonic() < deadline, f"Not within {limit:g} s; the last report: {report}"
+            time.sleep(PAUSE)
+        self._wait_for_desk(deadline)
+        return report
+
+    def get(self, path: str):
+        """A page of Desk that needs no login, as JSON."""
+        context = ssl._create_unverified_context()  # noqa: S323 - the certificate has its own test
+        place = f"https://{self.address}:{self.port}{path}"
+        with urllib.request.urlopen(place, timeout=LIMIT, context=context) as answer:
+            return json.loads(answer.read())
+
+    def wait_for_page(self, limit: float = LIMIT) -> None:
+        """Waits until Desk answers again."""
+        deadline = time.monotonic() + limit
+        while True:
+            with suppress(urllib.error.URLError, ConnectionError):
+                if self.get("/admin/api/startup-phase") == {"tag": "Started"}:
+                    return
+            assert time.monotonic() < deadline, f"Desk has not answered within {limit:g} s."
+            time.sleep(PAUSE)
+
+    def _wait_for_desk(self, deadline: float) -> None:
+        if not self.robot.kind == "fr3":
+            return  # no page without a login says how old Desk's report is
+        with suppress(urllib.error.URLError, ConnectionError):  # the robot is off
+            first = self.get("/admin/api/safety/status")["sequenceNumber"]
+            while self.get("/admin/api/safety/status")["sequenceNumber"] < first + 2:
+                assert time.monotonic() < deadline, "Desk has no new report."
+                time.sleep(PAUSE)
+
+    def send(self, line: str) -> str:
+        """Sends a line to the robot's control interface."""
+        return self.robot.remote.send(line)
+
+    @contextmanager
+    def pressing(self, button: str):
+        """A person who presses a button of the Pilot again and again until the end of the block."""
+        ended = threading.Event()
+
+        def press():
+            while not ended.is_set():
+                for state in ("on", "off"):
+                    self.send(f"button {button} {state}")
+                    ended.wait(0.3)
+
+        person = threading.Thread(target=press)
+        person.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            person.join()
+
+    @contextmanager
+    def held(self, name: str, press: str = "on", release: str = "off"):
+        """An input that is pressed until the end of the block."""
+        self.send(f"{name} {press}")
+        try:
+            yield
+        finally:
+            self.send(f"{name} {release}")
+
+
+@contextmanager
+def program(name: str, words: list[str], environment: dict[str, str]):
+    """A program with its lines; its output is shown if the block fails."""
+    process = subprocess.Popen(
+        [shutil.which(name) or sys.exit(f"{name} is not on PATH"), *words],
+        env={**os.environ, **environment},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    written: list[str] = []
+    lines = Lines(process.stdout)
+
+    def next_line(timeout: float) -> str | None:
+        line = lines.next(timeout)
+        if line is not None:
+            written.append(line)
+        return line
+
+    try:
+        yield next_line
+    except BaseException:
+        while next_line(0.1) is not None:
+            pass
+        print(f"{name} has written:", *written, sep="\n")
+        raise
+    finally:
+        process.terminate()
+        try:
+            process.wait(10.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+@contextmanager
+def desk_of(robot, folder: Path, profile: str = "", options=()):
+    """The Desk of a robot that runs, at its address."""
+    words = [f"--robot={robot.address}", f"--listen={robot.address}:{PORT}", f"--user={USER}"]
+    words += [f"--profile={profile}"] if profile else []
+    words += [f"--option={option}" for option in options]
+    environment = {"FRANKA_DESK_PASSWORD": PASSWORD, "XDG_CACHE_HOME": str(folder)}
+    with program("franka_desk", words, environment) as next_line:
+        yield Desk(robot, wait_for_place(next_line), folder)
+
+
+def wait_for_place(next_line) -> str:
+    """ADDRESS:PORT of the first Desk that the program reports."""
+    deadline = time.monotonic() + TO_START
+    while (line := next_line(max(0.0, deadline - time.monotonic()))) is not None:
+        if "https://" in line:
+            return line.rpartition("https://")[2].strip("/")
+    raise AssertionError("franka_desk has not said where it listens.")
+
+
+@contextmanager
+def robot_with_desk(folder: Path, profile: str, *, pace: str = "patient", options=(), brakes: float = 0.7):
+    """A locked robot of the profile's type, and its Desk. brakes: time that they need [s]."""
+    kind = "fr3" if profile.startswith("fr3") else "panda"
+    with simulated(kind, pace, "--start", "locked") as robot:
+        robot.remote.send(f"timing brakes {brakes}")
+        with desk_of(robot, folder, profile, options) as desk:
+            yield desk
+
+
+def move(robot, seconds: float = 0.3, amplitude: float = 0.01) -> None:
+    """A motion of this project's own client there and back. Raises pyfranka's exceptions."""
+    import pyfranka
+
+    connection = robot.connect()
+    with suppress(pyfranka.CommandException):  # nothing to recover from
+        connection.automatic_error_recovery()
+    passed, first = 0.0, None
+
+    def callback(state, period):
+        nonlocal passed, first
+        passed += period
+        first = first or list(state.q_d)
+        x = min(passed / seconds, 1.0)
+        q = list(first)
+        q[3] += amplitude * (16.0 * x * x * (1.0 - x) * (1.0 - x)) ** 2
+        command = pyfranka.JointPositions(q)
+        command.motion_finished = passed >= seconds
+        return command
+
+    connection.control_joint_positions(callback)
