@@ -1,0 +1,48 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Executes Python that a test sends, with the packages of a client's own environment.
+
+One JSON line in, one out: {"run": statements} or {"value": expression}. The answer has the value, or the
+error's type and text, and the seconds that it took. What a client prints goes to standard error.
+`wait_for` is there for all of them.
+"""
+
+import json
+import sys
+import time
+
+
+def execute(task: dict, names: dict) -> object:
+    if "run" in task:
+        exec(task["run"], names)  # noqa: S102 - the test's own statements
+        return None
+    return eval(task["value"], names)  # noqa: S307 - the test's own expression
+
+
+def answer(task: dict, names: dict) -> dict:
+    begin = time.monotonic()
+    try:
+        result = {"value": execute(task, names)}
+    except Exception as error:  # noqa: BLE001 - its type and text are tested
+        result = {"error": type(error).__name__, "text": str(error)}
+    return {**result, "seconds": time.monotonic() - begin}
+
+
+def wait_for(condition, limit: float = 10.0):
+    """The first true value of condition()."""
+    deadline = time.monotonic() + limit
+    while not (value := condition()):
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"Not within {limit:g} s.")
+        time.sleep(0.01)
+    return value
+
+
+def main() -> None:
+    out, sys.stdout = sys.stdout, sys.stderr
+    names: dict = {"__name__": "client", "wait_for": wait_for}
+    for line in sys.stdin:
+        print(json.dumps(answer(json.loads(line), names), default=str), file=out, flush=True)
+
+
+main()
