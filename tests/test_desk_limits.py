@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What Desk does with requests that are malformed, too large, too many, or made by another site's page."""
 
+import asyncio
 import http.client
 import json
 import os
@@ -237,6 +238,28 @@ def test_requests_that_read_never_reach_the_robot(tmp_path):
         assert robot.reports <= 20 * (time.monotonic() - begin) + 2
 
 
+def test_equal_lines_at_the_same_time_are_sent_once_but_the_last_word_counts(tmp_path):
+    words = ["unlock", "lock", "unlock"]
+
+    async def send(robot, send):
+        tasks = []
+        for count, word in enumerate(words, start=1):
+            tasks += [asyncio.ensure_future(send(f"joints {word}")) for _ in range(4)]
+            while len(robot.lines) < count:
+                await asyncio.sleep(0.005)
+        await asyncio.gather(*tasks)
+
+    with desk_with_robot(tmp_path) as (robot, desk):
+        robot.answers["joints"] = slowly
+        desk.call(send(robot, desk.desk.robot.send))
+        assert robot.lines == [f"joints {word}" for word in words]
+
+
+async def slowly(*words):
+    await asyncio.sleep(1.0)
+    return "ok"
+
+
 def test_wrong_passwords_make_an_address_wait(tmp_path):
     with desk_with_robot(tmp_path, limits=SMALL) as (_, desk):
         wrong = {"login": USER, "password": "eA=="}
@@ -386,6 +409,7 @@ def test_clients_can_check_the_certificate_for_the_name_of_robots(desk, tmp_path
     trusted = tmp_path / "desk.pem"
     trusted.write_text(ssl.get_server_certificate(("127.0.0.1", desk.port)))
     context = ssl.create_default_context(cafile=str(trusted))
+    context.verify_flags |= ssl.VERIFY_X509_STRICT  # as from Python 3.13 on
     for name in ("robot.franka.de", "127.0.0.1"):
         with socket.create_connection(("127.0.0.1", desk.port)) as plain:
             with context.wrap_socket(plain, server_hostname=name) as secure:

@@ -50,6 +50,7 @@ def make_pem(address: str) -> bytes:
     except ValueError:
         names.append(x509.DNSName(address))
     usage = x509.ExtendedKeyUsage([ExtendedKeyUsageOID.SERVER_AUTH])
+    identifier = x509.SubjectKeyIdentifier.from_public_key(key.public_key())
     certificate = (
         x509.CertificateBuilder(name, name, key.public_key(), x509.random_serial_number())
         .not_valid_before(now - datetime.timedelta(days=1))
@@ -57,13 +58,26 @@ def make_pem(address: str) -> bytes:
         .add_extension(x509.SubjectAlternativeName(names), critical=False)
         # Clients that check it take it for its own authority.
         .add_extension(x509.BasicConstraints(ca=True, path_length=0), critical=True)
+        .add_extension(_key_usage(), critical=True)
         .add_extension(usage, critical=False)
+        # Strict clients (Python 3.13) want both.
+        .add_extension(identifier, critical=False)
+        .add_extension(
+            x509.AuthorityKeyIdentifier.from_issuer_subject_key_identifier(identifier), critical=False
+        )
         .sign(key, hashes.SHA256())
     )
     private = key.private_bytes(
         serialization.Encoding.PEM, serialization.PrivateFormat.PKCS8, serialization.NoEncryption()
     )
     return private + certificate.public_bytes(serialization.Encoding.PEM)
+
+
+def _key_usage() -> x509.KeyUsage:
+    names = ("digital_signature", "key_cert_sign")
+    others = ("content_commitment", "key_encipherment", "data_encipherment", "key_agreement")
+    others += ("crl_sign", "encipher_only", "decipher_only")
+    return x509.KeyUsage(**dict.fromkeys(names, True), **dict.fromkeys(others, False))
 
 
 def _is_valid(path: Path) -> bool:

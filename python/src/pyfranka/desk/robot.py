@@ -56,7 +56,8 @@ class Robot:
         self._asked = self._published = 0
         self._listeners: list[Callable[[], None]] = []
         self._lines, self._urgent = asyncio.Semaphore(LINES), asyncio.Semaphore(URGENT_LINES)
-        self._running: dict[str, asyncio.Task[str]] = {}
+        self._running: set[asyncio.Task[str]] = set()
+        self._last: tuple[str, asyncio.Task[str]] | None = None
         self._poller: asyncio.Task[None] | None = None
         self._first = asyncio.Event()
 
@@ -82,7 +83,7 @@ class Robot:
 
     async def stop(self) -> None:
         """Ends what runs."""
-        tasks = [*self._running.values(), *([self._poller] if self._poller else [])]
+        tasks = [*self._running, *([self._poller] if self._poller else [])]
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
@@ -90,17 +91,17 @@ class Robot:
     async def send(self, line: str, urgent: bool = False) -> str:
         """Sends a line; returns what follows `ok`. The report is then one of after its effect.
 
-        Equal lines at the same time are sent once. urgent: does not wait for other lines. A caller that is
-        cancelled leaves the line to its end. Raises Refused or RobotGone.
+        A line that equals the last one, which is not answered yet, is not sent again. urgent: does not wait
+        for other lines. A caller that is cancelled leaves the line to its end. Raises Refused or RobotGone.
         """
         if "\n" in line or "\r" in line:
             raise ValueError("A line has no line break.")
-        task = self._running.get(line)
-        if task is None:
+        if self._last is None or self._last[0] != line or self._last[1].done():
             task = asyncio.get_running_loop().create_task(self._send(line, urgent))
-            self._running[line] = task
-            task.add_done_callback(lambda done: self._ended(line, done))
-        return await asyncio.shield(task)
+            self._running.add(task)
+            task.add_done_callback(self._ended)
+            self._last = line, task
+        return await asyncio.shield(self._last[1])
 
     async def refresh(self) -> Report:
         """A report of the robot after this call. Raises RobotGone."""
@@ -112,8 +113,8 @@ class Robot:
 
     # ---- lines -------------------------------------------------------------------------------------------
 
-    def _ended(self, line: str, task: asyncio.Task[str]) -> None:
-        self._running.pop(line, None)
+    def _ended(self, task: asyncio.Task[str]) -> None:
+        self._running.discard(task)
         if not task.cancelled():
             task.exception()  # which nobody may have waited for
 
