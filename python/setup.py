@@ -7,6 +7,6 @@ setup(
     **generate_distutils_setup(
         packages=["pyfranka", "pyfranka.desk", "pyfranka.gym", "pyfranka.sim"],
         package_dir={"": "src"},
-        package_data={"pyfranka": ["py.typed", "*.pyi"]},
+        package_data={"pyfranka": ["py.typed", "*.pyi"], "pyfranka.desk": ["page/**/*"]},
     )
 )

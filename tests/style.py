@@ -24,7 +24,7 @@ VENV = TOP / ".venv" / "bin"
 COMPILE_COMMANDS = TOP / "compile_commands.json"
 
 HEADER = "Copyright (c) 2026 the franka_ros for Debian authors"
-NEEDS_HEADER = {".cpp", ".h", ".py", ".sh", ".cmake", ".launch", ".xacro"}
+NEEDS_HEADER = {".cpp", ".h", ".py", ".sh", ".cmake", ".launch", ".xacro", ".js", ".css"}
 
 # Forbidden includes: a path pattern, the forbidden headers, and the reason.
 INCLUDE_RULES = [

@@ -153,6 +153,16 @@ def test_every_file_of_the_package_is_in_the_wheel(archive):
     assert set(ours) <= set(archive.namelist())
 
 
+def test_the_page_of_desk_comes_with_its_libraries(archive):
+    page = "pyfranka/desk/page"
+    names = set(archive.namelist())
+    assert {f"{page}/index.html", f"{page}/js/main.js", f"{page}/css/theme.css"} <= names
+    for library, module in (("three", "three.module.js"), ("uplot", "uPlot.esm.js")):
+        assert {f"{page}/vendor/{library}/{module}", f"{page}/vendor/{library}/LICENSE"} <= names
+    of_page = [info.compress_size for info in archive.infolist() if info.filename.startswith(f"{page}/")]
+    assert sum(of_page) < 1e6
+
+
 def test_nothing_but_the_libraries_of_every_debian_is_missing(archive, tmp_path):
     archive.extractall(tmp_path)
     files = [path for path in tmp_path.rglob("*") if path.is_file()]
