@@ -1,0 +1,435 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Desk's page in a real browser: two simulated robots, and clients of their FCI."""
+
+import json
+import os
+import threading
+import time
+import urllib.request
+from pathlib import Path
+
+import numpy
+import page_browser
+import pyfranka
+import pytest
+from desk_server import unverified
+from page_browser import PASSWORD, browser, desk_addresses, wait_for
+from pyfranka.desk.sessions import digest_of
+from pyfranka.franka_sim import FrankaSim, SimRobot
+
+if page_browser.missing():
+    pytest.skip(page_browser.missing(), allow_module_level=True)
+from selenium.webdriver.common.keys import Keys  # noqa: E402  (only where it is installed)
+
+PHONE = (360, 740)
+TICKS_PER_SECOND = os.sysconf("SC_CLK_TCK")
+CLOSED, OPEN = [True] * 7, [False] * 7
+
+
+@pytest.fixture(scope="module")
+def sim():
+    """A panda and an fr3 in one world, locked, with Desk."""
+    robots = (SimRobot("panda", realism="ideal"), SimRobot("fr3", base=(0, 1.0, 0), realism="ideal"))
+    options = ("--desk=127.0.0.1:0", f"--desk-password={PASSWORD}")
+    with FrankaSim(*robots, pace="patient", arguments=options) as sim:
+        wait_for(lambda: len(desk_addresses(sim.log())) == 2, "Desk listens")
+        for robot in sim.robots:
+            robot.remote.send("timing brakes 0.7")
+        yield sim
+
+
+@pytest.fixture(scope="module")
+def address(sim) -> str:
+    return desk_addresses(sim.log())[0]
+
+
+@pytest.fixture(scope="module")
+def tab(address):
+    """A tab with the page."""
+    with browser() as tab:
+        tab.open(address)
+        yield tab
+
+
+@pytest.fixture
+def page(tab):
+    """The page after login; after the test the console has no error."""
+    tab.resize(900, 700)
+    if tab.find("form.login"):
+        tab.log_in()
+    tab.wait_for_view()
+    yield tab
+    assert tab.errors() == []
+
+
+def take_control(page, robot=0):
+    if not page.run(f"desk.robots[{robot}].inControl"):
+        page.click("Take control", robot)
+        wait_for(lambda: page.run(f"desk.robots[{robot}].inControl"), "the page has control")
+
+
+def unlock(page, robot=0):
+    take_control(page, robot)
+    if page.report(robot)["brakes"] != OPEN:
+        page.click("Unlock", robot)
+        wait_for(lambda: page.report(robot)["brakes"] == OPEN, "the joints are unlocked")
+
+
+def activate(page, robot=0):
+    unlock(page, robot)
+    if not page.report(robot)["fci"]:
+        page.click("FCI active", robot)
+        page.click("Activate")
+        wait_for(lambda: page.report(robot)["fci"], "the FCI is active")
+
+
+@pytest.fixture
+def ready(page):
+    """The page with control of the panda, which is unlocked with an active FCI."""
+    activate(page)
+    return page
+
+
+@pytest.fixture
+def client(ready, sim):
+    """A client of the panda."""
+    return sim.robots[0].connect()
+
+
+class Motion(threading.Thread):
+    """A client's motion: joint 1 turns by an angle [rad] within a time [s]."""
+
+    def __init__(self, robot, duration: float, angle: float = 0.4):
+        super().__init__(daemon=True)
+        self.robot, self.duration, self.angle = robot, duration, angle
+        self.error = None
+        self.start()
+
+    def run(self):
+        elapsed, start = 0.0, None
+
+        def step(state, period):
+            nonlocal elapsed, start
+            elapsed += period.to_sec()
+            start = list(state.q_d) if start is None else start
+            turned = self.angle * 0.5 * (1 - numpy.cos(numpy.pi * min(elapsed / self.duration, 1.0)))
+            target = pyfranka.JointPositions([start[0] + turned, *start[1:]])
+            target.motion_finished = elapsed >= self.duration
+            return target
+
+        try:
+            self.robot.control_joint_positions(step)
+        except pyfranka.Exception as error:
+            self.error = str(error)  # the exception itself would keep the connection
+
+    def ended(self):
+        self.join(30)
+        assert not self.is_alive(), "the client's motion has not ended"
+        return self.error
+
+
+# ---- login, start-up -------------------------------------------------------------------------------------
+
+
+def test_it_refuses_a_wrong_password_with_a_sentence(tab):
+    tab.log_in(password="wrong")
+    tab.shows("User or password is wrong.")
+    assert all("401" in error for error in tab.errors())
+
+
+def test_it_contacts_no_other_host(page, address):
+    script = "performance.getEntriesByType('resource').map((entry) => entry.name)"
+    loaded = page.run(script)
+    assert any(name.endswith("three.module.js") for name in loaded)
+    assert [name for name in loaded if not name.startswith(address)] == []
+
+
+def test_without_control_it_only_watches(page):
+    page.shows("Nobody controls panda")
+    assert not page.button("Unlock").is_enabled() and not page.button("FCI active").is_enabled()
+    assert page.button("Stop panda").is_enabled()
+
+
+def test_a_person_takes_control_and_unlocks_joint_by_joint(page):
+    take_control(page)
+    note = "({report}) => report && seen.add(report.brakes.filter(Boolean).length)"
+    page.run(f"(window.seen = new Set(), desk.robots[0].add({{update: {note}}}), true)")
+    unlock(page)
+    assert len(page.run("[...seen]")) > 3
+    page.shows("Unlocked", '[data-robot="0"]')
+
+
+def test_the_fci_is_activated_after_a_question(page):
+    unlock(page)
+    page.click("FCI active")
+    page.shows("Activate the FCI?", "dialog")
+    page.click("Cancel")
+    assert not page.report()["fci"]
+    activate(page)
+    assert page.report()["light"]["color"] in ("green", "blue")
+
+
+# ---- motions ---------------------------------------------------------------------------------------------
+
+
+def changed(before, after, box):
+    """Share of the pixels in a box that differ."""
+    pair = [numpy.asarray(picture.crop(box), dtype=int) for picture in (before, after)]
+    return float((abs(pair[0] - pair[1]).max(axis=2) > 12).mean())
+
+
+def test_a_clients_motion_is_seen_in_the_3d_view(client, ready):
+    ready.run("document.querySelector('.view').scrollIntoView({block: 'start'})")
+    start, before = ready.place("panda_hand"), ready.picture()
+    motion = Motion(client, 1.5, angle=0.6)
+
+    def distance():
+        now = ready.place("panda_hand")
+        return numpy.hypot(now["x"] - start["x"], now["y"] - start["y"])
+
+    wait_for(lambda: distance() > 15, "the hand moves in the view")
+    assert motion.ended() is None
+    x, y = int(start["x"]), int(start["y"])
+    box = (x - 30, y - 30, x + 30, y + 30)
+    wait_for(lambda: changed(before, ready.picture(), box) > 0.05, "the picture of the hand has changed")
+
+
+def test_the_user_stop_ends_a_motion_and_recovery_goes_on(client, ready):
+    motion = Motion(client, 20.0)
+    wait_for(lambda: ready.report()["mode"] == "Move", "the client moves the arm")
+    ready.click("Stop panda")
+    assert motion.ended() is not None
+    wait_for(lambda: ready.report()["mode"] == "User stopped", "the robot is stopped")
+    ready.shows("User stopped")
+    ready.click("Release stop panda")
+    wait_for(lambda: ready.report()["mode"] != "User stopped", "the stop is released")
+    if ready.report()["errors"]:
+        ready.click("Recover")
+    wait_for(lambda: not ready.report()["errors"], "the errors are gone")
+    ready.shows("No errors.", '[data-robot="0"]')
+    activate(ready)
+
+
+def test_errors_are_shown_in_words_and_recovered(client, ready):
+    motion = Motion(client, 20.0)
+    wait_for(lambda: ready.report()["mode"] == "Move", "the client moves the arm")
+    ready.click("Push with numbers")
+    field = ready.find(".view input[type=number]")
+    field.clear()
+    field.send_keys("150")
+    ready.click("Push for 300 ms")
+    wait_for(lambda: ready.report()["mode"] == "Reflex", "the robot has felt the push")
+    assert motion.ended() is not None
+    errors = ready.text('[data-robot="0"] .errors')
+    assert errors and "felt a" in errors
+    ready.click("Recover")
+    wait_for(lambda: ready.report()["mode"] == "Idle", "the robot has recovered")
+    ready.shows("No errors.", '[data-robot="0"]')
+
+
+def test_the_end_effector_is_seen_by_a_client(client, ready):
+    ready.click("End effector")
+    panel = ready.find('[data-robot="0"] details.end-effector')
+    mass = panel.find_element("css selector", "input[type=number]")
+    mass.clear()
+    mass.send_keys("1.234")
+    ready.click("Apply")
+    wait_for(lambda: abs(client.read_once().m_ee - 1.234) < 1e-9, "the client sees the mass")
+    ready.shows("In force: 1.234 kg", '[data-robot="0"]')
+
+
+def test_a_person_drags_the_hand_in_guiding(ready):
+    assert not ready.button("Guide by hand").is_enabled()
+    ready.click("Safety")
+    ready.click("X4 activation device")
+    ready.click("Guide by hand")
+    wait_for(lambda: ready.report()["mode"] == "Guiding", "guiding is active")
+    ready.run("document.querySelector('.view').scrollIntoView({block: 'start'})")
+    before = numpy.array(ready.report()["q"])
+
+    def push():
+        ready.shows(" N ", ".force-label")
+        wait_for(lambda: abs(numpy.array(ready.report()["q"]) - before).max() > 0.03, "the arm follows")
+
+    ready.drag(ready.place("panda_link7"), (70, 20), push)
+    wait_for(lambda: not ready.text(".force-label"), "the force is gone")
+    ready.click("Guide by hand")
+    wait_for(lambda: not ready.report()["guiding"]["active"], "guiding has ended")
+    ready.click("X4 activation device")
+    wait_for(lambda: not ready.report()["inputs"]["x4"], "the activation device is released")
+
+
+# ---- several robots, several users -----------------------------------------------------------------------
+
+
+def test_two_robots_are_operated_side_by_side(page):
+    unlock(page, 1)
+    assert page.report(1)["arm_id"] == "fr3" and page.report(1)["brakes"] == OPEN
+    left, right = (page.find(f'[data-robot="{i}"]').rect for i in (0, 1))
+    assert left["y"] == right["y"] and left["x"] + left["width"] <= right["x"]
+    page.click("Programming", 1)
+    wait_for(lambda: page.report(1)["operating_mode"] == "programming", "Programming")
+    page.click("Guide by hand", 1)
+    wait_for(lambda: page.report(1)["mode"] == "Guiding", "the second robot is guided")
+    first = page.report(0)["brakes"]
+    assert page.report(0)["mode"] != "Guiding"
+    page.click("Guide by hand", 1)
+    page.click("Execution", 1)
+    page.click("Lock", 1)
+    wait_for(lambda: page.report(1)["brakes"] == CLOSED, "the second robot is locked")
+    assert page.report(0)["brakes"] == first
+
+
+class Anna:
+    """Another user of one robot's Desk: a program."""
+
+    def __init__(self, address: str):
+        self.address, self.cookie = address, ""
+        body = {"login": page_browser.USER, "password": digest_of(page_browser.USER, PASSWORD)}
+        self.cookie = "authorization=" + self._post("/admin/api/login", body)
+
+    def _post(self, path: str, body: dict) -> str:
+        headers = {"Content-Type": "application/json", "Cookie": self.cookie}
+        request = urllib.request.Request(self.address + path, json.dumps(body).encode(), headers)
+        with urllib.request.urlopen(request, context=unverified(), timeout=30) as answer:
+            return answer.read().decode()
+
+    def ask(self) -> None:
+        """Asks for control."""
+        self._post("/admin/api/control-token/request", {"requestedBy": "anna"})
+
+
+def test_the_holder_is_asked_and_takes_over_by_force(page, sim):
+    take_control(page, 1)
+    anna = Anna(desk_addresses(sim.log())[1])
+    anna.ask()
+    page.shows("anna asks for control of fr3.")
+    page.click("Deny", 1)
+    page.shows("You control fr3.")
+    anna.ask()
+    page.shows("anna asks for control of fr3.")
+    page.click("Accept", 1)
+    page.shows("anna controls fr3. You can watch it.")
+    assert not page.button("Unlock", 1).is_enabled()
+    page.click("Take over by force", 1)
+    page.click("Take over")
+    page.shows("Press the circle button of the Pilot to take over control from anna.")
+    page.shows("s left")
+    page.click("Press circle", 1)
+    page.shows("You control fr3.")
+    page.click("Release control", 1)
+    page.shows("Nobody controls fr3")
+
+
+# ---- keyboard, phone, colours ----------------------------------------------------------------------------
+
+
+def go_to(page, name, limit=120):
+    """Presses Tab until that has the focus, which must be visible."""
+    for _ in range(limit):
+        page.press(Keys.TAB)
+        focused, shown = page.focused()
+        assert shown, f"'{focused}' has the focus, and nothing shows it."
+        if focused == name:
+            return
+    raise AssertionError(f"Tab does not reach '{name}'.")
+
+
+def test_the_keyboard_alone_is_enough(page, sim):
+    page.run("desk.robots.forEach((robot) => robot.inControl && robot.changeControl('release'))")
+    sim.robots[0].remote.send("joints lock")
+    go_to(page, "Log out")
+    page.press(Keys.ENTER)
+    wait_for(lambda: page.find("form.login"), "the login")
+    page.press(page_browser.USER, Keys.TAB, PASSWORD, Keys.ENTER)
+    page.wait_for_view()
+    go_to(page, "Take control")
+    page.press(Keys.ENTER)
+    wait_for(lambda: page.run("desk.robots[0].inControl"), "the page has control")
+    go_to(page, "Unlock")
+    page.press(Keys.SPACE)
+    wait_for(lambda: page.report()["brakes"] == OPEN, "the joints are unlocked")
+    go_to(page, "FCI active")
+    page.press(Keys.SPACE)
+    page.shows("Activate the FCI?", "dialog")
+    assert page.focused()[0] == "Activate"  # the dialog has the focus
+    page.press(Keys.ENTER)
+    wait_for(lambda: page.report()["fci"], "the FCI is active")
+
+
+def test_the_view_is_turned_by_keys_and_does_not_hold_the_focus(page):
+    page.run("document.querySelector('.view canvas').focus()")
+    name, before = page.focused()[0], page.place("panda_hand")
+    page.press(Keys.ARROW_LEFT)
+    wait_for(lambda: page.place("panda_hand") != before, "the view turns")
+    page.press(Keys.TAB)
+    assert page.focused()[0] != name
+
+
+def test_shortcuts_stop_all_robots_and_are_listed(page):
+    page.run("document.activeElement.blur()")
+    page.press("s")
+    wait_for(lambda: page.run("desk.robots.every((robot) => robot.isStopped)"), "all robots are stopped")
+    for name in ("Release stop panda", "Release stop fr3"):
+        page.click(name)
+    wait_for(lambda: not page.run("desk.robots.some((robot) => robot.isStopped)"), "the stops are released")
+    page.press("?")
+    page.shows("Keyboard shortcuts", "dialog")
+    page.press(Keys.ESCAPE)
+    wait_for(lambda: page.find("dialog[open]") is None, "the dialog is closed")
+
+
+def test_it_fits_a_phone(page):
+    page.resize(*PHONE)
+    page.run("document.querySelectorAll('details').forEach((card) => { card.open = true; })")
+    outside = """[...document.querySelectorAll('main *')].filter((each) => {
+        const box = each.getBoundingClientRect();
+        return box.width > 0 && box.right > innerWidth + 1 && !each.closest('.scroll-x');
+      }).map((each) => each.outerHTML.slice(0, 80))"""
+    wait_for(lambda: page.run(f"({outside})") == [], "everything is within the width of a phone")
+    assert page.run("document.documentElement.scrollWidth") <= PHONE[0]
+    stop = page.button("Stop panda").rect
+    bottom = page.run("innerHeight")
+    seen_at = page.run("document.querySelector('.stop').getBoundingClientRect().bottom")
+    assert seen_at <= bottom and stop["height"] >= 44
+    page.run("document.querySelectorAll('details').forEach((card) => { card.open = false; })")
+
+
+def test_it_is_dark_where_the_system_is(page):
+    brightness = "getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number)"
+    page.prefer("light")
+    light = sum(page.run(brightness))
+    page.prefer("dark")
+    dark = sum(page.run(brightness))
+    assert light > 600 and dark < 150
+    page.prefer("light")
+
+
+# ---- cost ------------------------------------------------------------------------------------------------
+
+
+def cpu_time(process: int) -> float:
+    """Of a process so far [s]."""
+    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / TICKS_PER_SECOND
+
+
+def desk_process(sim) -> int:
+    """The process of Desk, a child of franka_sim."""
+    children = Path(f"/proc/{sim.process.pid}/task/{sim.process.pid}/children").read_text().split()
+    (desk,) = [
+        int(child) for child in children if "franka_desk" in Path(f"/proc/{child}/cmdline").read_text()
+    ]
+    return desk
+
+
+def test_one_open_page_costs_a_tenth_of_a_core(page, sim, record_property):
+    desk = desk_process(sim)
+    begin, used, count = time.monotonic(), cpu_time(desk), page.run("desk.frames")
+    wait_for(lambda: time.monotonic() - begin > 4.0, "4 s are over")
+    seconds = time.monotonic() - begin
+    share, rate = (cpu_time(desk) - used) / seconds, (page.run("desk.frames") - count) / seconds
+    record_property("share_of_a_core", round(share, 3))
+    assert rate > 3, f"The page receives only {rate:.1f} frames a second."
+    assert share <= 0.10, f"Desk with two robots and one page takes {100 * share:.1f} % of a core."
