@@ -123,6 +123,8 @@ def test_a_robot_of_a_ros_world_can_start_locked(tmp_path):
         with pytest.raises(LineRefused) as refused:
             remote.fci(True)
         assert refused.value.code == "BrakesClosed"
+        called = session.run("rosservice", "call", "/franka_sim/set_fci", "true").stdout
+        assert "success: False" in called and "BrakesClosed: " in called, called
         remote.joints(locked=False)
         remote.fci(True)
         with socket.socket() as client:

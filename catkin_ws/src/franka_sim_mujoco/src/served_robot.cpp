@@ -112,18 +112,18 @@ void ServedRobot::offer(
   });
 }
 
-template <typename Switch>
-void ServedRobot::offerSwitch(const std::string& name) {
-  offer<std_srvs::SetBool>(name, [this](auto& request, auto& /*response*/) {
-    robot_.unit().request(Switch{request.data != 0});
+void ServedRobot::offerSwitch(const std::string& name,
+                              void (*set)(franka_sim::WholeRobot& robot, bool on)) {
+  offer<std_srvs::SetBool>(name, [this, set](auto& request, auto& /*response*/) {
+    set(robot_.whole(), request.data != 0);
   });
 }
 
 void ServedRobot::offerSwitches() {
-  offerSwitch<franka_sim::UserStop>("set_user_stop");
-  offerSwitch<franka_sim::Guiding>("set_guiding");
-  offerSwitch<franka_sim::FciActivation>("set_fci");
-  offerSwitch<franka_sim::Brakes>("set_brakes");
+  offerSwitch("set_user_stop", franka_sim::setUserStop);
+  offerSwitch("set_guiding", franka_sim::setGuiding);
+  offerSwitch("set_fci", franka_sim::setFci);
+  offerSwitch("set_brakes", franka_sim::setBrakes);
 }
 
 void ServedRobot::offerLink() {

@@ -88,12 +88,7 @@ std::array<double, kCount> toNumbers(const Words& words, std::size_t first) {
 void addStops(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   SafetyController& safety = robot.whole().safety();
   lines.add("user_stop on|off", [&](const Words& words) {
-    const bool pressed = toSwitch(words.at(0));
-    if (safety.rules() == SafetyRules::kDesk) {
-      safety.press(safety.isFr3() ? SafetyInput::kX31 : SafetyInput::kX4, pressed);
-    } else {
-      robot.unit().request(UserStop{pressed});
-    }
+    setUserStop(robot.whole(), toSwitch(words.at(0)));
     host.letRun(kReaction);
     return "";
   });
@@ -112,13 +107,7 @@ void addStops(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
 void addBrakes(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   SafetyController& safety = robot.whole().safety();
   const auto lock = [&](bool closed) {
-    if (!closed) {
-      require(safety.unlock());
-    } else if (safety.rules() == SafetyRules::kDesk) {
-      safety.lock();
-    } else {
-      robot.unit().request(Brakes{true});
-    }
+    setBrakes(robot.whole(), closed);
     host.letRun(kReaction);
     return "";
   };
@@ -133,11 +122,7 @@ void addBrakes(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
 void addFci(LineServer& lines, fci::SimRobot& robot) {
   SafetyController& safety = robot.whole().safety();
   lines.add("fci on|off", [&](const Words& words) {
-    if (toSwitch(words.at(0))) {
-      require(safety.activateFci());
-    } else {
-      safety.deactivateFci();
-    }
+    setFci(robot.whole(), toSwitch(words.at(0)));
     robot.serve(true);  // the port opens or closes before the answer is sent
     return "";
   });
@@ -155,7 +140,7 @@ void addFci(LineServer& lines, fci::SimRobot& robot) {
 void addGuiding(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   SafetyController& safety = robot.whole().safety();
   lines.add("guiding on|off", [&](const Words& words) {
-    require(safety.guide(toSwitch(words.at(0))));
+    setGuiding(robot.whole(), toSwitch(words.at(0)));
     host.letRun(kReaction);
     return "";
   });
@@ -321,6 +306,36 @@ void addReport(LineServer& lines, const OperatorContext& context) {
 }
 
 }  // namespace
+
+void setUserStop(WholeRobot& robot, bool pressed) {
+  SafetyController& safety = robot.safety();
+  if (safety.rules() == SafetyRules::kDesk) {
+    safety.press(safety.isFr3() ? SafetyInput::kX31 : SafetyInput::kX4, pressed);
+  } else {
+    robot.unit().request(UserStop{pressed});
+  }
+}
+
+void setGuiding(WholeRobot& robot, bool active) { require(robot.safety().guide(active)); }
+
+void setBrakes(WholeRobot& robot, bool closed) {
+  SafetyController& safety = robot.safety();
+  if (!closed) {
+    require(safety.unlock());
+  } else if (safety.rules() == SafetyRules::kDesk) {
+    safety.lock();
+  } else {
+    robot.unit().request(Brakes{true});
+  }
+}
+
+void setFci(WholeRobot& robot, bool active) {
+  if (active) {
+    require(robot.safety().activateFci());
+  } else {
+    robot.safety().deactivateFci();
+  }
+}
 
 void addSafetyCommands(LineServer& lines, const OperatorContext& context) {
   addStops(lines, context.robot, context.host);

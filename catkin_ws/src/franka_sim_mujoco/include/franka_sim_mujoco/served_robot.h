@@ -48,8 +48,7 @@ class ServedRobot {
   template <typename Service>
   void offer(const std::string& name,
              std::function<void(typename Service::Request&, typename Service::Response&)> handler);
-  template <typename Switch>
-  void offerSwitch(const std::string& name);
+  void offerSwitch(const std::string& name, void (*set)(franka_sim::WholeRobot& robot, bool on));
   void openControlInterface(const RobotPlan& plan, franka_sim::World& world,
                             const OperatorAccess& access);
   void offerSwitches();

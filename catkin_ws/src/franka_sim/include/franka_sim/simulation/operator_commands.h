@@ -28,6 +28,13 @@ struct OperatorContext {
 /// robot, its safety controller and hand, the quality of its link, and changes of the world.
 void addOperatorCommands(fci::LineServer& lines, const OperatorContext& context);
 
+/// The switches of the operator, by the rules that the robot has (SafetyRules).
+/// @throws std::runtime_error "CODE: Sentence." if a rule refuses it
+void setUserStop(WholeRobot& robot, bool pressed);
+void setGuiding(WholeRobot& robot, bool active);
+void setBrakes(WholeRobot& robot, bool closed);
+void setFci(WholeRobot& robot, bool active);
+
 /// The line `reset` of a world in which all robots are served.
 /// @throws std::invalid_argument with a sentence if a motion runs
 void resetWorld(World& world, const std::vector<fci::SimRobot*>& robots, fci::Host& host);
