@@ -252,6 +252,23 @@ def test_it_is_a_client_of_the_workspaces_robot(environment):
         assert "FR3, control interface version 10" in result.stdout, result.stdout + result.stderr
 
 
+def test_desk_names_the_packages_that_it_needs(environment):
+    # franka_sim finds franka_desk, which is not on PATH here.
+    program = subprocess.Popen(
+        [environment.bin / "franka_sim", "--ip=127.0.61.9", "--desk"],
+        env={"PATH": "/usr/bin:/bin"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert "Desk needs the Python package aiohttp" in program.stderr.readline()
+        assert "Desk has ended by itself (status 1)" in program.stderr.readline()
+    finally:
+        program.terminate()
+        assert program.wait(20) == 0
+
+
 @pytest.mark.parametrize("program", ["franka_sim", "franka_info", "pyfranka-meshes"])
 def test_its_programs_answer_help(environment, program):
     result = environment.run(program, "--help")

@@ -8,6 +8,7 @@ Not a part of the package pyfranka, whose import takes longer than the programs 
 import importlib.util
 import os
 import sys
+import sysconfig
 from pathlib import Path
 
 
@@ -23,7 +24,9 @@ def _become(name: str) -> None:
 
 
 def franka_sim() -> None:
-    """A simulated robot on the network."""
+    """A simulated robot on the network. It finds the other commands of the wheel, such as franka_desk."""
+    folders = os.environ.get("PATH", os.defpath).split(os.pathsep)
+    os.environ["PATH"] = os.pathsep.join([*folders, sysconfig.get_path("scripts")])
     _become("franka_sim")
 
 
