@@ -10,11 +10,13 @@ import re
 import socket
 import ssl
 import time
+from random import Random
 
 import pytest
 from desk_fixtures import desk_with_robot
 from desk_server import LIMITS, PASSWORD, USER, basic, unverified
 from pyfranka.desk import Limits, Options, Settings
+from pyfranka.desk.server import ROUTES
 from pyfranka.desk.sessions import digest_of
 from pyfranka.desk.v1 import ROUTES as V1_ROUTES
 
@@ -116,6 +118,47 @@ def test_broken_bodies_are_refused_with_a_sentence(desk, control, body):
     assert alive(desk)
 
 
+INERTIA = {"x11": 0.01, "x12": 0, "x13": 0, "x22": 0.01, "x23": 0, "x33": 0.01}
+PLACE, ANGLES = {"x": 0, "y": 0, "z": 0}, {"roll": 0, "pitch": 0, "yaw": 0}
+TCP = {"translation": PLACE, "rotation": ANGLES}
+INERTIAL = {"mass": 1.0, "centerOfMass": PLACE, "inertia": INERTIA}
+BODIES = [
+    {"name": "tool", "deviceId": "ee-no-gripper", "modelUri": None, "inertial": INERTIAL, "tcp": TCP},
+    {"endEffectorConfiguration": {"endEffector": {"name": "Other", "params": {**INERTIAL, "tcp": TCP}}}},
+    {"networkConfiguration": {"robot": {"network": {}}, "shopFloor": {"type": "Static"}}},
+    {"userConfiguration": {"users": [{"name": "a", "password": "b", "role": "Operator"}]}},
+    {"owner": "me", "timeout": 0.001, "type": "SafetyError", "requestedBy": "me", "token": "x"},
+]
+VALUES = [None, True, 0, -1, 1e308, 10**400, "", "x", "\ud800", "a" * 300, "\x00", [], {}, [{}], {"a": 1}]
+
+
+def changed(value, random):
+    """Some of its parts are others, or missing."""
+    if random.random() < 0.2:
+        return random.choice(VALUES)
+    if isinstance(value, dict):
+        kept = [name for name in value if random.random() > 0.05]
+        return {name: changed(value[name], random) for name in kept}
+    return [changed(each, random) for each in value] if isinstance(value, list) else value
+
+
+def test_random_bodies_are_answered_and_are_never_a_mistake_of_desk(desk, control):
+    random = Random(1)
+    routes = [route for route in ROUTES.routes if route.method != "GET" and route.where(desk.desk.profile)]
+    routes = [route for route in routes if not re.search(r"reboot|shutdown|logout|:take", route.path)]
+    for k in range(600):
+        route, body = routes[k % len(routes)], changed(random.choice(BODIES), random)
+        path = re.sub(r"<\w+>", random.choice(["1", "ee-franka-hand", "%00", "%C2%B2"]), route.path)
+        data = json.dumps(body).encode() if k % 5 else b"mode=" + json.dumps(body).encode()
+        token = desk.desk.tokens.active
+        headers = {**basic(), "X_Control_Token": token.token if token else "x"}
+        answer = desk.send(route.method, path, data, **headers)
+        assert answer.status < 500, (route.method, path, body, answer)
+        assert answer.status < 400 or is_refused(answer, answer.status), answer
+        if token is None:
+            desk.take_control(**basic())
+
+
 @pytest.mark.parametrize(
     "change",
     [
@@ -152,11 +195,7 @@ def test_a_configuration_without_meaning_changes_nothing(desk, change):
     ],
 )
 def test_end_effectors_that_cannot_be_are_refused(desk, change):
-    inertia = {"x11": 0.01, "x12": 0, "x13": 0, "x22": 0.01, "x23": 0, "x33": 0.01}
-    inertial = {"mass": 1.0, "centerOfMass": {"x": 0, "y": 0, "z": 0}, "inertia": inertia, **change}
-    angles, place = {"roll": 0, "pitch": 0, "yaw": 0}, {"x": 0, "y": 0, "z": 0}
-    tcp = {"translation": place, "rotation": angles}
-    body = {"name": "tool", "inertial": inertial, "tcp": tcp}
+    body = {"name": "tool", "inertial": {**INERTIAL, **change}, "tcp": TCP}
     assert is_refused(desk.send("POST", "/admin/api/end-effector/profiles", body, **basic()), 400)
 
 

@@ -103,7 +103,7 @@ def _place(word: str, port: int) -> tuple[str, int]:
     address, colon, number = word.rpartition(":")
     if not colon or (":" in address and not address.startswith("[")):  # an address of IPv6
         return word.strip("[]"), port
-    if not number.isdigit() or not int(number) < 65536 or not address:
+    if not number.isdecimal() or not int(number) < 65536 or not address:
         raise ValueError(f"'{word}' is no ADDRESS:PORT.")
     return address.strip("[]"), int(number)
 

@@ -153,7 +153,7 @@ async def position_errors(call: Call):
 async def reset_position_error(call: Call):
     """Takes a joint's present position as right."""
     word = call.words[0]
-    if not word.isdigit() or not int(word) < JOINTS:
+    if word not in map(str, range(JOINTS)):
         raise bad_request(f"A joint's number is 0 to {JOINTS - 1}.")
     if call.desk.report.joint_position_error[int(word)]:
         await call.desk.robot.send(f"inject jointPositionErrorDemand {int(word) + 1} off")
