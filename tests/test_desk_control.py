@@ -12,6 +12,7 @@ import pytest
 from desk_fixtures import desk_with_robot
 from desk_robot import OPEN
 from desk_server import basic
+from pyfranka.desk import v1
 
 TOKEN = "/admin/api/control-token"
 TAKE, RELEASE = "/api/system/control-token:take", "/api/system/control-token:release"
@@ -241,6 +242,16 @@ def test_taking_waits_for_its_time_also_for_the_same_owner(desk):
     assert time.monotonic() - begin >= 0.3
     assert answer.status == 424 and answer.json()["code"] == "Timeout"
     assert state(desk)["tokenRequest"] is None
+
+
+def test_a_long_wait_is_answered_before_the_clients_own_limit(desk, monkeypatch):
+    monkeypatch.setattr(v1, "LONG", 0.5)
+    monkeypatch.setattr(v1, "EARLIER", 0.3)
+    take(desk, "me")
+    begin = time.monotonic()
+    assert take(desk, "you", timeout=1.0).json()["code"] == "Timeout"
+    assert 0.7 <= time.monotonic() - begin
+    assert desk.send("GET", "/api/system/control-token").json()["requester"] is None
 
 
 def test_taking_is_answered_when_the_holder_releases(desk, cookie):

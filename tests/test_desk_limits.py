@@ -16,6 +16,8 @@ import pytest
 from desk_fixtures import desk_with_robot
 from desk_server import LIMITS, PASSWORD, USER, basic, unverified
 from pyfranka.desk import Limits, Options, Settings
+from pyfranka.desk.answers import DeskError
+from pyfranka.desk.limits import Throttle
 from pyfranka.desk.server import ROUTES
 from pyfranka.desk.sessions import digest_of
 from pyfranka.desk.v1 import ROUTES as V1_ROUTES
@@ -264,6 +266,21 @@ def test_requests_beyond_the_rate_wait(strict):
     begin = time.monotonic()
     assert all(alive(strict) for _ in range(75))
     assert time.monotonic() - begin > 0.3
+
+
+def test_what_waits_is_limited_too():
+    async def crowd():
+        throttle = Throttle(rate=100.0, burst=2.0, waiting=3)
+        assert [throttle.use("a") for _ in range(2)] == [0.0, 0.0]
+        begin = time.monotonic()
+        waits = [throttle.wait("a", throttle.use("a")) for _ in range(8)]
+        ends = await asyncio.gather(*waits, return_exceptions=True)
+        assert 0.02 < time.monotonic() - begin
+        refused = [end for end in ends if isinstance(end, DeskError)]
+        assert len(refused) == 5 and refused[0].status == 429
+        assert throttle.use("b") == 0.0  # others are not concerned
+
+    asyncio.run(crowd())
 
 
 def test_requests_that_read_never_reach_the_robot(tmp_path):

@@ -47,10 +47,9 @@ async def logout(call: Call):
 
 
 async def login_page(call: Call):
-    """For people; with pages installed there is a better one."""
-    text = (
-        "<!DOCTYPE html><title>Desk</title><p>This robot's Desk has no pages here, only its interfaces.</p>"
-    )
+    """Leads people to Desk's page."""
+    refresh = '<meta http-equiv="refresh" content="0; url=/">'
+    text = f'<!DOCTYPE html><title>Desk</title>{refresh}<p><a href="/">Desk</a></p>'
     return web.Response(text=text, content_type="text/html")
 
 

@@ -159,6 +159,7 @@ async def _answer(route: Route, call: Call) -> web.StreamResponse:
         return await _run(route, call)
     # A client that goes away does not leave an action half done.
     work = asyncio.get_running_loop().create_task(_run(route, call))
+    work.add_done_callback(_was_seen)
     return await asyncio.shield(work)
 
 
@@ -169,6 +170,12 @@ async def _run(route: Route, call: Call) -> web.StreamResponse:
     if value is None:
         return empty_answer(204 if call.path.startswith("/api/") else 200)
     return json_answer(value)
+
+
+# A client that has gone does not learn of an error, and asyncio need not report it.
+def _was_seen(work: asyncio.Task) -> None:
+    if not work.cancelled():
+        work.exception()
 
 
 def _path_of(request: web.Request) -> str:
