@@ -185,6 +185,22 @@ def test_a_port_in_use_is_an_error_with_a_sentence(environment):
     assert str(robot.port) in text and "--listen" in text and len(text.splitlines()) == 1
 
 
+def test_it_does_not_keep_the_priority_of_the_program_that_starts_it(environment):
+    def control_a_robot():
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(10))
+
+    try:
+        process = program(
+            environment, "--robot=127.0.34.9", "--listen=127.0.34.9:0", preexec_fn=control_a_robot
+        )
+        with process as desk:
+            places(desk, 1)
+            assert os.sched_getscheduler(desk.pid) == os.SCHED_OTHER
+            assert os.getpriority(os.PRIO_PROCESS, desk.pid) > 0
+    except subprocess.SubprocessError:
+        pytest.skip("needs the right to real-time priority")
+
+
 def test_desk_serves_before_its_robot_is_there(environment):
     with ScriptedRobot() as robot:
         port = robot.port
