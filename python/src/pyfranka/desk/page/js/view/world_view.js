@@ -9,8 +9,9 @@ import { PushTool } from "./push_tool.js";
 import { addMeshes, BaseLight } from "./robot_look.js";
 import { setPose, shapeObject } from "./shapes.js";
 
-const SLOW = 45; // [ms] between two pictures: a slower machine gets simpler and fewer ones
-const SLOW_PERIOD = 120; // [ms] between two pictures of such a machine
+const SLOW = 25; // [ms] for a picture: a slower machine gets simpler ones, at the rate of the stream
+const REST = 1.5; // times the time for a picture, in which nothing is drawn: the page stays usable
+const MEASURED_PICTURES = 20; // one of so many is timed, because waiting for its end takes time itself
 const SMALLEST_MOVE = 2e-4; // [m], and of a quaternion's numbers: below it nothing is drawn
 const FRAME = 60; // [ms] between two frames of the stream, in which poses are interpolated
 const TURN = 0.08; // [rad] of the camera for a key
@@ -28,7 +29,9 @@ export class WorldView {
     this.bodies = [];
     this.lights = [];
     this.forces = [];
-    this.interval = 0;
+    this.cost = 0; // [ms] of a picture
+    this.pictures = 0;
+    this.drawnAt = 0;
     this.isSlow = false; // once slow, always slow: the picture does not change back and forth
     this.makeScene();
     this.makeTools(push);
@@ -283,7 +286,7 @@ export class WorldView {
 
   requestDraw() {
     if (this.requested || !this.isSeen) return;
-    const early = this.isSlow ? this.drawnAt + SLOW_PERIOD - performance.now() : 0;
+    const early = this.isSlow ? this.drawnAt + REST * this.cost - performance.now() : 0;
     if (early > 0) {
       this.requested = setTimeout(() => {
         this.requested = 0;
@@ -291,23 +294,32 @@ export class WorldView {
       }, early);
       return;
     }
-    this.requested = requestAnimationFrame((now) => {
+    this.requested = requestAnimationFrame(() => {
       this.requested = 0;
       const goOn = this.interpolate();
-      this.measure(now);
-      this.renderer.render(this.scene, this.camera);
-      this.isMoving = goOn;
+      this.draw();
       if (goOn) this.requestDraw();
     });
   }
 
-  // While bodies move, pictures follow each other as fast as the machine draws them.
-  measure(now) {
-    if (this.isMoving) this.interval += 0.1 * (now - this.drawnAt - this.interval);
-    this.drawnAt = now;
-    if (this.interval < SLOW || this.isSlow) return;
+  draw() {
+    const begin = performance.now();
+    this.renderer.render(this.scene, this.camera);
+    this.pictures += 1;
+    if (this.pictures % MEASURED_PICTURES === 0) this.measure(begin);
+    this.drawnAt = performance.now();
+  }
+
+  // Drawing goes on after render(): reading a pixel waits for its end.
+  measure(begin) {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.cost = performance.now() - begin;
+    if (this.cost < SLOW || this.isSlow) return;
     this.isSlow = true;
     this.sun.castShadow = false;
+    this.renderer.setPixelRatio(1);
+    this.resize();
   }
 
   /** Where a body's origin is on the page [px], for tests. */
