@@ -13,7 +13,6 @@ import urllib.request
 from contextlib import contextmanager
 
 import pytest
-from fci_session import go_with_all
 from franka_sim_mujoco.session import Session
 from pyfranka.remote import LineRefused, Remote
 
@@ -61,13 +60,6 @@ def awaited(session: Session, attempt, errors=(OSError,)):
             session.check()
             assert time.monotonic() < deadline, f"{error}\n{session.tail(60)}"
             time.sleep(0.2)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def with_all():
-    """A client of an earlier test may have left this thread the priority of real time: a whole launch with it
-    would keep the processors from everything else."""
-    go_with_all()
 
 
 @pytest.fixture(scope="module")
