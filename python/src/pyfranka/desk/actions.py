@@ -30,14 +30,14 @@ async def lock(desk: Desk) -> None:
 async def activate_fci(desk: Desk) -> None:
     """Lets FCI clients connect. Raises Refused by the robot's rules."""
     if desk.options.fci_before_unlock and not desk.report.brakes_open:
-        desk.fci_desired = True
+        desk.fci.desired = True
         return
     await desk.robot.send("fci on")
 
 
 async def deactivate_fci(desk: Desk) -> None:
     """Ends the client's motion and its connection."""
-    desk.fci_desired = False
+    desk.fci.desired = False
     await desk.robot.send("fci off", urgent=True)
 
 
@@ -68,7 +68,7 @@ async def move_to_pack_pose(desk: Desk) -> None:
         return
     if desk.report.mode == "Move":
         raise Refused("MotionActive", "A client of the FCI moves the robot.")
-    with desk.without_fci():
+    with desk.fci.paused():
         await desk.robot.send("fci off")
         await desk.robot.send("move pack")
 

@@ -44,8 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     logging.basicConfig(format="franka_desk: %(message)s", level=logging.WARNING)
     # It writes a traceback for each request that is no HTTP; the client gets an answer anyway.
     logging.getLogger("aiohttp.server").setLevel(logging.CRITICAL)
-    with contextlib.suppress(OSError):
-        os.nice(NICE)
+    _come_last()
     try:
         return asyncio.run(_run(robots, listen, settings, words.child))
     except ModuleNotFoundError as error:
@@ -57,6 +56,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except NoPlace as error:
         print(f"franka_desk: {error}", file=sys.stderr)
     return 1
+
+
+# A program that has controlled a robot has real-time priority, which the programs that it starts inherit.
+def _come_last() -> None:
+    with contextlib.suppress(OSError):
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+        os.nice(NICE)
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -15,6 +15,7 @@ from pyfranka.desk import status
 from pyfranka.desk.answers import unavailable
 from pyfranka.desk.configuration import Configuration
 from pyfranka.desk.end_effectors import EndEffectors
+from pyfranka.desk.fci_keeper import FciKeeper
 from pyfranka.desk.limits import Gate
 from pyfranka.desk.power import Power
 from pyfranka.desk.profiles import PROFILES, Profile, profile_of
@@ -25,7 +26,6 @@ from pyfranka.desk.tokens import Tokens
 from pyfranka.robot_report import Report
 
 RESTART = 2.0  # [s] that a restart of the software takes (chosen here)
-ATTEMPT = 0.5  # [s] between two attempts to switch an FCI on that is always on (chosen here)
 
 
 class Desk:
@@ -48,11 +48,9 @@ class Desk:
         self.power = Power(self)
         self.end_effectors = EndEffectors(self)
         self.configuration = Configuration(self)
-        self.fci_desired = False  # it becomes active as soon as the robot's rules allow it
+        self.fci = FciKeeper(self)
         self.last_task: str | None = None
         self._restarted = 0.0
-        self._next_attempt = 0.0
-        self._pauses = 0
         robot.listen(self._follow)
 
     @property
@@ -107,15 +105,6 @@ class Desk:
             self._watchers.discard(event)
 
     @contextlib.contextmanager
-    def without_fci(self):
-        """Keeps an FCI that is always on from coming back."""
-        self._pauses += 1
-        try:
-            yield
-        finally:
-            self._pauses -= 1
-
-    @contextlib.contextmanager
     def button_changes(self, listener: Callable[[dict[str, bool]], None]):
         """Calls the listener with the Pilot's buttons that change."""
         self._on_buttons.add(listener)
@@ -149,28 +138,10 @@ class Desk:
                 self.tokens.confirm_at_robot()
             for listener in self._on_report:
                 listener(before, now)
-            self._keep_fci(before, now)
             if changes := status.changed_buttons(before, now):
                 for tell in list(self._on_buttons):
                     tell(changes)
         self.changed()
-
-    # Where there are no tokens the FCI is always on; elsewhere it may have been desired before its time.
-    def _keep_fci(self, before: Report | None, now: Report) -> None:
-        stopped = now.inputs.x31 and before is not None and not before.inputs.x31
-        if stopped and before.fci and self.options.fci_after_stop:
-            self.fci_desired = True
-        if (
-            not (self.fci_desired or not self.profile.tokens)
-            or now.fci
-            or self._pauses
-            or time.monotonic() < self._next_attempt
-        ):
-            return
-        if now.power and now.brakes_open and not now.brakes_moving and not now.inputs.x31:
-            self.fci_desired = False
-            self._next_attempt = time.monotonic() + ATTEMPT
-            self.begin(self.robot.send("fci on"))
 
     # ---- work beside requests ----------------------------------------------------------------------------
 

@@ -87,7 +87,7 @@ class Power:
         self.down = True
         self._desk.sessions.clear()
         self._desk.tokens.clear()
-        self._desk.fci_desired = False
+        self._desk.fci.desired = False
         await self._desk.close_sockets()
         if self.site is not None:
             await self.site.close()
