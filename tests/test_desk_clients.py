@@ -381,7 +381,7 @@ def test_franka_desk_knows_a_wrong_password(start):
 
 
 def test_franka_desk_waits_for_a_reboot(start):
-    with start("franka_desk", "fr3-v1", options=["boot-time=6"]) as (desk, client):
+    with start("franka_desk", "fr3-v1", options=["boot-time=3"]) as (desk, client):
         client.run(franka_desk() + "    desk.bring_up(); desk.reboot()")
         desk.wait(lambda report: not report["power"])
         client.run("desk.wait_until_ready()")
@@ -589,21 +589,45 @@ AIOFRANKA = f"""
     names = dict(username={USER!r}, password={PASSWORD!r})
 """
 AIOFRANKA_MOTION = """
-    from network_client import Motion, Pylibfranka
-    motion = Motion(0.5, 0.01, 0.0, False, 0.0)
-    Pylibfranka(HOST).move(motion, torque=False)
+    robot = aiofranka.Robot(HOST)
+    controller = aiofranka.Controller(robot)
+    controller.start()
+    goal = numpy.array(robot.state["qpos"])
+    goal[3] += 0.05
+    controller.move(goal)
+    missed = abs(float(robot.state["qpos"][3]) - goal[3])
+    controller.stop()
+    robot.close()
+"""
+# Where it looks for the user when it reads the tool.
+AIOFRANKA_FILE = """
+    import json, pathlib
+    file = pathlib.Path.home() / ".aiofranka" / "config.json"
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(json.dumps(names))
 """
 
 
 def test_aiofranka_unlocks_and_locks(start):
     with start("aiofranka", "fr3-v1") as (desk, client):
-        client.run(AIOFRANKA)
+        client.run(AIOFRANKA + AIOFRANKA_FILE)
         client.run("aiofranka.unlock(HOST, **names)")
         assert is_ready(desk.report())
         client.run(AIOFRANKA_MOTION)
-        assert client.value("motion.time") >= 0.5
+        assert client.value("missed") < 0.02
+        assert client.value("robot.tool.name") == "Franka Hand"
         client.run("aiofranka.lock(HOST, **names)")  # with the token of before
         assert is_locked(desk.report())
+
+
+def test_aiofranka_starts_its_own_server(start, long_run):
+    if not long_run:
+        pytest.skip("the long form has it")
+    with start("aiofranka", "fr3-v1") as (desk, client):
+        client.run(AIOFRANKA + "    aiofranka.start(HOST, **names)")
+        assert desk.report()["mode"] == "Move"
+        client.run("aiofranka.stop(HOST)")
+        desk.wait(is_locked)
 
 
 def test_aiofranka_runs_an_overdue_self_test(start):
@@ -639,13 +663,13 @@ def test_aiofranka_keeps_tools_in_desk(start):
         assert desk.wait(lambda report: report["end_effector"]["mass"] == 0.0)
 
 
-@pytest.mark.parametrize("profile", ["fr3-early", "fr3-v1", "fer-spoc"])
-def test_aiofranka_lock_unlock_starts_the_robot(start, profile):
+@pytest.mark.parametrize("profile, home", [("fr3-early", False), ("fr3-v1", False), ("fer-spoc", True)])
+def test_aiofranka_lock_unlock_starts_the_robot(start, profile, home):
     with start("aiofranka", profile) as (desk, client):
         client.run(AIOFRANKA + "    from aiofranka.client import FrankaLockUnlock")
         client.run("desk = FrankaLockUnlock(HOST, *names.values())")
-        client.run("desk.run(unlock=True, fci=True, persistent=True, home=True)")
-        assert is_ready(desk.report()) and desk.report()["hand"]["homed"]
+        client.run(f"desk.run(unlock=True, fci=True, persistent=True, home={home})")
+        assert is_ready(desk.report()) and desk.report()["hand"]["homed"] == home
         move(desk.robot)
         client.run("desk.run(unlock=False)")
         assert is_locked(desk.report())
@@ -659,6 +683,32 @@ def test_aiofranka_old_client_starts_the_robot(start):
         assert client.value("desk.get_token_info()['fciActive']")
         client.run("desk.deactivate_fci(); desk.lock(); desk.release_token()")
         assert is_locked(desk.report())
+
+
+# ---- all of them ------------------------------------------------------------------------------------------
+
+BEGINNINGS = {
+    "panda": (PANDA, "desk.release_control()"),
+    "franky": (franky("Desk") + "    desk.take_control()", "desk.close()"),
+    "franka_desk": (franka_desk() + "    desk.take_control_token()", "desk.release_control_token()"),
+    "franka_deskapi": (DESKAPI + "    desk.take_control()", "desk.close()"),
+    "rcs": (rcs("rcs_fr3") + "    desk.take_control()", "desk.release_control()"),
+    "aiofranka": (
+        AIOFRANKA + "    desk = _DeskClientV2(HOST, *names.values()); desk.take_token()",
+        "desk.release_token()",
+    ),
+}
+
+
+def test_clients_take_another_port(tmp_path):
+    """As the host of a Desk that may not open port 443."""
+    with robot_with_desk(tmp_path, "fr3-v1", port=8443) as desk:
+        for name, (begin, end) in BEGINNINGS.items():
+            with client_of(name, desk, tmp_path / name) as client:
+                client.run(begin)
+                assert desk.get("/admin/api/control-token")["activeToken"] is not None, name
+                client.run(end)
+                assert desk.get("/admin/api/control-token")["activeToken"] is None, name
 
 
 # ---- several at once --------------------------------------------------------------------------------------

@@ -201,6 +201,7 @@ def test_requests_to_desk_lose_no_command(kind, profile, tmp_path, long_run):
         seen = in_time(attempt, lambda seen: seen["rate"] == 1.0)
         assert seen["lost"] == "" and seen["rate"] == 1.0, seen
         assert set(seen["answers"]) <= {"200", "429"}, seen
+        assert seen["sent a second"] == pytest.approx(RATE, rel=0.01) and seen["took"] < seconds + 2.0, seen
 
 
 @pytest.mark.parametrize("kind", ["panda", "fr3"])

@@ -145,9 +145,9 @@ def program(name: str, words: list[str], environment: dict[str, str]):
 
 
 @contextmanager
-def desk_of(robot, folder: Path, profile: str = "", options=()):
+def desk_of(robot, folder: Path, profile: str = "", options=(), port: int = PORT):
     """The Desk of a robot that runs, at its address."""
-    words = [f"--robot={robot.address}", f"--listen={robot.address}:{PORT}", f"--user={USER}"]
+    words = [f"--robot={robot.address}", f"--listen={robot.address}:{port}", f"--user={USER}"]
     words += [f"--profile={profile}"] if profile else []
     words += [f"--option={option}" for option in options]
     environment = {"FRANKA_DESK_PASSWORD": PASSWORD, "XDG_CACHE_HOME": str(folder)}
@@ -165,12 +165,14 @@ def wait_for_place(next_line) -> str:
 
 
 @contextmanager
-def robot_with_desk(folder: Path, profile: str, *, pace: str = "patient", options=(), brakes: float = 0.7):
+def robot_with_desk(
+    folder: Path, profile: str, *, pace: str = "patient", options=(), port: int = PORT, brakes: float = 0.4
+):
     """A locked robot of the profile's type, and its Desk. brakes: time that they need [s]."""
     kind = "fr3" if profile.startswith("fr3") else "panda"
     with simulated(kind, pace, "--start", "locked") as robot:
         robot.remote.send(f"timing brakes {brakes}")
-        with desk_of(robot, folder, profile, options) as desk:
+        with desk_of(robot, folder, profile, options, port) as desk:
             yield desk
 
 
