@@ -32,7 +32,7 @@ from fci_session import client_process, go_first, simulated
 from genuine_clients import client_python
 from lock_step import begin_motion, moved
 from pyfranka.franka_sim import FrankaSim, SimRobot
-from stalls import in_time
+from stalls import TRIES
 
 PROMPT = 0.5  # [s] in which a client gets its exception
 LOAD = Path(__file__).resolve().parent / "support" / "desk_load.py"
@@ -181,6 +181,15 @@ def smallest_success_rate(robot, seconds: float) -> dict:
     return {"lost": "", "rate": min(rates), "cycles": cycles, "seconds": passed}
 
 
+def motion_under_load(desk, seconds: float) -> dict:
+    """Figures of the motion and of the load."""
+    seen: dict = {}
+    with load_of(desk, seconds + 1.0) as figures:
+        with beside(lambda: seen.update(smallest_success_rate(desk.robot, seconds))):
+            pass
+        return {**seen, **figures()}
+
+
 @pytest.mark.parametrize("kind, profile", [("panda", "fer-spoc"), ("fr3", "fr3-v1")])
 def test_requests_to_desk_lose_no_command(kind, profile, tmp_path, long_run):
     seconds = 10.0 if long_run else 3.0
@@ -189,16 +198,12 @@ def test_requests_to_desk_lose_no_command(kind, profile, tmp_path, long_run):
         operator_of(desk).play(ROBOTS[kind].start)
         desk.wait(is_ready)
 
-        def attempt():
-            with load_of(desk, seconds + 1.0) as figures:
-                seen = {}
-                with beside(lambda: seen.update(smallest_success_rate(desk.robot, seconds))):
-                    pass
-                seen.update(figures())
+        # Beside other tests the machine loses commands without Desk too; requests would lose them in each try.
+        for _ in range(TRIES):
+            seen = motion_under_load(desk, seconds)
             print(seen)
-            return seen
-
-        seen = in_time(attempt, lambda seen: seen["rate"] == 1.0)
+            if seen["rate"] == 1.0:
+                break
         assert seen["lost"] == "" and seen["rate"] == 1.0, seen
         assert set(seen["answers"]) <= {"200", "429"}, seen
         assert seen["sent a second"] == pytest.approx(RATE, rel=0.01) and seen["took"] < seconds + 2.0, seen
