@@ -198,7 +198,7 @@ def test_requests_to_desk_lose_no_command(kind, profile, tmp_path, long_run):
         operator_of(desk).play(ROBOTS[kind].start)
         desk.wait(is_ready)
 
-        # Beside other tests the machine loses commands without Desk too; requests would lose them in each try.
+        # Beside other tests the machine loses commands without Desk too; requests would do so in each try.
         for _ in range(TRIES):
             seen = motion_under_load(desk, seconds)
             print(seen)
