@@ -41,7 +41,7 @@ class Page {
     this.worlds = el("div", { class: "worlds" });
     const panels = this.robots.map((robot) => robotPanel(robot));
     const several = this.robots.length > 1;
-    place.replaceChildren(el("div", { class: several ? "layout several" : "layout single" }, this.worlds, ...panels), stopBar(this.robots));
+    place.replaceChildren(el("div", { class: several ? "layout several" : "layout single" }, this.worlds, el("div", { class: "robots" }, ...panels)), stopBar(this.robots));
     document.title = `Desk – ${this.robots.map((robot) => robot.label).join(", ")}`;
     setText(document.getElementById("user"), this.user);
     document.getElementById("log-out").hidden = false;

@@ -56,6 +56,7 @@ export class WorldView {
     sun.shadow.mapSize.set(1024, 1024);
     Object.assign(sun.shadow.camera, { left: -2, right: 2, top: 2, bottom: -2, near: 0.5, far: 9 });
     sun.shadow.bias = -0.001;
+    sun.shadow.normalBias = 0.01; // without it surfaces that face the sun at a low angle get stripes
     this.scene.add(sun);
     this.world = new THREE.Group();
     this.scene.add(this.world);
