@@ -82,14 +82,16 @@ class Swing(threading.Thread):
 
 def one_robot() -> None:
     options = ("--desk=127.0.0.1:0", f"--desk-password={PASSWORD}")
-    with FrankaSim(SimRobot("panda"), world="stone.xml", pace="patient", arguments=options) as sim:
+    panda = SimRobot("panda", base=(-0.5, 0, 0))
+    with FrankaSim(panda, world="stone.xml", pace="patient", arguments=options) as sim:
         wait_for(lambda: desk_addresses(sim.log()), "Desk listens")
         with browser(width=DESKTOP[0], height=DESKTOP[1]) as page:
             page.prefer("light")
             enter(page, sim)
             prepare(page)
             swing = Swing(sim.robot.connect())
-            wait_for(lambda: swing.elapsed > 32.0, "the plots are full", limit=200.0)
+            wait_for(lambda: swing.elapsed > 12.0, "the plots have something to show", limit=100.0)
+            page.run("scrollTo(0, 0)")
             save(page, "desk.png")
             swing.ending = True
             page.prefer("dark")
@@ -111,7 +113,7 @@ def two_robots() -> None:
             prepare(page, 0)
             page.run("scrollTo(0, 0)")
             place = page.place("panda_link7")
-            page.drag(place, (60, -40), lambda: save(page, "desk_two_robots.png"))
+            page.drag(place, (40, -10), lambda: save(page, "desk_two_robots.png"))
 
 
 if __name__ == "__main__":
