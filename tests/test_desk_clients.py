@@ -105,7 +105,7 @@ def test_panda_python_forces_control(start, profile, tmp_path):
             other.run(PANDA)
             assert not other.value("desk.has_control()")
             assert not other.value("desk.take_control()")
-            with desk.pressing("circle"):
+            with desk.pressing("circle", when_asked=True):
                 assert other.value("desk.take_control(force=True)")
             assert other.value("desk.has_control()")
             assert not holder.value("desk.has_control()")
@@ -266,7 +266,7 @@ def test_franky_forces_control(start, tmp_path):
         holder.run(franky("DeskWebSession") + "    desk.take_control()")
         with client_of("franky", desk, tmp_path / "other") as other:
             other.run(franky("DeskWebSession"))
-            with desk.pressing("circle"):
+            with desk.pressing("circle", when_asked=True):
                 other.run("desk.take_control(force=True)")
             assert other.value("desk.has_control") and not holder.value("desk.has_control")
 
@@ -505,7 +505,7 @@ def test_rcs_fr3_forces_control_and_listens(start, tmp_path):
         with client_of("rcs", desk, tmp_path / "other") as other:
             other.run(rcs("rcs_fr3"))
             assert not other.value("desk.take_control()")
-            with desk.pressing("circle"):
+            with desk.pressing("circle", when_asked=True):
                 assert other.value("desk.take_control(force=True)")
             assert other.value("desk.has_control()") and not holder.value("desk.has_control()")
             other.run("clicks = []; desk.listen(lambda host, buttons: clicks.append(buttons))")

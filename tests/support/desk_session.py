@@ -81,11 +81,15 @@ class Desk:
         return self.robot.remote.send(line)
 
     @contextmanager
-    def pressing(self, button: str):
-        """A person who presses a button of the Pilot again and again until the end of the block."""
+    def pressing(self, button: str, *, when_asked: bool = False):
+        """A person who presses a button of the Pilot again and again until the end of the block. when_asked:
+        begins when someone asks for control; a press that began before that would confirm nothing."""
         ended = threading.Event()
 
         def press():
+            while when_asked and not ended.wait(PAUSE):
+                if self.get("/admin/api/control-token")["tokenRequest"]:
+                    break
             while not ended.is_set():
                 for state in ("on", "off"):
                     self.send(f"button {button} {state}")
