@@ -7,6 +7,7 @@ import os
 import threading
 import time
 import urllib.request
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy
@@ -14,6 +15,8 @@ import page_browser
 import pyfranka
 import pytest
 from desk_server import unverified
+from fci_session import client_process
+from genuine_clients import client_python
 from page_browser import PASSWORD, browser, desk_addresses, wait_for
 from pyfranka.desk.sessions import digest_of
 from pyfranka.franka_sim import FrankaSim, SimRobot
@@ -179,16 +182,32 @@ def changed(before, after, box):
     return float((abs(pair[0] - pair[1]).max(axis=2) > 12).mean())
 
 
-def test_a_clients_motion_is_seen_in_the_3d_view(client, ready):
-    ready.run("document.querySelector('.view').scrollIntoView({block: 'start'})")
-    start, before = ready.place("panda_hand"), ready.picture()
-    motion = Motion(client, 1.5, angle=0.6)
+@contextmanager
+def moving_hand(page):
+    """Within it, a client's motion begins, which the view must show. Gives the hand's place before it and a
+    picture."""
+    page.run("document.querySelector('.view').scrollIntoView({block: 'start'})")
+    start, before = page.place("panda_hand"), page.picture()
 
     def distance():
-        now = ready.place("panda_hand")
+        now = page.place("panda_hand")
         return numpy.hypot(now["x"] - start["x"], now["y"] - start["y"])
 
+    yield start, before
     wait_for(lambda: distance() > 15, "the hand moves in the view")
+
+
+def test_a_genuine_clients_motion_is_seen_in_the_3d_view(ready, sim):
+    with client_process("panda", client_python("panda")) as client:
+        assert client.run_task("connect", address=sim.robots[0].address)["outcome"] == "ok"
+        with moving_hand(ready):
+            client.give("move", seconds=3.0, amplitude=0.5)
+        assert client.result()["outcome"] == "ok"
+
+
+def test_a_clients_motion_changes_the_picture_of_the_3d_view(client, ready):
+    with moving_hand(ready) as (start, before):
+        motion = Motion(client, 1.5, angle=0.6)
     assert motion.ended() is None
     x, y = int(start["x"]), int(start["y"])
     box = (x - 30, y - 30, x + 30, y + 30)
