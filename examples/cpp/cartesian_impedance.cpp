@@ -4,36 +4,18 @@
 // A torque controller: a spring and a damper hold the end effector, which yields when it is pushed.
 #include <franka/model.h>
 
-#include <Eigen/Dense>
-
+#include "cartesian.h"
 #include "common.h"
-
-namespace {
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Vector7 = Eigen::Matrix<double, 7, 1>;
-
-Eigen::Isometry3d toPose(const std::array<double, 16>& columns) {
-  return Eigen::Isometry3d(Eigen::Matrix4d::Map(columns.data()));
-}
-
-// Way and turn from one pose to another, in the axes of the base.
-Vector6 difference(const Eigen::Isometry3d& to, const Eigen::Isometry3d& from) {
-  const Eigen::AngleAxisd turn(to.linear() * from.linear().transpose());
-  Vector6 result;
-  result << to.translation() - from.translation(), turn.angle() * turn.axis();
-  return result;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   return example::run(argc, argv, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     const franka::Model model = robot.loadModel();
-    const Vector6 stiffness = (Vector6() << 200, 200, 200, 20, 20, 20).finished();  // [N/m, Nm/rad]
-    const Vector6 damping = (Vector6() << 50, 50, 50, 9, 9, 9).finished();  // [Ns/m, Nms/rad]
-    const Eigen::Isometry3d goal = toPose(robot.readOnce().O_T_EE_d);
+    const example::Vector6 stiffness =
+        (example::Vector6() << 200, 200, 200, 20, 20, 20).finished();  // [N/m, Nm/rad]
+    const example::Vector6 damping =
+        (example::Vector6() << 50, 50, 50, 9, 9, 9).finished();  // [Ns/m, Nms/rad]
+    const Eigen::Isometry3d goal = example::toPose(robot.readOnce().O_T_EE_d);
     double time = 0, farthest = 0;
     std::printf("push the hand within ten seconds\n");
     std::fflush(stdout);
@@ -42,12 +24,13 @@ int main(int argc, char** argv) {
       const std::array<double, 42> columns = model.zeroJacobian(franka::Frame::kEndEffector, state);
       const Eigen::Map<const Eigen::Matrix<double, 6, 7>> jacobian(columns.data());
       const std::array<double, 7> coriolis = model.coriolis(state);
-      const Vector6 error = difference(goal, toPose(state.O_T_EE));
-      const Vector6 velocity = jacobian * Vector7::Map(state.dq.data());
-      const Vector6 wrench = stiffness.cwiseProduct(error) - damping.cwiseProduct(velocity);
+      const example::Vector6 error = example::difference(goal, example::toPose(state.O_T_EE));
+      const example::Vector6 velocity = jacobian * example::Vector7::Map(state.dq.data());
+      const example::Vector6 wrench =
+          stiffness.cwiseProduct(error) - damping.cwiseProduct(velocity);
       franka::Torques command({0, 0, 0, 0, 0, 0, 0});
-      Vector7::Map(command.tau_J.data()) =
-          jacobian.transpose() * wrench + Vector7::Map(coriolis.data());
+      example::Vector7::Map(command.tau_J.data()) =
+          jacobian.transpose() * wrench + example::Vector7::Map(coriolis.data());
       farthest = std::max(farthest, error.head<3>().norm());
       return time < 10 ? command : franka::MotionFinished(command);
     });

@@ -5,25 +5,24 @@
 // the measured external force with an integrator. Springs hold the hand in all other directions.
 #include <franka/model.h>
 
-#include <Eigen/Dense>
-
+#include "cartesian.h"
 #include "common.h"
 
 namespace {
 
+using example::Vector6;
+using example::Vector7;
 using Matrix6x7 = Eigen::Matrix<double, 6, 7>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-// The force with which the surroundings press the hand upwards [N].
-double forceOn(const franka::RobotState& state) { return -state.O_F_ext_hat_K[2]; }
+// The vertical force between the hand and what it touches [N].
+double contactForce(const franka::RobotState& state) { return std::abs(state.O_F_ext_hat_K[2]); }
 
 void goDownUntilContact(franka::Robot& robot) {
   constexpr double kSpeed = 0.02, kRamp = 0.3, kContact = 4;  // [m/s] [s] [N]
   double time = 0, end = 20;                                  // [s]
   robot.control([&](const franka::RobotState& state, franka::Duration period) {
     time += period.toSec();
-    if (std::abs(forceOn(state)) > kContact && time > kRamp) {
+    if (contactForce(state) > kContact && time > kRamp) {
       end = std::min(end, time);
     }
     const double speed =
@@ -31,16 +30,6 @@ void goDownUntilContact(franka::Robot& robot) {
     const franka::CartesianVelocities command({0, 0, -speed, 0, 0, 0});
     return time < end + kRamp ? command : franka::MotionFinished(command);
   });
-}
-
-// Way and turn back to a pose; nothing along z.
-Vector6 error(const Eigen::Isometry3d& goal, const std::array<double, 16>& columns) {
-  const Eigen::Isometry3d pose(Eigen::Matrix4d::Map(columns.data()));
-  const Eigen::AngleAxisd turn(goal.linear() * pose.linear().transpose());
-  Vector6 result;
-  result << goal.translation() - pose.translation(), turn.angle() * turn.axis();
-  result[2] = 0;
-  return result;
 }
 
 }  // namespace
@@ -55,20 +44,20 @@ int main(int argc, char** argv) {
     constexpr double kGain = 0.3, kIntegral = 1.5;  // [-] [1/s]
     const Vector6 stiffness = (Vector6() << 600, 600, 0, 40, 40, 40).finished();
     const Vector6 damping = (Vector6() << 50, 50, 80, 12, 12, 12).finished();
-    Eigen::Isometry3d goal(Eigen::Matrix4d::Map(robot.readOnce().O_T_EE.data()));
+    const Eigen::Isometry3d goal = example::toPose(robot.readOnce().O_T_EE);
     double time = 0, integral = 0, pressed = 0;
     robot.control([&](const franka::RobotState& state, franka::Duration period) {
       time += period.toSec();
       const double wanted = kForce * example::smooth(time, 1);
-      pressed = std::abs(forceOn(state));
+      pressed = contactForce(state);
       integral += kIntegral * (wanted - pressed) * period.toSec();
       integral = std::clamp(integral, -kForce, kForce);
 
       const std::array<double, 42> columns = model.zeroJacobian(franka::Frame::kEndEffector, state);
       const Matrix6x7 jacobian = Matrix6x7::Map(columns.data());
       const Vector6 velocity = jacobian * Vector7::Map(state.dq.data());
-      Vector6 wrench =
-          stiffness.cwiseProduct(error(goal, state.O_T_EE)) - damping.cwiseProduct(velocity);
+      const Vector6 error = example::difference(goal, example::toPose(state.O_T_EE));
+      Vector6 wrench = stiffness.cwiseProduct(error) - damping.cwiseProduct(velocity);
       wrench[2] -= wanted + kGain * (wanted - pressed) + integral;
       const std::array<double, 7> coriolis = model.coriolis(state);
       franka::Torques command({0, 0, 0, 0, 0, 0, 0});
