@@ -15,8 +15,8 @@ from pathlib import Path
 
 from report import figure
 
-# robosuite 1.5.2 stops at an assertion with MuJoCo 4.
-OTHERS = {"robosuite": ("robosuite==1.5.2", "mujoco==3.3.0"), "panda-gym": ("panda-gym==3.0.7",)}
+LOCKS = Path(__file__).parents[1] / "locks"
+OTHERS = ("robosuite", "panda-gym")
 TITLES = {
     "pyfranka": "pyfranka PickAndPlace, control at 1 kHz",
     "robosuite": "robosuite Panda Lift, control at 500 Hz",
@@ -33,8 +33,9 @@ def install(name: str, folder: Path) -> str | None:
     venv.create(folder, with_pip=True)
     python = str(folder / "bin" / "python3")
     command = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--prefer-binary"]
+    command += ["--no-deps", "--require-hashes", f"--requirement={LOCKS / name}.txt"]
     try:
-        result = subprocess.run([*command, *OTHERS[name]], capture_output=True, text=True, timeout=INSTALLING)
+        result = subprocess.run(command, capture_output=True, text=True, timeout=INSTALLING)
     except subprocess.TimeoutExpired:
         print(f"  {name} cannot be compared: its installation took longer than {INSTALLING} s")
         return None

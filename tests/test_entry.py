@@ -71,7 +71,7 @@ def test_another_system_is_refused(tmp_path, system):
 def test_help_names_every_command():
     result = franka("--help")
     assert result.returncode == 0
-    for command in ("install", "build", "demo", "test", "wheel", "bench", "shell", "completion"):
+    for command in ("install", "build", "demo", "test", "wheel", "bench", "lock", "shell", "completion"):
         assert f"\n  {command} " in result.stdout
 
 
@@ -83,14 +83,14 @@ def test_unknown_command_is_refused_with_help():
 
 
 @pytest.mark.parametrize(
-    "command", ["install", "build", "demo", "test", "wheel", "bench", "shell", "completion"]
+    "command", ["install", "build", "demo", "test", "wheel", "bench", "lock", "shell", "completion"]
 )
 def test_each_command_explains_itself_without_doing_anything(command):
     result = franka(command, "--help")
     assert result.returncode == 0
     assert result.stdout.startswith(f"  {command} ")
     assert "== " not in result.stdout  # a build would print this
-    others = {"install", "build", "demo", "test", "wheel", "bench", "shell"} - {command}
+    others = {"install", "build", "demo", "test", "wheel", "bench", "lock", "shell"} - {command}
     assert not [other for other in others if f"\n  {other} " in result.stdout]
 
 
@@ -222,7 +222,7 @@ def test_a_shell_has_roscd_and_completion(tmp_path):
     [
         (
             "./franka ",
-            {"install", "build", "demo", "test", "wheel", "bench", "shell", "completion", "--help"},
+            {"install", "build", "demo", "test", "wheel", "bench", "lock", "shell", "completion", "--help"},
         ),
         ("./franka be", {"bench"}),
         ("./franka bench ti", {"tick"}),

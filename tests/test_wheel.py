@@ -18,7 +18,7 @@ from pathlib import Path
 import pytest
 from bare_debian import BareDebian, bare_debian, possible
 from fci_session import simulated
-from genuine_clients import PACKAGES, client_python
+from genuine_clients import LOCKS, client_python, locked, pip
 
 TOP = Path(__file__).resolve().parent.parent
 SUPPORT = TOP / "tests" / "support"
@@ -75,9 +75,10 @@ class Environment:
     def __init__(self, folder: Path, wheel: Path):
         self.folder, self.bin = folder, folder / "venv" / "bin"
         subprocess.run(["/usr/bin/python3", "-m", "venv", folder / "venv"], check=True, timeout=300)
-        pip = [self.bin / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-        result = subprocess.run([*pip, wheel], text=True, capture_output=True, timeout=600)
-        assert result.returncode == 0, result.stderr
+        # --no-index: what the wheel requires has to be in the lock.
+        for words in (locked("wheel"), ["--no-index", str(wheel)]):
+            result = pip(self.bin / "python", "install", *words)
+            assert result.returncode == 0, result.stderr
 
     def run(self, program: str, *arguments: str, variables=None) -> subprocess.CompletedProcess:
         """Runs a program of it, without this process's variables."""
@@ -341,10 +342,11 @@ def bare(long_run, wheel, tmp_path_factory):
 
 def install_on(bare: BareDebian, wheel: Path):
     shutil.copy(wheel, bare.root / "root")
-    for script in (PICK_AND_PLACE, GENUINE_CLIENT):
-        shutil.copy(script, bare.root / "root")
+    for file in (PICK_AND_PLACE, GENUINE_CLIENT, LOCKS / "wheel.txt", LOCKS / "panda.txt"):
+        shutil.copy(file, bare.root / "root")
     bare.must("python3", "-m", "venv", "/env")
-    bare.must("/env/bin/pip", "install", "--quiet", f"/root/{wheel.name}")
+    bare.must("/env/bin/pip", "install", "--quiet", *locked("wheel", Path("/root")))
+    bare.must("/env/bin/pip", "install", "--quiet", "--no-index", f"/root/{wheel.name}")
 
 
 def check_simulation_on(bare: BareDebian, quick_start: str):
@@ -380,7 +382,9 @@ def check_meshes_on(bare: BareDebian):
 
 def check_genuine_client_on(bare: BareDebian):
     bare.must("python3", "-m", "venv", "/genuine")
-    bare.must("/genuine/bin/pip", "install", "--quiet", "--only-binary=:all:", *PACKAGES["panda"])
+    bare.must(
+        "/genuine/bin/pip", "install", "--quiet", "--only-binary=:all:", *locked("panda", Path("/root"))
+    )
     arguments = ["/genuine/bin/python", f"/root/{GENUINE_CLIENT.name}", "/env/bin/franka_sim", "127.0.61.4"]
     assert json.loads(bare.must(*arguments)) == {"cycles": 1000, "mode": "RobotMode.kIdle"}
 

@@ -24,6 +24,7 @@ import pyfranka
 import pyfranka.sim
 import pytest
 from contact_motion import BASE, TICKS, WORLD, down_and_back
+from genuine_clients import client_python
 from PIL import Image
 from pyfranka import _sweep_run, sweeps
 
@@ -410,6 +411,22 @@ def test_the_program_sends_the_functions_of_a_file(cluster, tmp_path, capsys, mo
     assert (
         "cannot be imported: ZeroDivisionError: division by zero (own.py, line 1" in capsys.readouterr().err
     )
+
+
+@pytest.mark.parametrize("version", ["3.1.2", cloudpickle.__version__])
+def test_a_failed_case_names_its_file_line_and_function(tmp_path, version):
+    """cloudpickle 3.1.2 sends the names of files, later versions do not."""
+    (tmp_path / "own.py").write_text(OWN)
+    environment = dict(os.environ)
+    if version != cloudpickle.__version__:
+        (older,) = client_python(f"cloudpickle-{version}").parents[1].glob("lib/*/site-packages")
+        environment["PYTHONPATH"] = f"{older}:{environment.get('PYTHONPATH', '')}"
+    code = "import cloudpickle, sys; from pyfranka import sweeps; print(cloudpickle.__version__);"
+    code += "sys.exit(sweeps.main(['own.py', '--function', 'square', '--retries', '0', '--workers', '1']))"
+    options = {"capture_output": True, "text": True, "timeout": DEADLINE, "cwd": tmp_path}
+    run = subprocess.run([sys.executable, "-c", code], env=environment, **options)
+    assert run.stdout.startswith(f"{version}\n"), run.stderr
+    assert "ValueError: no twos (own.py, line 18, in square)" in run.stdout, run.stderr
 
 
 def test_the_program_shows_its_help_and_a_bar_when_asked(cluster, tmp_path):

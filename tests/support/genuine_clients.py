@@ -1,28 +1,17 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Franka's own client libraries, from PyPI, each in its own environment (decision 33)."""
+"""Other people's client libraries, from PyPI, each in an environment of its own (decision 33), which has the
+packages of a lock: locks/panda.txt and so on."""
 
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 TOP = Path(__file__).resolve().parents[2]
-REQUESTS = ["requests", "urllib3", "idna", "certifi", "charset-normalizer"]
-PACKAGES = {
-    "panda": ["panda-python==1.1.1", "requests", "websockets", "numpy"],
-    "pylibfranka": ["pylibfranka==0.21.3", "numpy"],
-    # Clients of Desk; some move robots too.
-    "franky": ["franky-control==2.0.0"],
-    "franka_desk": ["franka-desk==0.1.0"],
-    "franka_deskapi": ["franka-deskapi==1.0.1"],
-    "aiofranka": ["aiofranka==0.9.0"],
-    # Only their clients of Desk: what they need beside those is larger than this project.
-    "rcs": ["rcs-fr3==0.7.3", "rcs-panda==0.7.3", *REQUESTS, "websockets", "python-dotenv", "--no-deps"],
-    "positronic": REQUESTS,
-}
-POSITRONIC = "positronic-franka==0.12.0"  # PyPI has its sources only, which also bring bindings of libfranka
+LOCKS = TOP / "locks"
 
 
 class NoWheel(Exception):
@@ -35,19 +24,24 @@ def pip(python: Path, *words: str) -> subprocess.CompletedProcess:
     return subprocess.run(command, capture_output=True, text=True, timeout=600)
 
 
+def locked(name: str, folder: Path = LOCKS) -> list[str]:
+    """Words of pip for the packages of a lock, which has those that they require, too."""
+    return ["--no-deps", "--require-hashes", f"--requirement={folder / name}.txt"]
+
+
 def find_client_python(name: str) -> Path:
     """The interpreter of that environment, which is created if missing. Raises NoWheel."""
-    folder = TOP / "out" / "genuine" / name
+    folder, lock = TOP / "out" / "genuine" / name, LOCKS / f"{name}.txt"
     python, stamp = folder / "bin" / "python", folder / "installed"
-    if not (stamp.exists() and stamp.read_text() == " ".join(PACKAGES[name])):
+    if not (stamp.exists() and stamp.read_text() == lock.read_text()):
         subprocess.run(["/usr/bin/python3", "-m", "venv", "--clear", folder], check=True, timeout=120)
-        result = pip(python, "install", "--only-binary=:all:", *PACKAGES[name])
+        result = pip(python, "install", "--only-binary=:all:", *locked(name))
         # Without a network pip first retries, and then prints the same.
         if "No matching distribution found" in result.stderr and "Retrying" not in result.stderr:
             version = subprocess.check_output([python, "--version"], text=True).strip()
-            raise NoWheel(f"PyPI has no wheel of {PACKAGES[name][0]} for {version}")
+            raise NoWheel(f"PyPI has no wheel of a package in locks/{name}.txt for {version}")
         assert result.returncode == 0, result.stderr
-        stamp.write_text(" ".join(PACKAGES[name]))
+        stamp.write_text(lock.read_text())
     return python
 
 
@@ -62,13 +56,12 @@ def client_python(name: str) -> Path:
 def positronic_sources() -> Path:
     """The folder of positronic_franka's modules, of which `desk` needs no binary."""
     folder = client_python("positronic").parents[1] / "sources"
-    modules = folder / POSITRONIC.replace("-", "_").replace("==", "-") / "python" / "positronic_franka"
-    if not modules.exists():
-        python = client_python("positronic")
-        name = POSITRONIC.partition("=")[0]  # its build requirements come as wheels
-        words = ["download", "--no-deps", f"--no-binary={name}", f"--dest={folder}", POSITRONIC]
-        result = pip(python, *words)
+    if not folder.exists():
+        # pip reads the sources' metadata by scikit-build-core, which .venv has.
+        words = ["--no-build-isolation", "--no-binary=:all:", f"--dest={folder}"]
+        result = pip(Path(sys.executable), "download", *words, *locked("positronic_sources"))
         assert result.returncode == 0, result.stderr
         (archive,) = folder.glob("*.tar.gz")
         shutil.unpack_archive(archive, folder)
+    (modules,) = folder.glob("positronic_franka-*/python/positronic_franka")
     return modules

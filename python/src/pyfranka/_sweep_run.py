@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import io
 import itertools
 import logging
 import os
@@ -16,7 +17,9 @@ import uuid
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from types import CodeType
 
+import cloudpickle
 import dask
 from dask.system import CPU_COUNT
 from distributed import CancelledError, Client, KilledWorker, Scheduler, as_completed, get_worker
@@ -91,6 +94,31 @@ def local_cluster(workers: int):
             worker=worker,
             workers=dict.fromkeys(range(workers), worker),
         )
+
+
+# ---- what is sent ----------------------------------------------------------------------------------------
+
+
+class _Pickler(cloudpickle.Pickler):
+    """cloudpickle's, but code that travels by value keeps the name of its file, which a failed case reports:
+    cloudpickle 3.1.3 and later replace it."""
+
+    def reducer_override(self, obj):
+        if not isinstance(obj, CodeType):
+            return super().reducer_override(obj)
+        make, arguments = self.dispatch_table[CodeType](obj)[:2]
+        return _code_of_file, (make, arguments, obj.co_filename)
+
+
+def _code_of_file(make: Callable, arguments: tuple, file: str) -> CodeType:
+    return make(*arguments).replace(co_filename=file)
+
+
+def dumps(value: object) -> bytes:
+    """A function or a case; functions and classes of scripts by value. Raises what pickling them raises."""
+    with io.BytesIO() as file:
+        _Pickler(file).dump(value)
+        return file.getvalue()
 
 
 # ---- on the workers --------------------------------------------------------------------------------------

@@ -239,10 +239,10 @@ class _Plan:
 
 
 def _pickled(value: object, what: str) -> bytes:
-    import cloudpickle
+    from pyfranka._sweep_run import dumps
 
     try:
-        return cloudpickle.dumps(value)
+        return dumps(value)
     except Exception as error:  # whatever a value's own pickling raises
         raise TypeError(f"{what} cannot be sent to a worker: {error}.") from error
 
